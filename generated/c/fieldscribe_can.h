@@ -1,22 +1,35 @@
 /*
  * CAN frames by layout: builds messages and reads answers, and gathers cyclic telegrams that come in several frames.
  * No heap; the state of a receiver is the caller's. Any bytes at any length are safe to parse.
- *
  * SPDX-License-Identifier: 0BSD
+ *
+ * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
+ *
+ * Reading a parameter:
+ *
+ *     const fieldscribe_can_rw *const point = &woodward_mpu2s_password_level_2_frame;
+ *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
+ *     send(&frame);
+ *     (frames come; each is offered, and one with another status than OK is none of this answer)
+ *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, words);
+ *     fits = fieldscribe_take_u16(point->layout, words, &raw);
+ *
+ * Writing one: fieldscribe_put_u16(point->layout, raw, words), then fieldscribe_can_write(&dialogue, unit,
+ * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
+ * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
+ * long one is, and fieldscribe_can_id which identifier a filter has to let through.
  */
+#include "fieldscribe.h"
+
 #ifndef FIELDSCRIBE_CAN_H
 #define FIELDSCRIBE_CAN_H
-
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_CAN_INTERFACE 1
+#define FIELDSCRIBE_CAN_INTERFACE 2
 
 /* All messages have eight bytes of data, which hold at most four words. */
 #define FIELDSCRIBE_CAN_BYTES 8U
@@ -50,8 +63,8 @@ typedef struct fieldscribe_can_frame {
 
 /* What a byte of a message carries. */
 typedef enum fieldscribe_can_kind {
-    FIELDSCRIBE_CAN_CONSTANT = 0, /* number: the byte */
-    FIELDSCRIBE_CAN_UNIT,         /* number: how many bits the byte lies above bit 0; the same below */
+    FIELDSCRIBE_CAN_CONSTANT, /* number: the byte */
+    FIELDSCRIBE_CAN_UNIT,     /* number: how many bits the byte lies above bit 0; the same below */
     FIELDSCRIBE_CAN_ADDRESS,
     FIELDSCRIBE_CAN_RAW,
     FIELDSCRIBE_CAN_MULTIPLEXER,
@@ -78,6 +91,106 @@ typedef struct fieldscribe_can_profile {
     uint8_t identifier_bits; /* 11 or 29 */
 } fieldscribe_can_profile;
 
+/* What a message carries for one parameter. One that carries no address or no raw number takes any; 0 is usual. */
+typedef struct fieldscribe_can_content {
+    uint32_t unit;
+    uint32_t address;
+    uint32_t raw;
+} fieldscribe_can_content;
+
+/* The messages that read and write one parameter, and those that answer; NULL for one that there is not. */
+typedef struct fieldscribe_can_dialogue {
+    const fieldscribe_can_profile *profile;
+    const fieldscribe_can_message *read;
+    const fieldscribe_can_message *read_answer;
+    const fieldscribe_can_message *write;
+    const fieldscribe_can_message *write_answer;
+} fieldscribe_can_dialogue;
+
+/* The parameter that is read, or written. */
+typedef struct fieldscribe_can_reading {
+    uint16_t address;
+} fieldscribe_can_reading;
+
+typedef struct fieldscribe_can_writing {
+    uint16_t address;
+} fieldscribe_can_writing;
+
+/* The same for a text, which has a parameter for each of its words, in the order of reading. */
+typedef struct fieldscribe_can_text_reading {
+    const uint16_t *addresses;
+    uint16_t words;
+} fieldscribe_can_text_reading;
+
+typedef struct fieldscribe_can_text_writing {
+    const uint16_t *addresses;
+    uint16_t words;
+} fieldscribe_can_text_writing;
+
+/* Where a point stands in a telegram: the positions of its high and its low word, the same for a point of one word. */
+typedef struct fieldscribe_can_heard {
+    uint16_t high;
+    uint16_t low;
+} fieldscribe_can_heard;
+
+typedef struct fieldscribe_can_text_heard {
+    const uint16_t *positions;
+    uint16_t words;
+} fieldscribe_can_text_heard;
+
+/*
+ * A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points;
+ * `heard` in a telegram.
+ */
+typedef struct fieldscribe_can_r {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_reading read;
+} fieldscribe_can_r;
+
+typedef struct fieldscribe_can_w {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_writing write;
+} fieldscribe_can_w;
+
+typedef struct fieldscribe_can_rw {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_reading read;
+    fieldscribe_can_writing write;
+} fieldscribe_can_rw;
+
+typedef struct fieldscribe_can_u {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_writing update;
+} fieldscribe_can_u;
+
+typedef struct fieldscribe_can_ru {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_reading read;
+    fieldscribe_can_writing update;
+} fieldscribe_can_ru;
+
+typedef struct fieldscribe_can_h {
+    const fieldscribe_layout *layout;
+    fieldscribe_can_heard heard;
+} fieldscribe_can_h;
+
+typedef struct fieldscribe_can_text_r {
+    fieldscribe_can_text_reading read;
+} fieldscribe_can_text_r;
+
+typedef struct fieldscribe_can_text_w {
+    fieldscribe_can_text_writing write;
+} fieldscribe_can_text_w;
+
+typedef struct fieldscribe_can_text_rw {
+    fieldscribe_can_text_reading read;
+    fieldscribe_can_text_writing write;
+} fieldscribe_can_text_rw;
+
+typedef struct fieldscribe_can_text_h {
+    fieldscribe_can_text_heard heard;
+} fieldscribe_can_text_h;
+
 /* A cyclic layout of words; a message with a multiplexer carries `per_frame` of them at a time. */
 typedef struct fieldscribe_can_telegram {
     const fieldscribe_can_profile *profile;
@@ -86,7 +199,7 @@ typedef struct fieldscribe_can_telegram {
     uint8_t per_frame;
 } fieldscribe_can_telegram;
 
-/* The words of one multiplexer, as they came last and the time before; `now` and `before` count taken frames, 0 is never. */
+/* The words of one multiplexer, now and the time before; `now` and `before` count taken frames, 0 is never. */
 typedef struct fieldscribe_can_slot {
     uint64_t now;
     uint64_t before;
@@ -102,19 +215,95 @@ typedef struct fieldscribe_can_receiver {
     uint8_t unit;
 } fieldscribe_can_receiver;
 
-static inline uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit)
+/* The identifier of a message of that unit: what a filter has to let through. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit);
+
+/* The bytes of data of an answer; 0 where nobody answers. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_can_reply_length(const fieldscribe_can_message *answer);
+
+/* The frame of a message; nothing is stored unless the result is OK. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *profile,
+    const fieldscribe_can_message *message, const fieldscribe_can_content *content, fieldscribe_can_frame *frame);
+
+/* Reads a message of content->unit; address and raw number are 0 where it has none, and unless the result is OK. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_parse(
+    const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, fieldscribe_can_content *content);
+
+/* The frame that asks for a parameter. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_reading *what, fieldscribe_can_frame *frame);
+
+/* The word that a frame answers with; nothing is stored unless the result is OK. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read_answer(const fieldscribe_can_dialogue *dialogue,
+    uint8_t unit, const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *words);
+
+/* The frame that writes a word. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_writing *what, const uint16_t *words, fieldscribe_can_frame *frame);
+
+/* Whether a frame confirms that the device took what was written: it tells the word that stands there now. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialogue *dialogue,
+    uint8_t unit, const fieldscribe_can_writing *what, const uint16_t *words, const fieldscribe_can_frame *frame);
+
+/* Word `at` of a text, to be read, or written, as a parameter; BAD_ADDRESS when the text has no such word. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_read(
+    const fieldscribe_can_text_reading *text, size_t at, fieldscribe_can_reading *word);
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_write(
+    const fieldscribe_can_text_writing *text, size_t at, fieldscribe_can_writing *word);
+
+/* How many frames, and so slots, a telegram consists of. */
+FIELDSCRIBE_CHECKED size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram);
+
+/* A receiver for the telegram of one unit that has not heard anything yet; the slots stay with it. */
+FIELDSCRIBE_CHECKED fieldscribe_can_receiver fieldscribe_can_listen(
+    const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots);
+
+/* Takes a frame, if it is one of the telegram. To a unit that the device cannot have nothing belongs. */
+bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame);
+
+/* The newest word at a position of the telegram, which counts from 0. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word(
+    const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word);
+
+/*
+ * The words of a point, the high one first; nothing is stored unless the result is OK. Where two words of one number
+ * come in different frames, they are believed only when the same high word came before and after the low one.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint16_t *words);
+
+/* The words of a text in the order of reading; those that came are stored, up to the first that has not. */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_text_heard *what, uint16_t *words);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+/* ---- The one definition ---- */
+
+#if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_CAN_IMPLEMENTED)
+#define FIELDSCRIBE_CAN_IMPLEMENTED
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+uint32_t fieldscribe_can_id(const fieldscribe_can_message *message, uint8_t unit)
 {
     return message->id + (message->adds_unit ? unit : 0U);
 }
 
 /* How far the byte of a role lies above bit 0 of its number; whatever a table says, less than the bits of a word. */
-static inline unsigned fieldscribe_can_shift(fieldscribe_can_role role)
+static unsigned fieldscribe_can_shift(fieldscribe_can_role role)
 {
     return role.number & 0xFU;
 }
 
 /* The bytes in `mask`, combined by exclusive or. */
-static inline uint8_t fieldscribe_can_xor(const uint8_t data[FIELDSCRIBE_CAN_BYTES], uint8_t mask)
+static uint8_t fieldscribe_can_xor(const uint8_t data[FIELDSCRIBE_CAN_BYTES], uint8_t mask)
 {
     uint8_t combined = 0U;
     unsigned at;
@@ -126,18 +315,18 @@ static inline uint8_t fieldscribe_can_xor(const uint8_t data[FIELDSCRIBE_CAN_BYT
     return combined;
 }
 
-/* The frame of a message. A message that carries no address or no raw number takes any; 0 is usual. */
-static inline fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *profile,
-    const fieldscribe_can_message *message, uint32_t unit, uint32_t address, uint32_t raw, fieldscribe_can_frame *frame)
+fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *profile,
+    const fieldscribe_can_message *message, const fieldscribe_can_content *content, fieldscribe_can_frame *frame)
 {
+    const uint32_t unit = content->unit;
     unsigned at;
-    if (unit < profile->first_unit || unit > profile->last_unit) {
+    if ((unit < profile->first_unit) || (unit > profile->last_unit)) {
         return FIELDSCRIBE_CAN_BAD_UNIT;
     }
-    if (address > 0xFFFFU) {
+    if (content->address > 0xFFFFU) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    if (raw > 0xFFFFU) {
+    if (content->raw > 0xFFFFU) {
         return FIELDSCRIBE_CAN_BAD_VALUE;
     }
     frame->id = fieldscribe_can_id(message, (uint8_t)unit);
@@ -145,19 +334,19 @@ static inline fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
         uint32_t byte = 0U;
-        if (role.kind == FIELDSCRIBE_CAN_CONSTANT) {
+        if (role.kind == (uint8_t)FIELDSCRIBE_CAN_CONSTANT) {
             byte = role.number;
-        } else if (role.kind == FIELDSCRIBE_CAN_UNIT) {
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_UNIT) {
             byte = unit >> fieldscribe_can_shift(role);
-        } else if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
-            byte = address >> fieldscribe_can_shift(role);
-        } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
-            byte = raw >> fieldscribe_can_shift(role);
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_ADDRESS) {
+            byte = content->address >> fieldscribe_can_shift(role);
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_RAW) {
+            byte = content->raw >> fieldscribe_can_shift(role);
         }
         frame->data[at] = (uint8_t)(byte & 0xFFU);
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        if (message->roles[at].kind == FIELDSCRIBE_CAN_XOR) {
+        if (message->roles[at].kind == (uint8_t)FIELDSCRIBE_CAN_XOR) {
             frame->data[at] = fieldscribe_can_xor(frame->data, message->roles[at].number);
         }
     }
@@ -165,7 +354,7 @@ static inline fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can
 }
 
 /* Whether every byte of that kind is what it has to be. */
-static inline bool fieldscribe_can_agrees(
+static bool fieldscribe_can_agrees(
     const fieldscribe_can_message *message, uint8_t kind, uint8_t unit, const uint8_t data[FIELDSCRIBE_CAN_BYTES])
 {
     unsigned at;
@@ -175,9 +364,9 @@ static inline bool fieldscribe_can_agrees(
         if (role.kind != kind) {
             continue;
         }
-        if (kind == FIELDSCRIBE_CAN_UNIT) {
+        if (kind == (uint8_t)FIELDSCRIBE_CAN_UNIT) {
             expected = (uint8_t)((uint32_t)unit >> fieldscribe_can_shift(role));
-        } else if (kind == FIELDSCRIBE_CAN_XOR) {
+        } else if (kind == (uint8_t)FIELDSCRIBE_CAN_XOR) {
             expected = fieldscribe_can_xor(data, role.number);
         }
         if (data[at] != expected) {
@@ -188,7 +377,7 @@ static inline bool fieldscribe_can_agrees(
 }
 
 /* Whether a frame is that message of that unit. */
-static inline fieldscribe_can_status fieldscribe_can_recognize(
+static fieldscribe_can_status fieldscribe_can_recognize(
     const fieldscribe_can_message *message, uint8_t unit, const fieldscribe_can_frame *frame)
 {
     if (frame->id != fieldscribe_can_id(message, unit)) {
@@ -209,88 +398,141 @@ static inline fieldscribe_can_status fieldscribe_can_recognize(
     return FIELDSCRIBE_CAN_OK;
 }
 
-/* Reads address and raw number of a message; 0 for what it does not carry, and unless the result is OK. */
-static inline fieldscribe_can_status fieldscribe_can_parse(const fieldscribe_can_message *message, uint8_t unit,
-    const fieldscribe_can_frame *frame, uint16_t *address, uint16_t *raw)
+/* The unit of a content, in the type that frames know it in; none has one beyond. */
+static uint8_t fieldscribe_can_unit(const fieldscribe_can_content *content)
 {
-    const fieldscribe_can_status status = fieldscribe_can_recognize(message, unit, frame);
+    return (uint8_t)((content->unit > 0xFFU) ? 0xFFU : content->unit);
+}
+
+fieldscribe_can_status fieldscribe_can_parse(
+    const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, fieldscribe_can_content *content)
+{
+    const fieldscribe_can_status status = fieldscribe_can_recognize(message, fieldscribe_can_unit(content), frame);
     unsigned at;
-    *address = 0U;
-    *raw = 0U;
+    content->address = 0U;
+    content->raw = 0U;
     if (status != FIELDSCRIBE_CAN_OK) {
         return status;
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
-        if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
-            *address = (uint16_t)((*address | ((uint32_t)frame->data[at] << fieldscribe_can_shift(role))) & 0xFFFFU);
-        } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
-            *raw = (uint16_t)((*raw | ((uint32_t)frame->data[at] << fieldscribe_can_shift(role))) & 0xFFFFU);
+        const uint32_t part = ((uint32_t)frame->data[at] << fieldscribe_can_shift(role)) & 0xFFFFU;
+        if (role.kind == (uint8_t)FIELDSCRIBE_CAN_ADDRESS) {
+            content->address |= part;
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_RAW) {
+            content->raw |= part;
         }
     }
     return FIELDSCRIBE_CAN_OK;
 }
 
 /* Whether a message has a byte of that kind. */
-static inline bool fieldscribe_can_carries(const fieldscribe_can_message *message, uint8_t kind)
+static bool fieldscribe_can_carries(const fieldscribe_can_message *message, uint8_t kind)
 {
     unsigned at = 0U;
-    while (at < FIELDSCRIBE_CAN_BYTES && message->roles[at].kind != kind) {
+    while ((at < FIELDSCRIBE_CAN_BYTES) && (message->roles[at].kind != kind)) {
         ++at;
     }
     return at < FIELDSCRIBE_CAN_BYTES;
 }
 
-/* The frame that asks for the word at `address`. */
-static inline fieldscribe_can_status fieldscribe_can_ask(const fieldscribe_can_profile *profile,
-    const fieldscribe_can_message *message, uint8_t unit, uint16_t address, fieldscribe_can_frame *frame)
+uint32_t fieldscribe_can_reply_length(const fieldscribe_can_message *answer)
 {
-    return fieldscribe_can_build(profile, message, unit, address, 0U, frame);
+    return (answer != NULL) ? FIELDSCRIBE_CAN_BYTES : 0U;
 }
 
-/* Reads the word that answers for `address`; 0 unless the result is OK. */
-static inline fieldscribe_can_status fieldscribe_can_answer(const fieldscribe_can_message *message, uint8_t unit,
-    uint16_t address, const fieldscribe_can_frame *frame, uint16_t *word)
+/* Reads the answer about content->address; its word is content->raw. */
+static fieldscribe_can_status fieldscribe_can_answer(
+    const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, fieldscribe_can_content *content)
 {
-    uint16_t answered;
-    const fieldscribe_can_status status = fieldscribe_can_parse(message, unit, frame, &answered, word);
-    if (status == FIELDSCRIBE_CAN_OK && answered != address && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
-        *word = 0U;
+    const uint32_t address = content->address;
+    fieldscribe_can_status status;
+    if (message == NULL) {
+        return FIELDSCRIBE_CAN_WRONG_ID; /* no frame is the answer */
+    }
+    status = fieldscribe_can_parse(message, frame, content);
+    if ((status == FIELDSCRIBE_CAN_OK) && (content->address != address) &&
+        fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
         return FIELDSCRIBE_CAN_WRONG_ADDRESS;
     }
     return status;
 }
 
-/* Whether a frame confirms that `written` stands at `address` now: the device tells what it took. */
-static inline fieldscribe_can_status fieldscribe_can_confirm(const fieldscribe_can_message *message, uint8_t unit,
-    uint16_t address, uint16_t written, const fieldscribe_can_frame *frame)
+fieldscribe_can_status fieldscribe_can_read(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_reading *what, fieldscribe_can_frame *frame)
 {
-    uint16_t word;
-    const fieldscribe_can_status status = fieldscribe_can_answer(message, unit, address, frame, &word);
-    if (status == FIELDSCRIBE_CAN_OK && word != written && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_RAW)) {
+    const fieldscribe_can_content content = {unit, what->address, 0U};
+    return fieldscribe_can_build(dialogue->profile, dialogue->read, &content, frame);
+}
+
+fieldscribe_can_status fieldscribe_can_read_answer(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *words)
+{
+    fieldscribe_can_content content = {unit, what->address, 0U};
+    const fieldscribe_can_status status = fieldscribe_can_answer(dialogue->read_answer, frame, &content);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[0] = (uint16_t)(content.raw & 0xFFFFU);
+    }
+    return status;
+}
+
+fieldscribe_can_status fieldscribe_can_write(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_writing *what, const uint16_t *words, fieldscribe_can_frame *frame)
+{
+    const fieldscribe_can_content content = {unit, what->address, words[0]};
+    return fieldscribe_can_build(dialogue->profile, dialogue->write, &content, frame);
+}
+
+fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
+    const fieldscribe_can_writing *what, const uint16_t *words, const fieldscribe_can_frame *frame)
+{
+    fieldscribe_can_content content = {unit, what->address, 0U};
+    const fieldscribe_can_status status = fieldscribe_can_answer(dialogue->write_answer, frame, &content);
+    if ((status == FIELDSCRIBE_CAN_OK) && (content.raw != words[0]) &&
+        fieldscribe_can_carries(dialogue->write_answer, FIELDSCRIBE_CAN_RAW)) {
         return FIELDSCRIBE_CAN_ECHO_MISMATCH;
     }
     return status;
 }
 
+fieldscribe_can_status fieldscribe_can_word_to_read(
+    const fieldscribe_can_text_reading *text, size_t at, fieldscribe_can_reading *word)
+{
+    if (at >= text->words) {
+        return FIELDSCRIBE_CAN_BAD_ADDRESS;
+    }
+    word->address = text->addresses[at];
+    return FIELDSCRIBE_CAN_OK;
+}
+
+fieldscribe_can_status fieldscribe_can_word_to_write(
+    const fieldscribe_can_text_writing *text, size_t at, fieldscribe_can_writing *word)
+{
+    if (at >= text->words) {
+        return FIELDSCRIBE_CAN_BAD_ADDRESS;
+    }
+    word->address = text->addresses[at];
+    return FIELDSCRIBE_CAN_OK;
+}
+
 /* ---- Cyclic telegrams ---- */
 
 /* How many words a frame carries: whatever a table says, as many as a slot has room for, and not none. */
-static inline uint8_t fieldscribe_can_per_frame(const fieldscribe_can_telegram *telegram)
+static uint8_t fieldscribe_can_per_frame(const fieldscribe_can_telegram *telegram)
 {
-    return telegram->per_frame == 0U || telegram->per_frame > FIELDSCRIBE_CAN_WORDS ? (uint8_t)FIELDSCRIBE_CAN_WORDS
-                                                                                    : telegram->per_frame;
+    if ((telegram->per_frame == 0U) || (telegram->per_frame > FIELDSCRIBE_CAN_WORDS)) {
+        return (uint8_t)FIELDSCRIBE_CAN_WORDS;
+    }
+    return telegram->per_frame;
 }
 
-/* How many frames, and so slots, a telegram consists of. */
-static inline size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
+size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
 {
     const uint8_t per_frame = fieldscribe_can_per_frame(telegram);
-    return (size_t)telegram->words / per_frame + (telegram->words % per_frame != 0U ? 1U : 0U);
+    return ((size_t)telegram->words / per_frame) + (((telegram->words % per_frame) != 0U) ? 1U : 0U);
 }
 
-/* A receiver that has not heard anything yet. */
-static inline fieldscribe_can_receiver fieldscribe_can_listen(
+fieldscribe_can_receiver fieldscribe_can_listen(
     const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots)
 {
     static const fieldscribe_can_slot silent = {0U, 0U, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
@@ -306,22 +548,21 @@ static inline fieldscribe_can_receiver fieldscribe_can_listen(
     return receiver;
 }
 
-/* Takes a frame, if it is one of the telegram. To a unit that the device cannot have nothing belongs. */
-static inline bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
+bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
 {
     const fieldscribe_can_message *const message = receiver->telegram->message;
     const fieldscribe_can_profile *const profile = receiver->telegram->profile;
     fieldscribe_can_slot *slot;
     uint8_t multiplexer = 0U;
     unsigned at;
-    if (receiver->unit < profile->first_unit || receiver->unit > profile->last_unit) {
+    if ((receiver->unit < profile->first_unit) || (receiver->unit > profile->last_unit)) {
         return false;
     }
     if (fieldscribe_can_recognize(message, receiver->unit, frame) != FIELDSCRIBE_CAN_OK) {
         return false;
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        if (message->roles[at].kind == FIELDSCRIBE_CAN_MULTIPLEXER) {
+        if (message->roles[at].kind == (uint8_t)FIELDSCRIBE_CAN_MULTIPLEXER) {
             multiplexer = frame->data[at];
         }
     }
@@ -338,16 +579,16 @@ static inline bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, cons
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
-        if (role.kind == FIELDSCRIBE_CAN_WORD && role.number < FIELDSCRIBE_CAN_BYTES) {
+        if ((role.kind == (uint8_t)FIELDSCRIBE_CAN_WORD) && (role.number < FIELDSCRIBE_CAN_BYTES)) {
             uint16_t *const word = &slot->words_now[role.number / 2U];
-            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (role.number % 2U != 0U ? 0U : 8U)));
+            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (((role.number % 2U) != 0U) ? 0U : 8U)));
         }
     }
     return true;
 }
 
 /* The slot of a word, into which something came; NULL if nothing did, or the telegram has no such word. */
-static inline const fieldscribe_can_slot *fieldscribe_can_heard(
+static const fieldscribe_can_slot *fieldscribe_can_heard_slot(
     const fieldscribe_can_receiver *receiver, uint16_t position)
 {
     const fieldscribe_can_slot *slot;
@@ -355,14 +596,13 @@ static inline const fieldscribe_can_slot *fieldscribe_can_heard(
         return NULL;
     }
     slot = &receiver->slots[position / fieldscribe_can_per_frame(receiver->telegram)];
-    return slot->now == 0U ? NULL : slot;
+    return (slot->now == 0U) ? NULL : slot;
 }
 
-/* The newest word at a position of the telegram, which counts from 0. */
-static inline fieldscribe_can_status fieldscribe_can_word(
+fieldscribe_can_status fieldscribe_can_word(
     const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word)
 {
-    const fieldscribe_can_slot *const slot = fieldscribe_can_heard(receiver, position);
+    const fieldscribe_can_slot *const slot = fieldscribe_can_heard_slot(receiver, position);
     if (slot == NULL) {
         return FIELDSCRIBE_CAN_MISSING;
     }
@@ -370,39 +610,48 @@ static inline fieldscribe_can_status fieldscribe_can_word(
     return FIELDSCRIBE_CAN_OK;
 }
 
-/*
- * The high and the low word of one number. Where they come in different frames, they are believed only when the same
- * high word came before and after the low one.
- */
-static inline fieldscribe_can_status fieldscribe_can_pair(
-    const fieldscribe_can_receiver *receiver, uint16_t high, uint16_t low, uint16_t *high_word, uint16_t *low_word)
+/* Whether a high word that came before and after a low one, in a frame of its own, is the same. */
+static bool fieldscribe_can_around(
+    const fieldscribe_can_slot *high, const fieldscribe_can_slot *low, uint8_t place)
+{
+    if ((high->before == 0U) || (high->words_before[place] != high->words_now[place])) {
+        return false;
+    }
+    return (high->now > low->now) ? (high->before <= low->now)
+                                  : ((low->before >= high->before) && (low->before <= high->now));
+}
+
+fieldscribe_can_status fieldscribe_can_received(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint16_t *words)
 {
     const uint8_t per_frame = fieldscribe_can_per_frame(receiver->telegram);
-    const fieldscribe_can_slot *const a = fieldscribe_can_heard(receiver, high);
-    const fieldscribe_can_slot *const b = fieldscribe_can_heard(receiver, low);
-    uint16_t found_high;
-    uint16_t found_low;
-    if (a == NULL || b == NULL) {
+    const uint8_t high_place = (uint8_t)(what->high % per_frame);
+    const uint8_t low_place = (uint8_t)(what->low % per_frame);
+    const fieldscribe_can_slot *const high = fieldscribe_can_heard_slot(receiver, what->high);
+    const fieldscribe_can_slot *const low = fieldscribe_can_heard_slot(receiver, what->low);
+    if ((high == NULL) || (low == NULL)) {
         return FIELDSCRIBE_CAN_MISSING;
     }
-    found_high = a->words_now[high % per_frame];
-    found_low = b->words_now[low % per_frame];
-    if (a != b) {
-        const bool around = a->before != 0U && a->words_before[high % per_frame] == found_high;
-        if (a->now > b->now) {
-            if (!around || a->before > b->now) {
-                return FIELDSCRIBE_CAN_TORN;
-            }
-        } else {
-            if (!around || b->before < a->before || b->before > a->now) { /* never counts as before all */
-                return FIELDSCRIBE_CAN_TORN;
-            }
-            found_low = b->words_before[low % per_frame];
-        }
+    if ((high != low) && !fieldscribe_can_around(high, low, high_place)) {
+        return FIELDSCRIBE_CAN_TORN;
     }
-    *high_word = found_high;
-    *low_word = found_low;
+    words[0] = high->words_now[high_place];
+    if (what->high != what->low) {
+        words[1] = ((high != low) && (high->now < low->now)) ? low->words_before[low_place]
+                                                             : low->words_now[low_place];
+    }
     return FIELDSCRIBE_CAN_OK;
+}
+
+fieldscribe_can_status fieldscribe_can_received_text(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_text_heard *what, uint16_t *words)
+{
+    fieldscribe_can_status status = FIELDSCRIBE_CAN_OK;
+    size_t at;
+    for (at = 0U; (at < what->words) && (status == FIELDSCRIBE_CAN_OK); ++at) {
+        status = fieldscribe_can_word(receiver, what->positions[at], &words[at]);
+    }
+    return status;
 }
 
 #ifdef __cplusplus

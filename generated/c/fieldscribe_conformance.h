@@ -1,6 +1,7 @@
 /*
  * Runs conformance vectors (fields between tabs, one vector a line) through generated code. No heap.
- * A generated program supplies a function per point, made of the macros below; include the generated headers first.
+ * A generated program supplies a function per point, made of the macros below and of those of its family's file, which
+ * includes this one; include the generated headers first.
  *
  * SPDX-License-Identifier: 0BSD
  */
@@ -13,6 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "fieldscribe.h"
 
 enum {
     FIELDSCRIBE_FORMAT = 2,
@@ -73,47 +76,18 @@ typedef struct fieldscribe_adapter {
     void (*run)(fieldscribe_vector *v);
 } fieldscribe_adapter;
 
-#if defined(FIELDSCRIBE_MODBUS_H)
-typedef struct fieldscribe_blocks {
-    const char *group;
-    const fieldscribe_modbus_block *blocks;
-    size_t count;
-    size_t rows; /* of the table, of which `count` has to be the number */
-} fieldscribe_blocks;
-#endif
 
-#if defined(FIELDSCRIBE_CAN_H)
-typedef struct fieldscribe_named_message {
-    const char *name;
-    const fieldscribe_can_message *message;
-} fieldscribe_named_message;
-
-typedef struct fieldscribe_named_telegram {
-    const char *name;
-    const fieldscribe_can_telegram *telegram;
-    fieldscribe_can_receiver (*listen)(uint8_t unit, fieldscribe_can_slot *slots);
-} fieldscribe_named_telegram;
-#endif
 
 typedef struct fieldscribe_suite {
     const char *device;
     const char *version;
     const char *digest;
-    const char *const *spaces;
     const fieldscribe_status_name *statuses;
     const fieldscribe_adapter *adapters;
     const char *const *telegrams;
     void (*run_code)(fieldscribe_vector *v);
-#if defined(FIELDSCRIBE_MODBUS_H)
-    const fieldscribe_modbus_profile *profile;
-    const fieldscribe_blocks *blocks;
-#elif defined(FIELDSCRIBE_CAN_H)
-    const fieldscribe_can_profile *profile;
-    const fieldscribe_named_message *messages;
-    const fieldscribe_named_telegram *cyclic;
-#elif defined(FIELDSCRIBE_USS_H)
-    const fieldscribe_uss_profile *profile;
-#endif
+    bool (*run_frame)(fieldscribe_vector *v); /* false for a line that is not about frames */
+    const void *family;                       /* its tables, as the program of its family has them */
 } fieldscribe_suite;
 
 /* ---- Fields ---- */
@@ -165,7 +139,7 @@ static inline uint32_t fieldscribe_at_most(fieldscribe_vector *v, const char *ke
     return *field == '-' && number != 0U ? most : number > most ? most : (uint32_t)number;
 }
 
-static inline double fieldscribe_real(fieldscribe_vector *v, const char *key)
+static inline double fieldscribe_number_of(fieldscribe_vector *v, const char *key)
 {
     const char *const field = fieldscribe_field(v, key);
     const size_t length = strlen(field);
@@ -306,7 +280,7 @@ static inline void fieldscribe_is_text(fieldscribe_vector *v, const char *key, c
 /* Same bits, or both not a number; of a value in binary32 those of the number nearest to it. */
 static inline void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, double b)
 {
-    const double wide = fieldscribe_real(v, "value");
+    const double wide = fieldscribe_number_of(v, "value");
     const float narrow = (float)wide;
     const double a = size == sizeof narrow ? (double)narrow : wide;
     const bool nan_a = !(a < 0.0 || a >= 0.0);
@@ -407,6 +381,7 @@ static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
 /* The raw numbers of other points, as further arguments of a call; or none. */
 #define FIELDSCRIBE_ALONE
 #define FIELDSCRIBE_WITH(name, type) , (type)fieldscribe_with(v, name)
+#define FIELDSCRIBE_TOGETHER(filled) , filled(v)
 
 /* Whether a number can be passed in that type at all; one that cannot is out of range by the type alone. */
 static inline bool fieldscribe_fits_int32_t(const char *field)
@@ -461,7 +436,7 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
 /* Whether a value of a line can be told in that type; where float is chosen, what it cannot hold is not asked. */
 static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 {
-    const double value = fieldscribe_real(v, "value");
+    const double value = fieldscribe_number_of(v, "value");
     const float narrow = (float)value;
     const double back = (double)narrow;
     const bool held = size > sizeof narrow || !(back < value || back > value);
@@ -475,7 +450,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_ENCODE(function, real_type, raw_type, with)                                  \
     if (fieldscribe_asks(v, "encode") && fieldscribe_holds(v, sizeof(real_type))) {              \
         raw_type raw = (raw_type)1;                                                              \
-        const int status = (int)function((real_type)fieldscribe_real(v, "value") with, &raw);    \
+        const int status = (int)function((real_type)fieldscribe_number_of(v, "value") with, &raw);    \
         fieldscribe_stored(v, status, "raw", (uint64_t)raw, raw == (raw_type)1);                 \
     }
 
@@ -503,6 +478,12 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "name", function((number_type)fieldscribe_bits(v, "raw")));       \
     }
 
+/* The constant of a name. */
+#define FIELDSCRIBE_NAMED(named, constant)                                                       \
+    if (fieldscribe_asks_of(v, "name", "name", named)) {                                         \
+        fieldscribe_is_number(v, "raw", (uint64_t)(constant));                                   \
+    }
+
 #define FIELDSCRIBE_BITS(function, raw_type, macro)                                              \
     if (fieldscribe_asks(v, "bits")) {                                                           \
         const uint16_t word = (uint16_t)fieldscribe_bits(v, "word");                             \
@@ -511,6 +492,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, (word & (uint32_t)(macro##_MASK)) ==                                \
             ((uint32_t)fieldscribe_bits(v, "raw") & ones) << macro##_SHIFT);                     \
         fieldscribe_is_number(v, "raw", (uint64_t)function##_extract(word));                     \
+        fieldscribe_agree(v, function##_extract(macro##_MASK) == function##_extract(0xFFFFU));   \
         fieldscribe_is_number(v, "result", (uint64_t)function##_insert(word, put));              \
     }
 
@@ -536,20 +518,25 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_ADDRESS(macro, others)                                                       \
     if (fieldscribe_asks(v, "address")) {                                                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
-        fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
-        fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
         others                                                                                   \
         fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
 /* What stands beside an address, as far as the point has it. */
-#define FIELDSCRIBE_CODE(macro) fieldscribe_is_text(v, "code", macro##_CODE);
+#define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
+#define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
+/* What a header says in comments alone, where the model is all that can be asked. */
+#define FIELDSCRIBE_SPACE(space) fieldscribe_is_text(v, "space", space);
+#define FIELDSCRIBE_CODE(code) fieldscribe_is_text(v, "code", code);
+#define FIELDSCRIBE_REFERENCE(key, number) fieldscribe_is_pair(v, "references", key, (uint64_t)(number));
+#define FIELDSCRIBE_REFERENCE_TEXT(key, text) fieldscribe_is_text_pair(v, "references", key, text);
+#define FIELDSCRIBE_ONLY_READ(low, high)                                                         \
+    fieldscribe_is_number(v, "raw_min", (uint64_t)(low));                                        \
+    fieldscribe_is_number(v, "raw_max", (uint64_t)(high));
 #define FIELDSCRIBE_RAWS(macro)                                                                  \
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
 #define FIELDSCRIBE_DECIMALS(macro) fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
-#define FIELDSCRIBE_REFERENCE(macro, name, key) fieldscribe_is_pair(v, "references", key, (uint64_t)(macro##_##name));
-#define FIELDSCRIBE_REFERENCE_TEXT(macro, name, key) fieldscribe_is_text_pair(v, "references", key, macro##_##name);
 
 /* The words of a point in order, and what stands beside them. */
 #define FIELDSCRIBE_INDEX(macro) fieldscribe_is_number(v, "index", (uint64_t)(macro##_INDEX));
@@ -685,32 +672,6 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "special", function##_special_name(raw));                         \
     }
 
-/* A point of a telegram, out of what was received. */
-#define FIELDSCRIBE_RECEIVED(function, raw_type)                                                 \
-    if (fieldscribe_asks(v, "can_telegram")) {                                                   \
-        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
-        const fieldscribe_can_status status =                                                    \
-            function##_received((const fieldscribe_can_receiver *)v->receiver, &raw);            \
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
-        if (status == FIELDSCRIBE_CAN_OK) {                                                      \
-            fieldscribe_is_number(v, "raw", (uint64_t)raw);                                      \
-        } else {                                                                                 \
-            fieldscribe_agree(v, raw == (raw_type)1 && fieldscribe_bits(v, "raw") == 0U);        \
-        }                                                                                        \
-    }
-
-/* A text of a telegram: its words in reading order. */
-#define FIELDSCRIBE_RECEIVED_TEXT(function, macro)                                               \
-    if (fieldscribe_asks(v, "can_text")) {                                                       \
-        uint16_t words[macro##_WORDS + 1U];                                                      \
-        fieldscribe_can_status status;                                                           \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        status = function##_received((const fieldscribe_can_receiver *)v->receiver, words);      \
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
-        fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
-        fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
-    }
-
 /* ---- What the protocol names ---- */
 
 #define FIELDSCRIBE_CODE_NUMBER(kind, code, constant)                                            \
@@ -725,25 +686,9 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, function(65535U) == NULL);                                          \
     }
 
-#define FIELDSCRIBE_COMMAND(command, function, constant)                                         \
-    if (fieldscribe_asks_of(v, "command", "command", command)) {                                 \
-        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        fieldscribe_modbus_request request;                                                      \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        request = function((uint8_t)fieldscribe_bits(v, "unit"), words);                         \
-        fieldscribe_is_number(v, "value", (constant));                                           \
-        fieldscribe_agree(v, request.values == words);                                           \
-        fieldscribe_untouched(v, words + 1, sizeof words - sizeof words[0]);                     \
-        (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
-    }
-
-#define FIELDSCRIBE_DOCUMENTED_CODE(point, macro)                                                \
-    if (fieldscribe_asks_of(v, "documented_code", "name", point)) {                              \
-        fieldscribe_is_text(v, "code", macro##_CODE);                                            \
-    }
-#define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
+#define FIELDSCRIBE_DOCUMENTED(point, space, macro, index)                                       \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
-        fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
+        FIELDSCRIBE_SPACE(space)                                                                 \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
         index                                                                                    \
@@ -784,6 +729,9 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         fieldscribe_is_text(v, "new", point);                                                    \
         fieldscribe_agree(v, same);                                                              \
     }
+/* A struct has a name in place of an address. */
+#define FIELDSCRIBE_ALIAS_OF_STRUCT(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, sizeof(old_name) == sizeof(new_name))
 #define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \
@@ -802,6 +750,130 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         fieldscribe_agree(v, sizeof array / sizeof array[0] == size);                            \
         fieldscribe_is_words(v, "addresses", array, size);                                       \
     }
+
+/* ---- Raw numbers in words ---- */
+
+/* The raw number of the line out of words; a layout of another type stores nothing. */
+#define FIELDSCRIBE_TAKEN(how, kind, raw_type, words)                                            \
+    {                                                                                            \
+        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
+        fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, words, &raw) &&               \
+            raw == (raw_type)fieldscribe_other(v));                                              \
+        fieldscribe_agree(v, fieldscribe_take_##kind(how, words, &raw));                         \
+        fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
+    }
+
+/* The raw number of the line into words; one that a shared word has no room for changes nothing. */
+#define FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, field, words)                                 \
+    {                                                                                            \
+        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
+        const uint16_t before = (words)[0];                                                      \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
+        fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, words));                  \
+        if ((how)->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                        \
+            fieldscribe_agree(v, !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), words)); \
+        }                                                                                        \
+        fieldscribe_agree(v, (words)[0] == before);                                              \
+        fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, words));                           \
+    }
+#define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
+
+/* Whether the other bits of a word are other points, and which of them are constant. */
+#define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
+    v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
+        (frame).layout->fixed_bits != (bits);
+
+/* The same layout, of another type. */
+static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
+{
+    fieldscribe_layout other = *layout;
+    other.type = (uint8_t)(layout->type + 1U);
+    return other;
+}
+
+/* The least number that a point has no bit for, in two's complement as well as from 0 on. */
+static inline uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
+{
+    const uint32_t most = (uint32_t)(layout->mask >> layout->shift);
+    const bool with_sign = layout->type == (uint8_t)FIELDSCRIBE_S8 || layout->type == (uint8_t)FIELDSCRIBE_S16;
+    return (with_sign ? most >> 1 : most) + 1U;
+}
+
+/* Whether a point with words of its own has all the bits of its type. */
+static inline bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
+{
+    const uint64_t all = UINT64_MAX >> (64U - 8U * size);
+    return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == all;
+}
+
+/* Whether the bits of a point are all that its type has. */
+static inline bool fieldscribe_fills(const fieldscribe_layout *layout, size_t size)
+{
+    return layout->type == (uint8_t)FIELDSCRIBE_BIT || (layout->mask >> layout->shift) >> (8U * size - 1U) != 0U;
+}
+
+/* Numbers with a sign around 0 and at the ends of their bits, in a word of their own and in one that is shared. */
+static inline void fieldscribe_holds_signs(fieldscribe_vector *v)
+{
+    static const int16_t numbers[] = {0, 1, -1, 7, -8, 8, -9, INT16_MAX, INT16_MIN};
+    static const fieldscribe_layout whole = {FIELDSCRIBE_S16, 1U, 0U, false, 0U, 0xFFFFU, 0U, 0U};
+    static const fieldscribe_layout part = {FIELDSCRIBE_S16, 1U, 0U, true, 4U, 0x00F0U, 0U, 0U};
+    static const fieldscribe_layout two = {FIELDSCRIBE_S32, 2U, 0x10U, false, 0U, 0xFFFFFFFFU, 0U, 0U};
+    size_t at;
+    for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
+        const uint32_t bits = numbers[at] < 0 ? ~(uint32_t)(-1 - numbers[at]) : (uint32_t)numbers[at];
+        const bool fits = numbers[at] >= -8 && numbers[at] <= 7;
+        uint16_t words[2] = {0xA5A5U, 0xA5A5U};
+        int16_t back = 99;
+        int32_t wide = 99;
+        fieldscribe_agree(v, fieldscribe_put_s16(&part, numbers[at], words) == fits);
+        fieldscribe_agree(v, words[0] == (fits ? (0xA505U | ((bits & 0xFU) << 4)) : 0xA5A5U));
+        fieldscribe_agree(v, fieldscribe_take_s16(&part, words, &back) && back == (fits ? numbers[at] : -6));
+        fieldscribe_agree(v, fieldscribe_put_s16(&whole, numbers[at], words) && words[0] == (bits & 0xFFFFU));
+        fieldscribe_agree(v, fieldscribe_take_s16(&whole, words, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_s32(&two, numbers[at], words) && words[1] == (bits >> 16));
+        fieldscribe_agree(v, fieldscribe_take_s32(&two, words, &wide) && wide == numbers[at]);
+    }
+}
+
+static inline void fieldscribe_refuses_long_numbers(
+    fieldscribe_vector *v, const fieldscribe_layout *no_sign, const fieldscribe_layout *a_sign)
+{
+    uint16_t words[4] = {7U, 7U, 7U, 7U};
+    int64_t back = 9;
+    uint64_t same = 9U;
+    fieldscribe_agree(v, !fieldscribe_put_s64(no_sign, 1, words) && !fieldscribe_put_u64(a_sign, 1U, words));
+    fieldscribe_agree(v, !fieldscribe_take_s64(no_sign, words, &back) && !fieldscribe_take_u64(a_sign, words, &same));
+    fieldscribe_agree(v, words[0] == 7U && words[1] == 7U && words[3] == 7U && back == 9 && same == 9U);
+}
+
+/* Numbers of 64 bits in any order of words, which few devices have. */
+static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
+{
+    static const int64_t numbers[] = {0, 1, -1, 0x0123456789ABCDEF, -0x0123456789ABCDEF, INT64_MAX, INT64_MIN};
+    fieldscribe_layout with_sign = {FIELDSCRIBE_S64, 4U, 0x2031U, false, 0U, UINT64_MAX, 0U, 0U};
+    fieldscribe_layout without = {FIELDSCRIBE_U64, 4U, 0x0123U, false, 0U, UINT64_MAX, 0U, 0U};
+    size_t at;
+    fieldscribe_holds_signs(v);
+    for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
+        const uint64_t bits = numbers[at] < 0 ? ~(uint64_t)(-1 - numbers[at]) : (uint64_t)numbers[at];
+        uint16_t words[5] = {0U, 0U, 0U, 0U, 9U};
+        int64_t back = 9;
+        uint64_t same = 9U;
+        fieldscribe_agree(v, fieldscribe_put_s64(&with_sign, numbers[at], words) && words[4] == 9U);
+        fieldscribe_agree(v, words[2] == (bits >> 48) && words[0] == ((bits >> 32) & 0xFFFFU));
+        fieldscribe_agree(v, words[3] == ((bits >> 16) & 0xFFFFU) && words[1] == (bits & 0xFFFFU));
+        fieldscribe_agree(v, fieldscribe_take_s64(&with_sign, words, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_u64(&without, bits, words) && words[0] == (bits >> 48));
+        fieldscribe_agree(v, fieldscribe_take_u64(&without, words, &same) && same == bits && words[4] == 9U);
+    }
+    with_sign.type = (uint8_t)FIELDSCRIBE_U64;
+    without.type = (uint8_t)FIELDSCRIBE_S64;
+    fieldscribe_refuses_long_numbers(v, &with_sign, &without);
+}
 
 /* ---- Whole exchanges ---- */
 
@@ -834,396 +906,6 @@ static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, co
     fieldscribe_agree(v, count == length && memcmp(expected, bytes, count) == 0);
 }
 
-#if defined(FIELDSCRIBE_MODBUS_H)
-static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
-{
-    static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
-        "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction",
-        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
-    return names[(size_t)status];
-}
-
-/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
-static inline bool fieldscribe_exchange(
-    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
-{
-    const bool tcp = fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp");
-    const fieldscribe_modbus_framing framing = tcp ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
-    fieldscribe_modbus_request numbered = *request;
-    fieldscribe_modbus_reply reply;
-    fieldscribe_modbus_status status;
-    const char *sent = NULL;
-    const char *received = NULL;
-    size_t length = 0U;
-    if (!fieldscribe_step(v, place, &sent, &received)) {
-        return false;
-    }
-    fieldscribe_agree(v, request->transaction == 0U);
-    numbered.transaction = tcp ? (uint16_t)(place + 1U) : 0U;
-    status = fieldscribe_modbus_build(v->suite->profile, framing, &numbered, bytes, sizeof bytes, &length);
-    fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
-    fieldscribe_sends(v, sent, bytes, length);
-    length = fieldscribe_hex(received, bytes, sizeof bytes);
-    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, words, FIELDSCRIBE_ROOM, &reply);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
-    return status == FIELDSCRIBE_MODBUS_OK;
-}
-
-#define FIELDSCRIBE_READ(function, raw_of_words)                                                 \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
-            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
-            fieldscribe_is_number(v, "raw", (uint64_t)(raw_of_words));                           \
-        }                                                                                        \
-    }
-
-#define FIELDSCRIBE_READ_TEXT(function)                                                          \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
-            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
-            fieldscribe_is_words(v, "words", words, request.count);                              \
-        }                                                                                        \
-    }
-
-#define FIELDSCRIBE_WRITE(function, raw_type, count)                                             \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[count + 1U];                                                              \
-        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        fieldscribe_modbus_request request;                                                      \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        request = function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), raw, words);    \
-        fieldscribe_untouched(v, words + count, sizeof words[0]);                                \
-        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
-    }
-
-#define FIELDSCRIBE_WRITE_TEXT(function, count)                                                  \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[count + 1U];                                                              \
-        uint16_t given[count] = {0U};                                                            \
-        uint16_t text[count] = {0U};                                                             \
-        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
-        fieldscribe_modbus_request request;                                                      \
-        size_t at;                                                                               \
-        fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, count) == count);            \
-        for (at = 0U; at < count; ++at) {                                                        \
-            text[at] = given[fieldscribe_rank(function##_addresses, count, at)];                 \
-        }                                                                                        \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        request = function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), text, words);   \
-        fieldscribe_untouched(v, words + count, sizeof words[0]);                                \
-        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
-    }
-
-/* A group of bits: its word is read, and goes back with other bits. */
-#define FIELDSCRIBE_UPDATE(function, raw_type, address)                                          \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        fieldscribe_modbus_request request = function##_read_request(unit);                      \
-        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
-            words[0] = function##_insert(words[0], (raw_type)fieldscribe_bits(v, "raw"));        \
-            request = fieldscribe_modbus_write(unit, fieldscribe_function_sent(v), address, 1U, words); \
-            (void)fieldscribe_exchange(v, 1U, &request, words);                                  \
-        }                                                                                        \
-    }
-
-/* The function that the second step of a script is sent with: no header names that of a group of bits. */
-static inline uint8_t fieldscribe_function_sent(fieldscribe_vector *v)
-{
-    uint8_t bytes[8] = {0U};
-    const char *sent = NULL;
-    const char *received = NULL;
-    if (fieldscribe_step(v, 1U, &sent, &received)) {
-        (void)fieldscribe_hex(sent, bytes, sizeof bytes);
-    }
-    return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? bytes[7] : bytes[1];
-}
-#elif defined(FIELDSCRIBE_CAN_H)
-static const char *fieldscribe_can_status_text(fieldscribe_can_status status)
-{
-    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
-        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
-    return names[(size_t)status];
-}
-
-/* Frames are their identifier in four bytes and their data. */
-static inline fieldscribe_can_frame fieldscribe_frame_of(const char *field)
-{
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
-    const size_t length = fieldscribe_hex(field, bytes, 64U);
-    fieldscribe_can_frame frame;
-    frame.id = ((uint32_t)bytes[0] << 24) | ((uint32_t)bytes[1] << 16) | ((uint32_t)bytes[2] << 8) | bytes[3];
-    frame.length = (uint8_t)(length > 4U ? length - 4U : 0U);
-    memcpy(frame.data, bytes + 4, sizeof frame.data);
-    return frame;
-}
-
-static inline void fieldscribe_sends_frame(fieldscribe_vector *v, const char *sent, const fieldscribe_can_frame *frame)
-{
-    const fieldscribe_can_frame expected = fieldscribe_frame_of(sent);
-    fieldscribe_agree(v, expected.id == frame->id && expected.length == frame->length &&
-        memcmp(expected.data, frame->data, sizeof expected.data) == 0);
-}
-
-/* What is no answer is a time-out for a device, which waits on. */
-static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_status status)
-{
-    const bool answers = status == FIELDSCRIBE_CAN_OK || status == FIELDSCRIBE_CAN_ECHO_MISMATCH;
-    fieldscribe_is_text(v, "status", answers ? fieldscribe_can_status_text(status) : "timeout");
-}
-
-#define FIELDSCRIBE_READ(function, raw_type)                                                     \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        const char *sent = NULL;                                                                 \
-        const char *received = NULL;                                                             \
-        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
-        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
-            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
-            const fieldscribe_can_status status = function##_read_answer(unit, &frame, &raw);    \
-            fieldscribe_is_answer(v, status);                                                    \
-            if (status == FIELDSCRIBE_CAN_OK) { /* the same of another unit changes nothing */   \
-                raw_type other = (raw_type)1;                                                    \
-                frame.id ^= 1U;                                                                  \
-                fieldscribe_agree(v, function##_read_answer(unit, &frame, &other) == FIELDSCRIBE_CAN_WRONG_ID); \
-                fieldscribe_agree(v, other == (raw_type)1);                                      \
-            }                                                                                    \
-            fieldscribe_agree(v, function##_read_request(unit, &frame) == FIELDSCRIBE_CAN_OK);   \
-            fieldscribe_sends_frame(v, sent, &frame);                                            \
-            if (status == FIELDSCRIBE_CAN_OK) {                                                  \
-                fieldscribe_is_number(v, "raw", (uint64_t)raw);                                  \
-            } else {                                                                             \
-                fieldscribe_agree(v, raw == (raw_type)1);                                        \
-            }                                                                                    \
-        }                                                                                        \
-    }
-
-#define FIELDSCRIBE_WRITE(function, raw_type)                                                    \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        const char *sent = NULL;                                                                 \
-        const char *received = NULL;                                                             \
-        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
-            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
-            fieldscribe_is_answer(v, function##_write_answer(unit, raw, &frame));                \
-            fieldscribe_agree(v, function##_write_request(unit, raw, &frame) == FIELDSCRIBE_CAN_OK); \
-            fieldscribe_sends_frame(v, sent, &frame);                                            \
-        }                                                                                        \
-    }
-
-#define FIELDSCRIBE_WRITE_SHARED(function, raw_type)                                             \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        const char *sent = NULL;                                                                 \
-        const char *received = NULL;                                                             \
-        uint16_t word = 0U;                                                                      \
-        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
-            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
-            fieldscribe_agree(v, function##_read_word(unit, &frame, &word) == FIELDSCRIBE_CAN_OK); \
-            fieldscribe_agree(v, function##_read_request(unit, &frame) == FIELDSCRIBE_CAN_OK);   \
-            fieldscribe_sends_frame(v, sent, &frame);                                            \
-        }                                                                                        \
-        if (fieldscribe_step(v, 1U, &sent, &received)) {                                         \
-            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
-            fieldscribe_is_answer(v, function##_write_answer(unit, word, raw, &frame));          \
-            fieldscribe_agree(v, function##_write_request(unit, word, raw, &frame) == FIELDSCRIBE_CAN_OK); \
-            fieldscribe_sends_frame(v, sent, &frame);                                            \
-        }                                                                                        \
-    }
-
-/* Texts travel word by word; the script is in the order of the addresses. */
-#define FIELDSCRIBE_READ_TEXT(function, macro)                                                   \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        uint16_t words[macro##_WORDS] = {0U};                                                    \
-        uint16_t sorted[macro##_WORDS] = {0U};                                                   \
-        size_t at;                                                                               \
-        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
-            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
-            const char *sent = NULL;                                                             \
-            const char *received = NULL;                                                         \
-            if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
-                fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
-                fieldscribe_is_answer(v, function##_read_answer(unit, at, &frame, words));       \
-                fieldscribe_agree(v, function##_read_answer(unit, macro##_WORDS, &frame, words) == \
-                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
-                fieldscribe_agree(v, function##_read_request(unit, at, &frame) == FIELDSCRIBE_CAN_OK); \
-                fieldscribe_sends_frame(v, sent, &frame);                                        \
-                fieldscribe_agree(v, function##_read_request(unit, macro##_WORDS, &frame) ==     \
-                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
-                sorted[rank] = words[at];                                                        \
-            }                                                                                    \
-        }                                                                                        \
-        fieldscribe_is_words(v, "words", sorted, macro##_WORDS);                                 \
-    }
-
-#define FIELDSCRIBE_WRITE_TEXT(function, macro)                                                  \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        uint16_t sorted[macro##_WORDS] = {0U};                                                   \
-        uint16_t words[macro##_WORDS] = {0U};                                                    \
-        size_t at;                                                                               \
-        fieldscribe_agree(v, fieldscribe_numbers(v, "words", sorted, macro##_WORDS) == macro##_WORDS); \
-        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
-            words[at] = sorted[fieldscribe_rank(function##_addresses, macro##_WORDS, at)];       \
-        }                                                                                        \
-        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
-            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
-            const char *sent = NULL;                                                             \
-            const char *received = NULL;                                                         \
-            if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
-                fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
-                fieldscribe_is_answer(v, function##_write_answer(unit, at, words, &frame));      \
-                fieldscribe_agree(v, function##_write_answer(unit, macro##_WORDS, words, &frame) == \
-                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
-                fieldscribe_agree(v, function##_write_request(unit, at, words, &frame) == FIELDSCRIBE_CAN_OK); \
-                fieldscribe_sends_frame(v, sent, &frame);                                        \
-                fieldscribe_agree(v, function##_write_request(unit, macro##_WORDS, words, &frame) == \
-                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
-            }                                                                                    \
-        }                                                                                        \
-    }
-#elif defined(FIELDSCRIBE_USS_H)
-static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
-{
-    static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
-        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
-        "no_answer", "refused", "no_rights", "wrong_response"};
-    return names[(size_t)status];
-}
-
-static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
-{
-    fieldscribe_uss_link link;
-    link.pkw = (uint8_t)fieldscribe_at_most(v, "pkw", 255U);
-    link.pzd = (uint8_t)fieldscribe_at_most(v, "pzd", 255U);
-    link.single_first = fieldscribe_bits(v, "single_first") != 0U;
-    return link;
-}
-
-/* Sends a request of the script with process data, and reads what comes back into `words`; whether it is an answer. */
-static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
-    uint16_t *words, fieldscribe_uss_reply *reply)
-{
-    const fieldscribe_uss_link link = fieldscribe_read_link(v);
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
-    const char *sent = NULL;
-    const char *received = NULL;
-    fieldscribe_uss_status status;
-    size_t length = 0U;
-    if (!fieldscribe_step(v, place, &sent, &received)) {
-        return false;
-    }
-    status = fieldscribe_uss_build(v->suite->profile, &link, request, words, link.pzd, bytes, sizeof bytes, &length);
-    fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK);
-    fieldscribe_sends(v, sent, bytes, length);
-    length = fieldscribe_hex(received, bytes, sizeof bytes);
-    status = fieldscribe_uss_parse(v->suite->profile, &link, request, bytes, length, words, 256U, reply);
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    return status == FIELDSCRIBE_USS_OK;
-}
-
-#define FIELDSCRIBE_READ(function, raw_type)                                                     \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[256] = {0U};                                                              \
-        fieldscribe_uss_reply reply;                                                             \
-        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
-        const fieldscribe_uss_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
-        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
-            fieldscribe_agree(v, function##_from_reply(&reply, &raw));                           \
-            fieldscribe_is_number(v, "raw", (uint64_t)raw);                                      \
-            reply.width = (uint8_t)(3U - reply.width);                                           \
-            raw = (raw_type)1;                                                                   \
-            fieldscribe_agree(v, !function##_from_reply(&reply, &raw) && raw == (raw_type)1);    \
-            reply.width = 0U;                                                                    \
-            fieldscribe_agree(v, !function##_from_reply(&reply, &raw) && raw == (raw_type)1);    \
-        }                                                                                        \
-    }
-
-#define FIELDSCRIBE_WRITE(kind, function, call, raw_type)                                        \
-    if (fieldscribe_asks(v, kind)) {                                                             \
-        uint16_t words[256] = {0U};                                                              \
-        fieldscribe_uss_reply reply;                                                             \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        const fieldscribe_uss_request request = function##_##call((uint8_t)fieldscribe_bits(v, "unit"), raw); \
-        fieldscribe_agree(v, request.width == 1U || request.width == 2U);                        \
-        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
-    }
-
-#define FIELDSCRIBE_WRITE_SHARED(kind, function, call, raw_type)                                 \
-    if (fieldscribe_asks(v, kind)) {                                                             \
-        uint16_t words[256] = {0U};                                                              \
-        fieldscribe_uss_reply reply;                                                             \
-        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        fieldscribe_uss_request request = function##_read_request(unit);                         \
-        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
-            request = function##_##call(unit, (uint16_t)(reply.value & 0xFFFFU), raw);           \
-            (void)fieldscribe_exchange(v, 1U, &request, words, &reply);                          \
-        }                                                                                        \
-    }
-
-/* A word of process data that is sent, or comes back, without a task. */
-#define FIELDSCRIBE_SEND(function, raw_type, start, count)                                       \
-    if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[256];                                                                     \
-        fieldscribe_uss_reply reply;                                                             \
-        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
-        memset(words, 0x5A, count * sizeof words[0]);                                            \
-        start(words);                                                                            \
-        function##_to_pzd((raw_type)fieldscribe_bits(v, "raw"), words);                          \
-        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
-    }
-
-/* The same without a telegram: a word or two at their place, and the others as they were. */
-#define FIELDSCRIBE_PUT(function, raw_type, macro, count)                                        \
-    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
-        const bool part = fieldscribe_asks(v, "bits");                                           \
-        uint16_t words[count];                                                                   \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        words[macro##_ADDRESS] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;              \
-        function##_to_pzd((raw_type)fieldscribe_bits(v, part ? "replaced" : "raw"), words);      \
-        if (part) {                                                                              \
-            fieldscribe_is_number(v, "result", words[macro##_ADDRESS]);                          \
-        } else {                                                                                 \
-            fieldscribe_is_words(v, "words", words + macro##_ADDRESS, macro##_WORDS);            \
-        }                                                                                        \
-        fieldscribe_untouched(v, words, macro##_ADDRESS * sizeof words[0]);                      \
-        fieldscribe_untouched(v, words + macro##_ADDRESS + macro##_WORDS,                        \
-            sizeof words - (macro##_ADDRESS + macro##_WORDS) * sizeof words[0]);                 \
-    }
-#define FIELDSCRIBE_TAKE(function, macro, count)                                                 \
-    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
-        uint16_t words[count];                                                                   \
-        fieldscribe_fill(words, sizeof words);                                                   \
-        if (fieldscribe_asks(v, "bits")) {                                                       \
-            words[macro##_ADDRESS] = (uint16_t)fieldscribe_bits(v, "word");                      \
-        } else {                                                                                 \
-            (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, macro##_WORDS);       \
-        }                                                                                        \
-        fieldscribe_is_number(v, "raw", (uint64_t)function##_from_pzd(words));                   \
-    }
-
-#define FIELDSCRIBE_HEAR(function, count)                                                        \
-    if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[256] = {0U};                                                              \
-        fieldscribe_uss_reply reply;                                                             \
-        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
-        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
-            fieldscribe_is_number(v, "raw", (uint64_t)function##_from_pzd(words));               \
-        }                                                                                        \
-    }
-#endif
 
 /* Which of the addresses, counted upwards from the lowest, is the one at that place. */
 static inline size_t fieldscribe_rank(const uint16_t *addresses, size_t count, size_t at)
@@ -1253,522 +935,6 @@ static void fieldscribe_run_point(fieldscribe_vector *v)
     }
 }
 
-/* ---- Frames ---- */
-
-#if defined(FIELDSCRIBE_MODBUS_H)
-static fieldscribe_modbus_framing fieldscribe_read_request(
-    fieldscribe_vector *v, uint16_t *values, fieldscribe_modbus_request *request)
-{
-    const size_t count = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
-    request->transaction = (uint16_t)fieldscribe_bits(v, "transaction");
-    request->unit = (uint8_t)fieldscribe_bits(v, "unit");
-    request->function = (uint8_t)fieldscribe_bits(v, "function");
-    request->address = (uint16_t)fieldscribe_bits(v, "address");
-    request->count = (uint16_t)fieldscribe_bits(v, "count");
-    request->values = count != 0U ? values : NULL;
-    return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
-}
-
-/* A buffer of exactly the length does, one that is shorter does not; and what writes needs values. */
-static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
-{
-    const fieldscribe_modbus_profile *const profile = v->suite->profile;
-    fieldscribe_modbus_request empty = *request;
-    uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
-    size_t again = SIZE_MAX;
-    fieldscribe_fill(built, sizeof built);
-    fieldscribe_agree(v,
-        fieldscribe_modbus_build(profile, framing, request, built, length - 1U, &again) ==
-            FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL && again == 0U);
-    fieldscribe_untouched(v, built, sizeof built);
-    fieldscribe_agree(v,
-        fieldscribe_modbus_build(profile, framing, request, built, length, &again) == FIELDSCRIBE_MODBUS_OK &&
-            again == length && memcmp(built, expected, length) == 0);
-    empty.values = NULL;
-    fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
-        (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
-}
-
-static void fieldscribe_run_build(fieldscribe_vector *v)
-{
-    static uint16_t values[FIELDSCRIBE_VALUES_MOST];
-    uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
-    fieldscribe_modbus_request request;
-    size_t length = SIZE_MAX;
-    const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
-    fieldscribe_modbus_status status;
-    fieldscribe_fill(built, sizeof built);
-    status = fieldscribe_modbus_build(v->suite->profile, framing, &request, built, sizeof built, &length);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
-    fieldscribe_agree(v, length <= sizeof built);
-    if (length <= sizeof built) {
-        fieldscribe_is_bytes(v, "bytes", built, length);
-        fieldscribe_untouched(v, built + length, sizeof built - length);
-    }
-    if (status == FIELDSCRIBE_MODBUS_OK && length > 0U) {
-        fieldscribe_rebuild(v, framing, &request, built, length);
-    }
-}
-
-/* Room for exactly what came does, less does not; and an echo is held against what was sent, if something was. */
-static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
-{
-    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
-    const bool reads = fieldscribe_modbus_reads(request->function);
-    const bool several = request->function == 0x0FU || request->function == 0x10U;
-    const size_t room = reads ? request->count : 1U;
-    fieldscribe_modbus_request empty = *request;
-    fieldscribe_modbus_reply reply;
-    fieldscribe_fill(read, sizeof read);
-    fieldscribe_agree(v,
-        fieldscribe_modbus_parse(framing, request, bytes, length, read, room - 1U, &reply) ==
-            (reads ? FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL : FIELDSCRIBE_MODBUS_OK) && reply.count == 0U);
-    fieldscribe_untouched(v, read, sizeof read);
-    fieldscribe_agree(v,
-        fieldscribe_modbus_parse(framing, request, bytes, length, read, room, &reply) == FIELDSCRIBE_MODBUS_OK &&
-            reply.count == (several ? 0U : room));
-    if (!reads && !several) {
-        empty.values = NULL;
-        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, read, room, &reply) ==
-            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
-        empty = *request;
-        empty.count = 0U;
-        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, read, room, &reply) ==
-            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
-    }
-}
-
-static void fieldscribe_run_reply(fieldscribe_vector *v)
-{
-    static uint16_t values[FIELDSCRIBE_VALUES_MOST];
-    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
-    fieldscribe_modbus_request request;
-    fieldscribe_modbus_reply reply;
-    fieldscribe_modbus_status status;
-    const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
-    const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
-    fieldscribe_fill(read, sizeof read);
-    fieldscribe_fill(&reply, sizeof reply);
-    status = fieldscribe_modbus_parse(framing, &request, bytes, length, read, FIELDSCRIBE_VALUES_MOST, &reply);
-    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
-    fieldscribe_agree(v, reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST);
-    if (reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST) {
-        fieldscribe_is_words(v, "values_out", read, reply.count);
-        fieldscribe_untouched(v, read + reply.count, sizeof read - reply.count * sizeof read[0]);
-    }
-    fieldscribe_is_count(v, "exception", reply.exception);
-    if (status == FIELDSCRIBE_MODBUS_OK) {
-        fieldscribe_reparse(v, framing, &request, bytes, length);
-    }
-}
-
-/* What the profile says of a function. */
-static void fieldscribe_run_function(fieldscribe_vector *v)
-{
-    const fieldscribe_modbus_profile *const profile = v->suite->profile;
-    const uint64_t index = fieldscribe_bits(v, "index");
-    if (index < profile->function_count) {
-        fieldscribe_agree(v, !fieldscribe_modbus_reads(0x00U) && !fieldscribe_modbus_reads(0x05U));
-        fieldscribe_is_number(v, "number", profile->functions[index].code);
-        fieldscribe_is_number(v, "most", profile->functions[index].most);
-        fieldscribe_is_number(v, "broadcast", profile->functions[index].broadcast ? 1U : 0U);
-    }
-}
-
-static void fieldscribe_run_limit(fieldscribe_vector *v)
-{
-    const fieldscribe_modbus_profile *const profile = v->suite->profile;
-    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
-    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
-    FIELDSCRIBE_LIMIT("functions", profile->function_count)
-    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
-    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_MODBUS_NO_BROADCAST)
-    FIELDSCRIBE_LIMIT("rtu_bytes", FIELDSCRIBE_MODBUS_RTU_MOST)
-    FIELDSCRIBE_LIMIT("tcp_bytes", FIELDSCRIBE_MODBUS_TCP_MOST)
-}
-
-static void fieldscribe_run_block(fieldscribe_vector *v)
-{
-    static const char *const spaces[] = {"", "coil", "discrete", "holding", "input"};
-    const uint64_t index = fieldscribe_bits(v, "index");
-    const fieldscribe_blocks *group = v->suite->blocks;
-    const fieldscribe_modbus_block *block;
-    fieldscribe_modbus_request request;
-    while (group->group != NULL && !fieldscribe_spells(fieldscribe_field(v, "group"), group->group)) {
-        ++group;
-    }
-    if (group->group == NULL || index >= group->count) {
-        return;
-    }
-    block = &group->blocks[index];
-    request = fieldscribe_modbus_read_block(1U, block);
-    fieldscribe_agree(v, group->count == group->rows && request.unit == 1U && request.values == NULL &&
-        request.function == block->function && request.address == block->address && request.count == block->count);
-    fieldscribe_is_text(v, "space", block->function >= 1U && block->function <= 4U ? spaces[block->function] : NULL);
-    fieldscribe_is_number(v, "function", block->function);
-    fieldscribe_is_number(v, "address", block->address);
-    fieldscribe_is_number(v, "count", block->count);
-}
-
-static bool fieldscribe_run_frame(fieldscribe_vector *v)
-{
-    if (fieldscribe_asks(v, "build") || fieldscribe_asks(v, "printed_build")) {
-        fieldscribe_run_build(v);
-    } else if (fieldscribe_asks(v, "reply") || fieldscribe_asks(v, "printed_reply")) {
-        fieldscribe_run_reply(v);
-    } else if (fieldscribe_asks(v, "block")) {
-        fieldscribe_run_block(v);
-    } else if (fieldscribe_asks(v, "function")) {
-        fieldscribe_run_function(v);
-    } else if (fieldscribe_asks(v, "limit")) {
-        fieldscribe_run_limit(v);
-    } else {
-        return false;
-    }
-    return true;
-}
-#elif defined(FIELDSCRIBE_CAN_H)
-static const fieldscribe_can_message *fieldscribe_find_message(fieldscribe_vector *v)
-{
-    const fieldscribe_named_message *one = v->suite->messages;
-    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "message"), one->name)) {
-        ++one;
-    }
-    return one->message;
-}
-
-static fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const char *data)
-{
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
-    fieldscribe_can_frame frame;
-    frame.id = (uint32_t)id;
-    frame.length = (uint8_t)fieldscribe_hex(data, bytes, 255U);
-    memcpy(frame.data, bytes, sizeof frame.data);
-    return frame;
-}
-
-static void fieldscribe_run_can_build(fieldscribe_vector *v)
-{
-    const fieldscribe_can_message *const message = fieldscribe_find_message(v);
-    const uint32_t unit = fieldscribe_at_most(v, "unit", UINT32_MAX);
-    const uint32_t address = fieldscribe_at_most(v, "address", UINT32_MAX);
-    const uint32_t raw = fieldscribe_at_most(v, "raw", UINT32_MAX);
-    fieldscribe_can_frame frame;
-    fieldscribe_can_status status;
-    fieldscribe_fill(&frame, sizeof frame);
-    if (message != NULL) {
-        status = fieldscribe_can_build(v->suite->profile, message, unit, address, raw, &frame);
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));
-        if (status == FIELDSCRIBE_CAN_OK) {
-            fieldscribe_is_number(v, "id", frame.id);
-            fieldscribe_agree(v, frame.length == FIELDSCRIBE_CAN_BYTES);
-            fieldscribe_is_bytes(v, "bytes", frame.data, FIELDSCRIBE_CAN_BYTES);
-        } else {
-            fieldscribe_untouched(v, &frame, sizeof frame);
-        }
-    }
-}
-
-static void fieldscribe_run_can_parse(fieldscribe_vector *v)
-{
-    const fieldscribe_can_message *const message = fieldscribe_find_message(v);
-    const fieldscribe_can_frame frame = fieldscribe_read_frame(fieldscribe_bits(v, "id"), fieldscribe_field(v, "bytes"));
-    uint16_t address = 1U;
-    uint16_t raw = 1U;
-    fieldscribe_can_status status;
-    if (message != NULL) {
-        status = fieldscribe_can_parse(message, (uint8_t)fieldscribe_at_most(v, "unit", 255U), &frame, &address, &raw);
-        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));
-        fieldscribe_is_count(v, "address", address);
-        fieldscribe_is_count(v, "raw", raw);
-    }
-}
-
-/* Feeds the frames of a line to a receiver, which takes those that it should. */
-static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *receiver)
-{
-    uint16_t taken[FIELDSCRIBE_BYTES_MOST] = {0U};
-    uint16_t expected_taken[FIELDSCRIBE_BYTES_MOST] = {0U};
-    const size_t count = fieldscribe_numbers(v, "taken", expected_taken, FIELDSCRIBE_BYTES_MOST);
-    const char *at = fieldscribe_field(v, "frames");
-    size_t fed = 0U;
-    while (at != NULL && !fieldscribe_absent(at) && fed < (size_t)FIELDSCRIBE_BYTES_MOST) {
-        const char *const data = strchr(at, '=');
-        const fieldscribe_can_frame frame = fieldscribe_read_frame(fieldscribe_pattern(at), data != NULL ? data + 1 : "");
-        taken[fed] = fieldscribe_can_take(receiver, &frame) ? 1U : 0U;
-        ++fed;
-        at = strchr(at, ',');
-        at = at != NULL ? at + 1 : NULL;
-    }
-    fieldscribe_agree(v, fed == count && memcmp(taken, expected_taken, fed * sizeof taken[0]) == 0);
-}
-
-/* Slots in a caller's memory, with one behind them that is not theirs. */
-typedef struct fieldscribe_slots {
-    fieldscribe_can_slot all[257];
-} fieldscribe_slots;
-
-/* The telegram of the line with a receiver that has heard nothing; NULL when there is none. */
-static const fieldscribe_named_telegram *fieldscribe_listen(
-    fieldscribe_vector *v, fieldscribe_slots *slots, fieldscribe_can_receiver *receiver)
-{
-    const fieldscribe_named_telegram *one = v->suite->cyclic;
-    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
-        ++one;
-    }
-    if (one->name == NULL || fieldscribe_can_slots(one->telegram) > 256U) {
-        return NULL;
-    }
-    fieldscribe_fill(slots, sizeof *slots);
-    *receiver = one->listen((uint8_t)fieldscribe_at_most(v, "unit", 255U), slots->all);
-    return one;
-}
-
-/* Nothing was stored behind the slots, and a table of nonsense counts as the most words in a frame. */
-static void fieldscribe_stays_inside(
-    fieldscribe_vector *v, const fieldscribe_slots *slots, const fieldscribe_can_telegram *telegram)
-{
-    const size_t used = fieldscribe_can_slots(telegram);
-    fieldscribe_can_telegram odd = *telegram;
-    fieldscribe_untouched(v, slots->all + used, sizeof *slots - used * sizeof slots->all[0]);
-    odd.words = 9U;
-    odd.per_frame = 0U;
-    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U);
-    odd.per_frame = 5U;
-    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U);
-    odd.per_frame = 3U;
-    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U && fieldscribe_can_per_frame(&odd) == 3U);
-}
-
-static void fieldscribe_run_can_telegram(fieldscribe_vector *v)
-{
-    static fieldscribe_slots slots;
-    fieldscribe_can_receiver receiver;
-    const fieldscribe_named_telegram *const one = fieldscribe_listen(v, &slots, &receiver);
-    if (one != NULL) {
-        v->receiver = &receiver;
-        fieldscribe_feed(v, &receiver);
-        fieldscribe_stays_inside(v, &slots, one->telegram);
-        v->answered = false; /* until the point answers too */
-        fieldscribe_run_point(v);
-        v->receiver = NULL;
-    }
-}
-
-static void fieldscribe_run_can_taken(fieldscribe_vector *v)
-{
-    static fieldscribe_slots slots;
-    fieldscribe_can_receiver receiver;
-    const fieldscribe_named_telegram *const one = fieldscribe_listen(v, &slots, &receiver);
-    uint16_t word = 0x5A5AU;
-    if (one != NULL) {
-        fieldscribe_agree(v, fieldscribe_can_word(&receiver, one->telegram->words, &word) == FIELDSCRIBE_CAN_MISSING);
-        fieldscribe_feed(v, &receiver);
-        fieldscribe_stays_inside(v, &slots, one->telegram);
-        fieldscribe_agree(v, fieldscribe_can_word(&receiver, one->telegram->words, &word) == FIELDSCRIBE_CAN_MISSING);
-        fieldscribe_agree(v, word == 0x5A5AU);
-    }
-}
-
-static void fieldscribe_run_limit(fieldscribe_vector *v)
-{
-    const fieldscribe_can_profile *const profile = v->suite->profile;
-    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
-    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
-    FIELDSCRIBE_LIMIT("identifier_bits", profile->identifier_bits)
-}
-
-static bool fieldscribe_run_frame(fieldscribe_vector *v)
-{
-    if (fieldscribe_asks(v, "limit")) {
-        fieldscribe_run_limit(v);
-    } else if (fieldscribe_asks(v, "can_taken")) {
-        fieldscribe_run_can_taken(v);
-    } else if (fieldscribe_asks(v, "can_build")) {
-        fieldscribe_run_can_build(v);
-    } else if (fieldscribe_asks(v, "can_parse")) {
-        fieldscribe_run_can_parse(v);
-    } else if (fieldscribe_asks(v, "can_telegram") || fieldscribe_asks(v, "can_text")) {
-        fieldscribe_run_can_telegram(v);
-    } else {
-        return false;
-    }
-    return true;
-}
-#elif defined(FIELDSCRIBE_USS_H)
-static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
-{
-    fieldscribe_uss_request request;
-    request.unit = (uint8_t)fieldscribe_at_most(v, "unit", 255U);
-    request.task = (uint8_t)fieldscribe_at_most(v, "task", 255U);
-    request.parameter = (uint16_t)fieldscribe_at_most(v, "parameter", 65535U);
-    request.index = (uint16_t)fieldscribe_at_most(v, "index", 65535U);
-    request.width = 0U;
-    request.value = 0U;
-    return request;
-}
-
-/* The telegram of the line in `built`, and nothing behind it. */
-static void fieldscribe_is_telegram(
-    fieldscribe_vector *v, fieldscribe_uss_status status, const uint8_t *built, size_t size, size_t length)
-{
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    fieldscribe_agree(v, length <= size);
-    if (length <= size) {
-        fieldscribe_is_bytes(v, "bytes", built, length);
-        fieldscribe_untouched(v, built + length, size - length);
-    }
-}
-
-static void fieldscribe_run_uss_build(fieldscribe_vector *v)
-{
-    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
-    uint8_t built[FIELDSCRIBE_USS_MOST];
-    uint8_t exact[FIELDSCRIBE_USS_MOST];
-    size_t length = SIZE_MAX;
-    size_t again = SIZE_MAX;
-    const fieldscribe_uss_profile *const profile = v->suite->profile;
-    const fieldscribe_uss_link link = fieldscribe_read_link(v);
-    fieldscribe_uss_request request = fieldscribe_read_task(v);
-    const size_t count = fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST);
-    fieldscribe_uss_status status;
-    request.width = (uint8_t)fieldscribe_at_most(v, "width", 255U);
-    request.value = fieldscribe_at_most(v, "value", UINT32_MAX);
-    fieldscribe_fill(built, sizeof built);
-    status = fieldscribe_uss_build(profile, &link, &request, words, count, built, sizeof built, &length);
-    if (status == FIELDSCRIBE_USS_OK && fieldscribe_bits(v, "value") != request.value) {
-        fieldscribe_fill(built, sizeof built);
-        status = FIELDSCRIBE_USS_BAD_VALUE; /* the argument's type alone refuses it */
-        length = 0U;
-    }
-    fieldscribe_is_telegram(v, status, built, sizeof built, length);
-    if (status == FIELDSCRIBE_USS_OK && length > 0U && length <= sizeof built) {
-        fieldscribe_fill(exact, sizeof exact);
-        status = fieldscribe_uss_build(profile, &link, &request, words, count, exact, length - 1U, &again);
-        fieldscribe_agree(v, status == FIELDSCRIBE_USS_BUFFER_TOO_SMALL && again == 0U);
-        fieldscribe_untouched(v, exact, sizeof exact);
-        status = fieldscribe_uss_build(profile, &link, &request, words, count, exact, length, &again);
-        fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK && again == length && memcmp(built, exact, length) == 0);
-    }
-}
-
-static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
-{
-    uint16_t mask[4] = {0U};
-    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
-    uint8_t built[FIELDSCRIBE_USS_MOST];
-    size_t length = SIZE_MAX;
-    const fieldscribe_uss_link link = fieldscribe_read_link(v);
-    const size_t masks = fieldscribe_numbers(v, "mask", mask, 4U);
-    const size_t count = fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST);
-    fieldscribe_uss_status status;
-    fieldscribe_fill(built, sizeof built);
-    status =
-        fieldscribe_uss_build_broadcast(v->suite->profile, &link, mask, words, count, built, sizeof built, &length);
-    fieldscribe_agree(v, masks == 4U);
-    fieldscribe_is_telegram(v, status, built, sizeof built, length);
-}
-
-/* Process data comes with every good telegram, also with one that brings no value; else nothing is stored. */
-static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status status, const uint16_t *words,
-    const uint8_t *bytes, size_t length, size_t count)
-{
-    const bool good = status == FIELDSCRIBE_USS_OK || status >= FIELDSCRIBE_USS_WRONG_PARAMETER;
-    const size_t heard = good ? count : 0U;
-    size_t at;
-    for (at = 0U; at < heard; ++at) {
-        fieldscribe_agree(v, words[at] == fieldscribe_uss_get(bytes + length - 1U - 2U * (count - at)));
-    }
-    fieldscribe_untouched(v, words + heard, (FIELDSCRIBE_BYTES_MOST - heard) * sizeof words[0]);
-}
-
-static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
-{
-    uint16_t words[FIELDSCRIBE_BYTES_MOST];
-    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
-    fieldscribe_uss_reply reply;
-    fieldscribe_uss_reply again;
-    const fieldscribe_uss_profile *const profile = v->suite->profile;
-    const fieldscribe_uss_link link = fieldscribe_read_link(v);
-    const fieldscribe_uss_request request = fieldscribe_read_task(v);
-    const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
-    fieldscribe_uss_status status;
-    fieldscribe_fill(words, sizeof words);
-    fieldscribe_fill(&reply, sizeof reply);
-    status = fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, FIELDSCRIBE_BYTES_MOST, &reply);
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    fieldscribe_is_count(v, "response", reply.response);
-    fieldscribe_is_count(v, "width", reply.width);
-    fieldscribe_is_count(v, "value", reply.value);
-    fieldscribe_is_count(v, "error", reply.error);
-    fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_USS_OK ? link.pzd : 0U);
-    fieldscribe_are_heard(v, status, words, bytes, length, link.pzd);
-    if (status == FIELDSCRIBE_USS_OK) {
-        fieldscribe_agree(v, fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, link.pzd, &again) ==
-            FIELDSCRIBE_USS_OK);
-    }
-    if (status == FIELDSCRIBE_USS_OK && link.pzd > 0U) {
-        fieldscribe_fill(words, sizeof words);
-        fieldscribe_agree(v,
-            fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, link.pzd - 1U, &again) ==
-                FIELDSCRIBE_USS_BUFFER_TOO_SMALL);
-        fieldscribe_untouched(v, words, sizeof words);
-    }
-}
-
-/* What the profile says of a task. */
-static void fieldscribe_run_function(fieldscribe_vector *v)
-{
-    const fieldscribe_uss_profile *const profile = v->suite->profile;
-    const uint64_t index = fieldscribe_bits(v, "index");
-    if (index < profile->task_count) {
-        fieldscribe_is_number(v, "number", profile->tasks[index].number);
-        fieldscribe_is_number(v, "answers", profile->tasks[index].answers);
-    }
-}
-
-static void fieldscribe_run_limit(fieldscribe_vector *v)
-{
-    const fieldscribe_uss_profile *const profile = v->suite->profile;
-    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
-    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
-    FIELDSCRIBE_LIMIT("functions", profile->task_count)
-    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
-    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_USS_NO_BROADCAST)
-    FIELDSCRIBE_LIMIT("telegram_bytes", FIELDSCRIBE_USS_MOST)
-    FIELDSCRIBE_LIMIT("last_parameter", FIELDSCRIBE_USS_LAST_PARAMETER)
-    FIELDSCRIBE_LIMIT("least_process_words", profile->least_pzd)
-    FIELDSCRIBE_LIMIT("most_process_words", profile->most_pzd)
-    FIELDSCRIBE_LIMIT("parameter_parts", profile->pkw_count)
-}
-
-static bool fieldscribe_run_frame(fieldscribe_vector *v)
-{
-    if (fieldscribe_asks(v, "function")) {
-        fieldscribe_run_function(v);
-    } else if (fieldscribe_asks(v, "limit")) {
-        fieldscribe_run_limit(v);
-    } else if (fieldscribe_asks(v, "uss_build") || fieldscribe_asks(v, "uss_printed_build")) {
-        fieldscribe_run_uss_build(v);
-    } else if (fieldscribe_asks(v, "uss_broadcast")) {
-        fieldscribe_run_uss_broadcast(v);
-    } else if (fieldscribe_asks(v, "uss_reply") || fieldscribe_asks(v, "uss_printed_reply")) {
-        fieldscribe_run_uss_reply(v);
-    } else {
-        return false;
-    }
-    return true;
-}
-#else
-static bool fieldscribe_run_frame(fieldscribe_vector *v)
-{
-    (void)v;
-    return false;
-}
-#endif
 
 /* ---- The run ---- */
 
@@ -1816,7 +982,8 @@ static const char *fieldscribe_keep(fieldscribe_file *file, const char *name)
 }
 
 /* One line of the head: the names of a kind's or a set's fields. */
-static bool fieldscribe_declare(fieldscribe_file *file, fieldscribe_kind *kind, char **parts, size_t count, size_t first)
+static bool fieldscribe_declare(
+    fieldscribe_file *file, fieldscribe_kind *kind, char **parts, size_t count, size_t first)
 {
     size_t at;
     kind->name = fieldscribe_keep(file, parts[1]);
@@ -1938,10 +1105,10 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->differs = false;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
-        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") || fieldscribe_asks(v, "alias") ||
-        fieldscribe_asks(v, "documented_code")) {
+        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
+        fieldscribe_asks(v, "alias")) {
         v->suite->run_code(v);
-    } else if (!fieldscribe_run_frame(v)) {
+    } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);
     }
     if (fieldscribe_passes(v)) {

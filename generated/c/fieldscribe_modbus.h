@@ -1,22 +1,38 @@
 /*
  * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
  * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap, no state; any bytes at any length are safe to parse.
- *
  * SPDX-License-Identifier: 0BSD
+ *
+ * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
+ *
+ * Reading a point over a serial line:
+ *
+ *     uint16_t words[1];
+ *     fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+ *     request = fieldscribe_modbus_read(unit, &hitachi_l200_base_frequency_frame.read);
+ *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length);
+ *     send(frame, length);
+ *     got = 0U;
+ *     while ((left = fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, frame, got)) > 0U) {
+ *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *     }
+ *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply);
+ *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, &raw);
+ *
+ * Writing one: fieldscribe_put_u16(frame.layout, raw, words), then fieldscribe_modbus_write(unit, &frame.write, words).
+ * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
+#include "fieldscribe.h"
+
 #ifndef FIELDSCRIBE_MODBUS_H
 #define FIELDSCRIBE_MODBUS_H
-
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_MODBUS_INTERFACE 1
+#define FIELDSCRIBE_MODBUS_INTERFACE 2
 
 /* The longest frames there are. */
 #define FIELDSCRIBE_MODBUS_RTU_MOST 256U
@@ -28,7 +44,7 @@ extern "C" {
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
     /* building */
-    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all units */
+    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all */
     FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
     FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
     FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
@@ -48,7 +64,10 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_ECHO_MISMATCH   /* a write that was answered with something else */
 } fieldscribe_modbus_status;
 
-typedef enum fieldscribe_modbus_framing { FIELDSCRIBE_MODBUS_RTU = 0, FIELDSCRIBE_MODBUS_TCP } fieldscribe_modbus_framing;
+typedef enum fieldscribe_modbus_framing {
+    FIELDSCRIBE_MODBUS_RTU,
+    FIELDSCRIBE_MODBUS_TCP
+} fieldscribe_modbus_framing;
 
 /* A function code, how many items one request may carry, and whether it may go to all units at once. */
 typedef struct fieldscribe_modbus_function {
@@ -69,12 +88,65 @@ typedef struct fieldscribe_modbus_profile {
     bool tcp;
 } fieldscribe_modbus_profile;
 
-/* Consecutive addresses that one request reads. */
-typedef struct fieldscribe_modbus_block {
+/* Consecutive addresses that one request reads: those of a point, or a block of several points. */
+typedef struct fieldscribe_modbus_reading {
     uint8_t function;
     uint16_t address;
     uint16_t count;
-} fieldscribe_modbus_block;
+} fieldscribe_modbus_reading;
+
+/* Consecutive addresses that one request writes. */
+typedef struct fieldscribe_modbus_writing {
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+} fieldscribe_modbus_writing;
+
+/* A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points. */
+typedef struct fieldscribe_modbus_r {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+} fieldscribe_modbus_r;
+
+typedef struct fieldscribe_modbus_w {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_w;
+
+typedef struct fieldscribe_modbus_rw {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_rw;
+
+typedef struct fieldscribe_modbus_ru {
+    const fieldscribe_layout *layout;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing update;
+} fieldscribe_modbus_ru;
+
+/* The same for texts. */
+typedef struct fieldscribe_modbus_text_r {
+    fieldscribe_text text;
+    fieldscribe_modbus_reading read;
+} fieldscribe_modbus_text_r;
+
+typedef struct fieldscribe_modbus_text_w {
+    fieldscribe_text text;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_text_w;
+
+typedef struct fieldscribe_modbus_text_rw {
+    fieldscribe_text text;
+    fieldscribe_modbus_reading read;
+    fieldscribe_modbus_writing write;
+} fieldscribe_modbus_text_rw;
+
+/* A named constant that is written. */
+typedef struct fieldscribe_modbus_command {
+    fieldscribe_modbus_writing write;
+    uint16_t value;
+} fieldscribe_modbus_command;
 
 /*
  * A request. `values` has `count` items for functions that write: words, or 0 and 1 for coils. For 08h `address` is the
@@ -89,34 +161,103 @@ typedef struct fieldscribe_modbus_request {
     const uint16_t *values;
 } fieldscribe_modbus_request;
 
-/* What an answer says: `count` values were stored; `exception` is the device's code, 0 when there is none. */
+/*
+ * What an answer says. The caller gives `values` with `room` items; `count` of them were stored: words, or 0 and 1, or
+ * for 05h, 06h and 08h the value that was echoed, if there is room for it. `exception` is the device's code, or 0.
+ */
 typedef struct fieldscribe_modbus_reply {
+    uint16_t *values;
+    size_t room;
     uint16_t count;
     uint8_t exception;
 } fieldscribe_modbus_reply;
 
-static inline fieldscribe_modbus_request fieldscribe_modbus_read(
-    uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+/* The request that reads a point or a block. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_read(
+    uint8_t unit, const fieldscribe_modbus_reading *what);
+
+/* The request that writes a point; `values` stay the caller's and are read when the frame is built. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values);
+
+/* The request of a command. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_send(
+    uint8_t unit, const fieldscribe_modbus_command *command);
+
+/* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+
+/* The bytes of the answer to a request, unless the device refuses it; 0 where nobody answers: it goes to all units. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request);
+
+/* How many bytes of the answer are still to be waited for when `length` of them have come; 0 when it is whole. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length);
+
+/* Reads the answer to a request. */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+
+/* Both by framing: one that is constant links its own functions alone. */
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
+    const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
 {
-    const fieldscribe_modbus_request request = {0U, unit, function, address, count, NULL};
-    return request;
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_build_tcp(profile, request, buffer, size, length)
+                                               : fieldscribe_modbus_build_rtu(profile, request, buffer, size, length);
 }
 
-static inline fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, uint8_t function, uint16_t address, uint16_t count, const uint16_t *values)
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_parse(
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length,
+    fieldscribe_modbus_reply *reply)
 {
-    const fieldscribe_modbus_request request = {0U, unit, function, address, count, values};
-    return request;
-}
-
-/* The request that reads a block. */
-static inline fieldscribe_modbus_request fieldscribe_modbus_read_block(uint8_t unit, const fieldscribe_modbus_block *block)
-{
-    return fieldscribe_modbus_read(unit, block->function, block->address, block->count);
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_parse_tcp(request, bytes, length, reply)
+                                               : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
 /* The checksum of RTU frames; its low byte travels first. */
-static inline uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
+FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+/* ---- The one definition ---- */
+
+#if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_MODBUS_IMPLEMENTED)
+#define FIELDSCRIBE_MODBUS_IMPLEMENTED
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+fieldscribe_modbus_request fieldscribe_modbus_read(uint8_t unit, const fieldscribe_modbus_reading *what)
+{
+    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL};
+    return request;
+}
+
+fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values)
+{
+    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, values};
+    return request;
+}
+
+fieldscribe_modbus_request fieldscribe_modbus_send(uint8_t unit, const fieldscribe_modbus_command *command)
+{
+    return fieldscribe_modbus_write(unit, &command->write, &command->value);
+}
+
+uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {
     static const uint16_t nibbles[16] = {0x0000U, 0xCC01U, 0xD801U, 0x1400U, 0xF001U, 0x3C00U, 0x2800U, 0xE401U,
         0xA001U, 0x6C00U, 0x7800U, 0xB401U, 0x5000U, 0x9C01U, 0x8801U, 0x4400U};
@@ -130,38 +271,38 @@ static inline uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t lengt
     return crc;
 }
 
-static inline uint16_t fieldscribe_modbus_get(const uint8_t *bytes)
+static uint16_t fieldscribe_modbus_get(const uint8_t *bytes)
 {
     return (uint16_t)(((uint32_t)bytes[0] << 8) | bytes[1]);
 }
 
-static inline void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
+static void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
 {
     bytes[0] = (uint8_t)(number >> 8);
     bytes[1] = (uint8_t)(number & 0xFFU);
 }
 
-static inline bool fieldscribe_modbus_reads(uint8_t function)
+static bool fieldscribe_modbus_reads(uint8_t function)
 {
-    return function >= 0x01U && function <= 0x04U;
+    return (function >= 0x01U) && (function <= 0x04U);
 }
 
-static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
+static bool fieldscribe_modbus_reads_bits(uint8_t function)
 {
-    return function == 0x01U || function == 0x02U;
+    return (function == 0x01U) || (function == 0x02U);
 }
 
 /* 05h carries FF00h for on; every other single value travels as it is. */
-static inline uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
+static uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
 {
     if (request->function == 0x05U) {
-        return request->values[0] != 0U ? 0xFF00U : 0x0000U;
+        return (request->values[0] != 0U) ? 0xFF00U : 0x0000U;
     }
     return request->values[0];
 }
 
 /* What the device knows of a function; NULL when it does not know it. */
-static inline const fieldscribe_modbus_function *fieldscribe_modbus_find(
+static const fieldscribe_modbus_function *fieldscribe_modbus_find(
     const fieldscribe_modbus_profile *profile, uint8_t code)
 {
     size_t at;
@@ -174,30 +315,30 @@ static inline const fieldscribe_modbus_function *fieldscribe_modbus_find(
 }
 
 /* Whether this device takes the request. */
-static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
+static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
     const uint8_t function = request->function;
     const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, function);
-    const bool writes = function == 0x05U || function == 0x06U || function == 0x0FU || function == 0x10U;
-    const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
+    const bool writes = (function == 0x05U) || (function == 0x06U) || (function == 0x0FU) || (function == 0x10U);
+    const bool single = (function == 0x05U) || (function == 0x06U) || (function == 0x08U);
     bool to_one;
     uint16_t at;
-    if (known == NULL || !(fieldscribe_modbus_reads(function) || writes || single)) {
+    if ((known == NULL) || !(fieldscribe_modbus_reads(function) || writes || single)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    to_one = request->unit >= profile->first_unit && request->unit <= profile->last_unit;
-    if (request->unit == profile->broadcast ? !(writes && known->broadcast) : !to_one) {
+    to_one = (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
+    if ((request->unit == profile->broadcast) ? !(writes && known->broadcast) : !to_one) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if (request->count == 0U || request->count > known->most || (single && request->count != 1U) ||
-        (!fieldscribe_modbus_reads(function) && request->values == NULL)) {
+    if ((request->count == 0U) || (request->count > known->most) || (single && (request->count != 1U)) ||
+        (!fieldscribe_modbus_reads(function) && (request->values == NULL))) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if (function == 0x08U ? request->address != 0U : (uint32_t)request->address + request->count > 0x10000U) {
+    if ((function == 0x08U) ? (request->address != 0U) : (((uint32_t)request->address + request->count) > 0x10000U)) {
         return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
     }
-    if (function == 0x05U || function == 0x0FU) {
+    if ((function == 0x05U) || (function == 0x0FU)) {
         for (at = 0U; at < request->count; ++at) {
             if (request->values[at] > 1U) {
                 return FIELDSCRIBE_MODBUS_BAD_VALUE;
@@ -208,25 +349,25 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
 }
 
 /* How many data bytes 0Fh and 10h carry. */
-static inline uint32_t fieldscribe_modbus_data_bytes(
+static uint32_t fieldscribe_modbus_data_bytes(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
     uint32_t bytes = (uint32_t)request->count * 2U;
     if (request->function == 0x0FU) {
         bytes = ((uint32_t)request->count + 7U) / 8U;
-        bytes += profile->pads_coil_bytes ? bytes % 2U : 0U;
+        bytes += profile->pads_coil_bytes ? (bytes % 2U) : 0U;
     }
     return bytes;
 }
 
 /* Eight coils from one of them on, as a byte; 0 for those behind the last. */
-static inline uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *request, uint32_t first)
+static uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *request, uint32_t first)
 {
     uint8_t byte = 0U;
     uint32_t at;
     for (at = 0U; at < 8U; ++at) {
         const uint32_t place = first + at;
-        if (place < request->count && request->values[place] != 0U) {
+        if ((place < request->count) && (request->values[place] != 0U)) {
             byte = (uint8_t)(byte | ((uint32_t)1U << at));
         }
     }
@@ -234,13 +375,13 @@ static inline uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request 
 }
 
 /* Writes the data of 0Fh and 10h behind their byte count. */
-static inline void fieldscribe_modbus_put_values(
+static void fieldscribe_modbus_put_values(
     const fieldscribe_modbus_request *request, uint8_t *data, uint32_t data_bytes)
 {
     uint32_t at;
     if (request->function == 0x10U) {
-        for (at = 0U; at < data_bytes / 2U; ++at) {
-            fieldscribe_modbus_put(data + 2U * at, request->values[at]);
+        for (at = 0U; at < (data_bytes / 2U); ++at) {
+            fieldscribe_modbus_put(data + (2U * at), request->values[at]);
         }
         return;
     }
@@ -249,133 +390,156 @@ static inline void fieldscribe_modbus_put_values(
     }
 }
 
-/* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
-static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size,
-    size_t *length)
+/* The request from the unit to the end of its data, if the device takes it and it fits; `used` is 0 on an error. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
+    const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
     const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
-    const bool several = request->function == 0x0FU || request->function == 0x10U;
-    const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
-    const size_t before = head + (several ? 7U : 6U); /* the data */
-    const size_t behind = framing == FIELDSCRIBE_MODBUS_TCP ? 0U : 2U;
-    const uint32_t data_bytes = several ? fieldscribe_modbus_data_bytes(profile, request) : 0U;
-    size_t used; /* with the unit, up to the checksum */
-    uint8_t *const frame = buffer;
-    *length = 0U;
-    if (!(framing == FIELDSCRIBE_MODBUS_TCP ? profile->tcp : profile->rtu)) {
-        return FIELDSCRIBE_MODBUS_BAD_FRAMING;
-    }
+    const size_t before = several ? 7U : 6U; /* the data */
+    uint32_t data_bytes = 0U;
+    uint16_t number = request->count;
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
-    if (data_bytes > 0xFFU || size < before + behind || data_bytes > size - before - behind) {
+    if (several) {
+        data_bytes = fieldscribe_modbus_data_bytes(profile, request);
+    } else if (!fieldscribe_modbus_reads(request->function)) {
+        number = fieldscribe_modbus_single(request);
+    }
+    if ((data_bytes > 0xFFU) || (size < before) || (data_bytes > (size - before))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    frame[head] = request->unit;
-    frame[head + 1U] = request->function;
-    fieldscribe_modbus_put(frame + head + 2U, request->address);
-    if (several || fieldscribe_modbus_reads(request->function)) {
-        fieldscribe_modbus_put(frame + head + 4U, request->count);
-    } else {
-        fieldscribe_modbus_put(frame + head + 4U, fieldscribe_modbus_single(request));
-    }
+    buffer[0] = request->unit;
+    buffer[1] = request->function;
+    fieldscribe_modbus_put(&buffer[2], request->address);
+    fieldscribe_modbus_put(&buffer[4], number);
     if (several) {
-        frame[head + 6U] = (uint8_t)data_bytes;
-        fieldscribe_modbus_put_values(request, frame + head + 7U, data_bytes);
+        buffer[6] = (uint8_t)data_bytes;
+        fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
     }
-    used = before + (size_t)data_bytes;
-    if (framing == FIELDSCRIBE_MODBUS_TCP) {
-        fieldscribe_modbus_put(frame, request->transaction);
-        fieldscribe_modbus_put(frame + 2U, 0U);
-        fieldscribe_modbus_put(frame + 4U, (uint16_t)(used - head));
-    } else {
-        const uint16_t crc = fieldscribe_modbus_crc(frame, used);
-        frame[used] = (uint8_t)(crc & 0xFFU);
-        frame[used + 1U] = (uint8_t)(crc >> 8);
-        used += 2U;
-    }
-    *length = used;
+    *used = before + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
+fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    size_t used = 0U;
+    *length = 0U;
+    if (profile->rtu) {
+        status = fieldscribe_modbus_put_request(profile, request, buffer, (size > 2U) ? (size - 2U) : 0U, &used);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        const uint16_t crc = fieldscribe_modbus_crc(buffer, used);
+        buffer[used] = (uint8_t)(crc & 0xFFU);
+        buffer[used + 1U] = (uint8_t)(crc >> 8);
+        *length = used + 2U;
+    }
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    size_t used = 0U;
+    *length = 0U;
+    if (profile->tcp) {
+        uint8_t *const behind = &buffer[(size > 6U) ? 6U : 0U]; /* the head */
+        status = fieldscribe_modbus_put_request(profile, request, behind, (size > 6U) ? (size - 6U) : 0U, &used);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        fieldscribe_modbus_put(buffer, request->transaction);
+        fieldscribe_modbus_put(&buffer[2], 0U);
+        fieldscribe_modbus_put(&buffer[4], (uint16_t)used);
+        *length = used + 6U;
+    }
+    return status;
+}
+
 /* Stores the words that an answer brings in `bytes` bytes of data. */
-static inline fieldscribe_modbus_status fieldscribe_modbus_take_words(
-    const uint8_t *data, uint8_t bytes, uint16_t count, uint16_t *values, size_t room)
+static fieldscribe_modbus_status fieldscribe_modbus_take_words(
+    const uint8_t *data, uint8_t bytes, uint16_t count, const fieldscribe_modbus_reply *reply)
 {
     uint16_t at;
-    if (bytes % 2U != 0U || count != bytes / 2U) {
+    if (((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (room < count) {
+    if (reply->room < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
-        values[at] = fieldscribe_modbus_get(data + 2U * at);
+        reply->values[at] = fieldscribe_modbus_get(data + (2U * at));
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
 /* Stores the bits that an answer brings in `bytes` bytes of data. */
-static inline fieldscribe_modbus_status fieldscribe_modbus_take_bits(
-    const uint8_t *data, uint8_t bytes, uint16_t count, uint16_t *values, size_t room)
+static fieldscribe_modbus_status fieldscribe_modbus_take_bits(
+    const uint8_t *data, uint8_t bytes, uint16_t count, const fieldscribe_modbus_reply *reply)
 {
     const uint32_t most = (uint32_t)bytes * 8U;
     uint16_t at;
-    if (count > most || (uint32_t)count + 7U < most) {
+    if ((count > most) || (((uint32_t)count + 7U) < most)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (room < count) {
+    if (reply->room < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
-        values[at] = (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
+        reply->values[at] = (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
 /* Reads an answer: `pdu` starts at the function, which is that of the request, and has `size` bytes (at least 2). */
-static inline fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, size_t size, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const uint8_t function = request->function;
     const uint16_t count = request->count;
     if (fieldscribe_modbus_reads(function)) {
         fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
         const uint8_t bytes = pdu[1];
-        if (size == 2U + (size_t)bytes) {
+        if (size == (2U + (size_t)bytes)) {
             status = fieldscribe_modbus_reads_bits(function)
-                ? fieldscribe_modbus_take_bits(pdu + 2, bytes, count, values, room)
-                : fieldscribe_modbus_take_words(pdu + 2, bytes, count, values, room);
+                ? fieldscribe_modbus_take_bits(pdu + 2, bytes, count, reply)
+                : fieldscribe_modbus_take_words(pdu + 2, bytes, count, reply);
         }
-        reply->count = status == FIELDSCRIBE_MODBUS_OK ? count : 0U;
+        reply->count = (status == FIELDSCRIBE_MODBUS_OK) ? count : 0U;
         return status;
     }
     if (size != 5U) {
-        return size < 5U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     if (fieldscribe_modbus_get(pdu + 1) != request->address) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (function == 0x0FU || function == 0x10U) {
-        return fieldscribe_modbus_get(pdu + 3) == count ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    if ((function == 0x0FU) || (function == 0x10U)) {
+        return (fieldscribe_modbus_get(pdu + 3) == count) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (request->values == NULL || count == 0U || fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
+    if ((request->values == NULL) || (count == 0U) ||
+        (fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request))) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (room > 0U) {
-        values[0] = request->values[0];
+    if (reply->room > 0U) {
+        reply->values[0] = request->values[0];
         reply->count = 1U;
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-static inline fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected = length;
+    uint16_t crc;
     bool known = true;
     bool refused = false;
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 5U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -385,12 +549,13 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const field
     } else if (bytes[1] != request->function) {
         known = false; /* nobody knows how long it ought to be */
     } else {
-        expected = fieldscribe_modbus_reads(request->function) ? 5U + (size_t)bytes[2] : 8U;
+        expected = fieldscribe_modbus_reads(request->function) ? (5U + (size_t)bytes[2]) : 8U;
     }
     if (length != expected) {
-        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (fieldscribe_modbus_crc(bytes, length - 2U) != (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U])) {
+    crc = (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U]);
+    if (fieldscribe_modbus_crc(bytes, length - 2U) != crc) {
         return FIELDSCRIBE_MODBUS_BAD_CRC;
     }
     if (bytes[0] != request->unit) {
@@ -403,13 +568,15 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const field
         reply->exception = bytes[2];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
-    return fieldscribe_modbus_take(request, bytes + 1, length - 3U, values, room, reply);
+    return fieldscribe_modbus_take(request, bytes + 1, length - 3U, reply);
 }
 
-static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -418,7 +585,7 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const field
     }
     expected = 6U + (size_t)fieldscribe_modbus_get(bytes + 4);
     if (length != expected) {
-        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     if (fieldscribe_modbus_get(bytes) != request->transaction) {
         return FIELDSCRIBE_MODBUS_WRONG_TRANSACTION;
@@ -436,22 +603,43 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const field
     if (bytes[7] != request->function) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    return fieldscribe_modbus_take(request, bytes + 7, length - 7U, values, room, reply);
+    return fieldscribe_modbus_take(request, bytes + 7, length - 7U, reply);
 }
 
-/*
- * Reads the answer to `request`. What was read is stored in `values`, which has `room` items: words, or 0 and 1; for
- * 05h, 06h and 08h the value that was echoed, if there is room for it.
- */
-static inline fieldscribe_modbus_status fieldscribe_modbus_parse(fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, uint16_t *values, size_t room,
-    fieldscribe_modbus_reply *reply)
+/* The bytes of an answer, from the unit to the end of what it is about. */
+static uint32_t fieldscribe_modbus_answer(const fieldscribe_modbus_request *request)
 {
-    reply->count = 0U;
-    reply->exception = 0U;
-    return framing == FIELDSCRIBE_MODBUS_TCP
-        ? fieldscribe_modbus_parse_tcp(request, bytes, length, values, room, reply)
-        : fieldscribe_modbus_parse_rtu(request, bytes, length, values, room, reply);
+    if (fieldscribe_modbus_reads_bits(request->function)) {
+        return 3U + (((uint32_t)request->count + 7U) / 8U);
+    }
+    return fieldscribe_modbus_reads(request->function) ? (3U + ((uint32_t)request->count * 2U)) : 6U;
+}
+
+/* The bytes of a frame beside that: its checksum, or its head. */
+static uint32_t fieldscribe_modbus_around(fieldscribe_modbus_framing framing)
+{
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? 6U : 2U;
+}
+
+uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request)
+{
+    if (request->unit == profile->broadcast) {
+        return 0U;
+    }
+    return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
+}
+
+uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request,
+    const uint8_t *bytes, size_t length)
+{
+    const uint32_t around = fieldscribe_modbus_around(framing);
+    const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
+    uint32_t whole = around + 3U; /* of a refusal, which is the shortest answer */
+    if ((length >= whole) && ((bytes[code] & 0x80U) == 0U)) {
+        whole = around + fieldscribe_modbus_answer(request);
+    }
+    return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
 #ifdef __cplusplus

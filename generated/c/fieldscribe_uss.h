@@ -2,22 +2,39 @@
  * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
  * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
  * No heap, no state; any bytes at any length are safe to parse.
- *
  * SPDX-License-Identifier: 0BSD
+ *
+ * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
+ *
+ * Reading a parameter over a serial line; `sent` and `heard` are words of process data:
+ *
+ *     const fieldscribe_uss_words process = {sent, link.pzd};
+ *     fieldscribe_uss_reply reply = {heard, link.pzd, 0U, 0U, 0U, 0U};
+ *     request = fieldscribe_uss_read(unit, &siemens_mm4_maximum_frequency_frame.read);
+ *     status = fieldscribe_uss_build(&profile, &link, &request, &process, frame, sizeof frame, &length);
+ *     send(frame, length);
+ *     got = 0U;
+ *     while ((left = fieldscribe_uss_left(&link, frame, got)) > 0U) {
+ *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *     }
+ *     status = fieldscribe_uss_parse(&profile, &link, &request, frame, got, &reply);
+ *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_maximum_frequency_frame.read, words);
+ *     fits = fieldscribe_take_u32(siemens_mm4_maximum_frequency_frame.layout, words, &raw);
+ *
+ * Writing one: fieldscribe_put_u32(frame.layout, raw, words), then fieldscribe_uss_write(unit, &frame.write, words).
+ * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
+#include "fieldscribe.h"
+
 #ifndef FIELDSCRIBE_USS_H
 #define FIELDSCRIBE_USS_H
-
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_USS_INTERFACE 1
+#define FIELDSCRIBE_USS_INTERFACE 2
 
 /* The longest telegram there is. */
 #define FIELDSCRIBE_USS_MOST 256U
@@ -79,6 +96,78 @@ typedef struct fieldscribe_uss_profile {
     uint8_t most_pzd;
 } fieldscribe_uss_profile;
 
+/* What reads a parameter: its value has `width` words. */
+typedef struct fieldscribe_uss_reading {
+    uint8_t task;
+    uint16_t parameter;
+    uint16_t index;
+    uint8_t width;
+} fieldscribe_uss_reading;
+
+/* What writes one. */
+typedef struct fieldscribe_uss_writing {
+    uint8_t task;
+    uint16_t parameter;
+    uint16_t index;
+    uint8_t width;
+} fieldscribe_uss_writing;
+
+/* Where a point stands in the words of process data that are heard, and in those that are sent. */
+typedef struct fieldscribe_uss_heard {
+    uint16_t position;
+} fieldscribe_uss_heard;
+
+typedef struct fieldscribe_uss_sent {
+    uint16_t position;
+} fieldscribe_uss_sent;
+
+/*
+ * A point by what may be done with it: `read`, `write`, or `update` bits of a word that it shares with other points;
+ * for process data `heard` and `sent`.
+ */
+typedef struct fieldscribe_uss_r {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_reading read;
+} fieldscribe_uss_r;
+
+typedef struct fieldscribe_uss_w {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_writing write;
+} fieldscribe_uss_w;
+
+typedef struct fieldscribe_uss_rw {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_reading read;
+    fieldscribe_uss_writing write;
+} fieldscribe_uss_rw;
+
+typedef struct fieldscribe_uss_u {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_writing update;
+} fieldscribe_uss_u;
+
+typedef struct fieldscribe_uss_ru {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_reading read;
+    fieldscribe_uss_writing update;
+} fieldscribe_uss_ru;
+
+typedef struct fieldscribe_uss_h {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_heard heard;
+} fieldscribe_uss_h;
+
+typedef struct fieldscribe_uss_s {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_sent sent;
+} fieldscribe_uss_s;
+
+typedef struct fieldscribe_uss_hs {
+    const fieldscribe_layout *layout;
+    fieldscribe_uss_heard heard;
+    fieldscribe_uss_sent sent;
+} fieldscribe_uss_hs;
+
 /* What is asked of a parameter. `width` is how many words the value has: 0 for none, 1 or 2. */
 typedef struct fieldscribe_uss_request {
     uint8_t unit;
@@ -89,8 +178,19 @@ typedef struct fieldscribe_uss_request {
     uint32_t value;
 } fieldscribe_uss_request;
 
-/* What an answer says: the words of the value and the value, or the error when the device refused. */
+/* Words of process data to send: as many as the link has. */
+typedef struct fieldscribe_uss_words {
+    const uint16_t *words;
+    size_t count;
+} fieldscribe_uss_words;
+
+/*
+ * What an answer says: the words of the value and the value, or the error when the device refused. The caller gives
+ * `process` with `room` words for process data, which is not where those are that are sent next.
+ */
 typedef struct fieldscribe_uss_reply {
+    uint16_t *process;
+    size_t room;
     uint8_t response;
     uint8_t width;
     uint32_t value;
@@ -98,38 +198,105 @@ typedef struct fieldscribe_uss_reply {
 } fieldscribe_uss_reply;
 
 /* A request for no parameter: only process data is exchanged. */
-static inline fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit)
+FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit);
+
+/* The request that reads a parameter. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, const fieldscribe_uss_reading *what);
+
+/* The request that writes one: as many `words` as its value has, the high one first. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_write(
+    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words);
+
+/* The telegram of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process,
+    uint8_t *buffer, size_t size, size_t *length);
+
+/*
+ * A telegram for all units, which nobody answers. `mask` stands where the parameter part is: only the bits that are set
+ * there are taken from the words of process data.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const uint16_t mask[4], const fieldscribe_uss_words *process, uint8_t *buffer,
+    size_t size, size_t *length);
+
+/* The bytes of an answer over the link; the fewest, where the parameter part is as long as its content needs. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_link *link);
+
+/* How many bytes of the answer are still to be waited for when `length` of them have come; 0 when it is whole. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
+    const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length);
+
+/*
+ * Reads the answer to `request`. The words of process data, as many as the link has, come with every good telegram,
+ * also with one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they
+ * were if it is not good. What an answer does not say is 0 in the reply.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
+    fieldscribe_uss_reply *reply);
+
+/* The words of the value that an answer brings, the high one first; WRONG_RESPONSE when it has another width. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_words_of_reply(
+    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words);
+
+/* The words of one point among those of process data. */
+FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_uss_words_heard(
+    const fieldscribe_uss_heard *where, const uint16_t *process);
+FIELDSCRIBE_CHECKED uint16_t *fieldscribe_uss_words_sent(const fieldscribe_uss_sent *where, uint16_t *process);
+
+/* The last byte of a telegram: all before it, combined by exclusive or. */
+FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+/* ---- The one definition ---- */
+
+#if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_USS_IMPLEMENTED)
+#define FIELDSCRIBE_USS_IMPLEMENTED
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit)
 {
     const fieldscribe_uss_request request = {unit, 0U, 0U, 0U, 0U, 0U};
     return request;
 }
 
-static inline fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index)
+fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, const fieldscribe_uss_reading *what)
 {
-    const fieldscribe_uss_request request = {unit, task, parameter, index, 0U, 0U};
+    const fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, 0U, 0U};
     return request;
 }
 
-static inline fieldscribe_uss_request fieldscribe_uss_write(
-    uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index, uint8_t width, uint32_t value)
+fieldscribe_uss_request fieldscribe_uss_write(
+    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words)
 {
-    const fieldscribe_uss_request request = {unit, task, parameter, index, width, value};
+    fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, what->width, words[0]};
+    if (what->width == 2U) {
+        request.value = (request.value << 16) | words[1];
+    }
     return request;
 }
 
-static inline uint16_t fieldscribe_uss_get(const uint8_t *bytes)
+static uint16_t fieldscribe_uss_get(const uint8_t *bytes)
 {
     return (uint16_t)(((uint32_t)bytes[0] << 8) | bytes[1]);
 }
 
-static inline void fieldscribe_uss_put(uint8_t *bytes, uint16_t number)
+static void fieldscribe_uss_put(uint8_t *bytes, uint16_t number)
 {
     bytes[0] = (uint8_t)(number >> 8);
     bytes[1] = (uint8_t)(number & 0xFFU);
 }
 
-/* The last byte of a telegram: all before it, combined by exclusive or. */
-static inline uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length)
+uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length)
 {
     uint8_t check = 0U;
     size_t at;
@@ -140,7 +307,7 @@ static inline uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length)
 }
 
 /* The task of that number; NULL when the device does not know it. */
-static inline const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_profile *profile, uint8_t number)
+static const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_profile *profile, uint8_t number)
 {
     size_t at;
     for (at = 0U; at < profile->task_count; ++at) {
@@ -152,47 +319,47 @@ static inline const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe
 }
 
 /* The index word: the index, and the page of 2000 parameters in bits 15, 12, 13, 14 (its lowest bit in bit 15). */
-static inline uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
+static uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
 {
     const uint32_t page = parameter / 2000U;
-    return (uint16_t)(index | ((page & 1U) << 15) | ((page >> 1 & 1U) << 12) | ((page >> 2 & 1U) << 13) |
-        ((page >> 3 & 1U) << 14));
+    return (uint16_t)(index | ((page & 1U) << 15) | (((page >> 1) & 1U) << 12) | (((page >> 2) & 1U) << 13) |
+        (((page >> 3) & 1U) << 14));
 }
 
 /* Whether a single word stands in the second of the two words for the value. */
-static inline bool fieldscribe_uss_single_last(const fieldscribe_uss_link *link)
+static bool fieldscribe_uss_single_last(const fieldscribe_uss_link *link)
 {
-    return link->pkw == 4U && !link->single_first;
+    return (link->pkw == 4U) && !link->single_first;
 }
 
 /* Whether the device can be set to such a parameter part. */
-static inline bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, uint8_t pkw)
+static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, uint8_t pkw)
 {
     size_t at = 0U;
-    while (at < profile->pkw_count && profile->pkw[at] != pkw) {
+    while ((at < profile->pkw_count) && (profile->pkw[at] != pkw)) {
         ++at;
     }
     return at < profile->pkw_count;
 }
 
 /* Whether the device can be set to so many words of process data, and `count` is how many there are. */
-static inline bool fieldscribe_uss_allows_pzd(
+static bool fieldscribe_uss_allows_pzd(
     const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
 {
-    return count == link->pzd && link->pzd >= profile->least_pzd && link->pzd <= profile->most_pzd;
+    return (count == link->pzd) && (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
 }
 
 /* Whether this device takes the request. */
-static inline fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profile *profile,
+static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, size_t pzd_count)
 {
     if (!fieldscribe_uss_allows_pkw(profile, link->pkw) || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
-    if (request->unit < profile->first_unit || request->unit > profile->last_unit) {
+    if ((request->unit < profile->first_unit) || (request->unit > profile->last_unit)) {
         return FIELDSCRIBE_USS_BAD_UNIT;
     }
-    if (fieldscribe_uss_find(profile, request->task) == NULL || (link->pkw == 0U && request->task != 0U)) {
+    if ((fieldscribe_uss_find(profile, request->task) == NULL) || ((link->pkw == 0U) && (request->task != 0U))) {
         return FIELDSCRIBE_USS_BAD_TASK;
     }
     if (request->parameter > FIELDSCRIBE_USS_LAST_PARAMETER) {
@@ -201,94 +368,86 @@ static inline fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_us
     if (request->index > 0xFFU) {
         return FIELDSCRIBE_USS_BAD_INDEX;
     }
-    if (request->width > 2U || (request->width == 2U && link->pkw == 3U) ||
-        (request->width == 1U && request->value > 0xFFFFU) || (request->width == 0U && request->value != 0U)) {
+    if ((request->width > 2U) || ((request->width == 2U) && (link->pkw == 3U)) ||
+        ((request->width == 1U) && (request->value > 0xFFFFU)) || ((request->width == 0U) && (request->value != 0U))) {
         return FIELDSCRIBE_USS_BAD_VALUE;
     }
     return FIELDSCRIBE_USS_OK;
 }
 
 /* Puts a telegram together: `head` has `head_bytes` bytes of parameter part. */
-static inline fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
-    const uint16_t *pzd, size_t pzd_count, uint8_t *buffer, size_t size, size_t *length)
+static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
+    const fieldscribe_uss_words *process, uint8_t *buffer, size_t size, size_t *length)
 {
-    const size_t most = size < FIELDSCRIBE_USS_MOST ? size : FIELDSCRIBE_USS_MOST;
+    const size_t most = (size < FIELDSCRIBE_USS_MOST) ? size : FIELDSCRIBE_USS_MOST;
     const size_t around = 4U + head_bytes; /* with start, length, address and check */
     size_t used;
     size_t at;
-    if (most < around || pzd_count > (most - around) / 2U) {
+    if ((most < around) || (process->count > ((most - around) / 2U))) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
-    used = around + 2U * pzd_count;
+    used = around + (2U * process->count);
     buffer[0] = 0x02U;
     buffer[1] = (uint8_t)((used - 2U) & 0xFFU);
     buffer[2] = address;
     for (at = 0U; at < head_bytes; ++at) {
         buffer[3U + at] = head[at];
     }
-    for (at = 0U; at < pzd_count; ++at) {
-        fieldscribe_uss_put(buffer + 3U + head_bytes + 2U * at, pzd[at]);
+    for (at = 0U; at < process->count; ++at) {
+        fieldscribe_uss_put(buffer + 3U + head_bytes + (2U * at), process->words[at]);
     }
     buffer[used - 1U] = fieldscribe_uss_check(buffer, used - 1U);
     *length = used;
     return FIELDSCRIBE_USS_OK;
 }
 
-/*
- * The telegram of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. `pzd` has
- * `pzd_count` words of process data, as many as the link.
- */
-static inline fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
-    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint16_t *pzd, size_t pzd_count,
+fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process,
     uint8_t *buffer, size_t size, size_t *length)
 {
-    const fieldscribe_uss_status status = fieldscribe_uss_allows(profile, link, request, pzd_count);
+    const fieldscribe_uss_status status = fieldscribe_uss_allows(profile, link, request, process->count);
     uint32_t value = request->value;
     uint8_t head[8];
     *length = 0U;
     if (status != FIELDSCRIBE_USS_OK) {
         return status;
     }
-    if (request->width == 1U && !fieldscribe_uss_single_last(link)) {
+    if ((request->width == 1U) && !fieldscribe_uss_single_last(link)) {
         value <<= 16; /* into the first of the two words */
     }
-    fieldscribe_uss_put(head, (uint16_t)(((uint32_t)request->task & 0xFU) << 12 | request->parameter % 2000U));
+    fieldscribe_uss_put(head, (uint16_t)((((uint32_t)request->task & 0xFU) << 12) | (request->parameter % 2000U)));
     fieldscribe_uss_put(head + 2, fieldscribe_uss_index_word(request->parameter, request->index));
     fieldscribe_uss_put(head + 4, (uint16_t)(value >> 16));
     fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* left out where the part has 3 words */
-    return fieldscribe_uss_assemble(request->unit, head, link->pkw == 0U ? 0U : link->pkw == 3U ? 6U : 8U, pzd,
-        pzd_count, buffer, size, length);
+    return fieldscribe_uss_assemble(request->unit, head, (link->pkw == 0U) ? 0U : ((link->pkw == 3U) ? 6U : 8U),
+        process, buffer, size, length);
 }
 
-/*
- * A telegram for all units, which nobody answers. `mask` stands where the parameter part is: only the bits that are set
- * there are taken from the words of process data.
- */
-static inline fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_profile *profile,
-    const fieldscribe_uss_link *link, const uint16_t mask[4], const uint16_t *pzd, size_t pzd_count, uint8_t *buffer,
+fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const uint16_t mask[4], const fieldscribe_uss_words *process, uint8_t *buffer,
     size_t size, size_t *length)
 {
     uint8_t head[8];
     size_t at;
     *length = 0U;
-    if (profile->broadcast > 0xFFU || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
+    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, process->count)) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
     for (at = 0U; at < 4U; ++at) {
-        fieldscribe_uss_put(head + 2U * at, mask[at]);
+        fieldscribe_uss_put(head + (2U * at), mask[at]);
     }
     return fieldscribe_uss_assemble(
-        (uint8_t)profile->broadcast, head, sizeof head, pzd, pzd_count, buffer, size, length);
+        (uint8_t)profile->broadcast, head, sizeof head, process, buffer, size, length);
 }
 
 /* Whether a parameter part of that many words can come over the link. */
-static inline bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
+static bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
 {
-    return link->pkw == FIELDSCRIBE_USS_VARIABLE ? words >= 3U : words == link->pkw;
+    return (link->pkw == FIELDSCRIBE_USS_VARIABLE) ? (words >= 3U) : (words == link->pkw);
 }
 
 /* Reads the parameter part of an answer, which has `words` words. */
-static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile *profile,
+static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *part, size_t words,
     fieldscribe_uss_reply *reply)
 {
@@ -303,9 +462,9 @@ static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_
     }
     head = fieldscribe_uss_get(part);
     first = fieldscribe_uss_get(part + 4);
-    second = words > 3U ? fieldscribe_uss_get(part + 6) : 0U;
+    second = (words > 3U) ? fieldscribe_uss_get(part + 6) : 0U;
     response = (uint8_t)(head >> 12);
-    is_double = response == 2U || response == 5U;
+    is_double = (response == 2U) || (response == 5U);
     if (request->task == 0U) {
         reply->response = response; /* nothing was asked: there is no value */
         return FIELDSCRIBE_USS_OK;
@@ -313,8 +472,8 @@ static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_
     if (response == 0U) {
         return FIELDSCRIBE_USS_NO_ANSWER;
     }
-    if ((head & 0x0FFFU) != request->parameter % 2000U ||
-        fieldscribe_uss_get(part + 2) != fieldscribe_uss_index_word(request->parameter, request->index)) {
+    if (((head & 0x0FFFU) != (request->parameter % 2000U)) ||
+        (fieldscribe_uss_get(part + 2) != fieldscribe_uss_index_word(request->parameter, request->index))) {
         return FIELDSCRIBE_USS_WRONG_PARAMETER;
     }
     if (response == 7U) {
@@ -325,47 +484,42 @@ static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_
     if (response == 8U) {
         return FIELDSCRIBE_USS_NO_RIGHTS;
     }
-    if (task == NULL || ((uint32_t)task->answers >> response & 1U) == 0U) {
+    if ((task == NULL) || ((((uint32_t)task->answers >> response) & 1U) == 0U)) {
         return FIELDSCRIBE_USS_WRONG_RESPONSE;
     }
-    if (is_double && words < 4U) {
+    if (is_double && (words < 4U)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     reply->response = response;
     reply->width = is_double ? 2U : 1U;
     if (is_double) {
-        reply->value = (uint32_t)first << 16 | second;
+        reply->value = ((uint32_t)first << 16) | second;
     } else {
         reply->value = fieldscribe_uss_single_last(link) ? second : first;
     }
     return FIELDSCRIBE_USS_OK;
 }
 
-/*
- * Reads the answer to `request`. The words of process data, as many as the link has, are stored in `pzd`, which has
- * room for `room` of them, and is not where those are that are sent next: they come with every good telegram, also with
- * one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they were if it
- * is not good. What an answer does not say is 0 in the reply.
- */
-static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
+fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
-    uint16_t *pzd, size_t room, fieldscribe_uss_reply *reply)
+    fieldscribe_uss_reply *reply)
 {
-    static const fieldscribe_uss_reply nothing = {0U, 0U, 0U, 0U};
     fieldscribe_uss_status status = FIELDSCRIBE_USS_OK;
     size_t all; /* words of data */
     size_t words; /* of them in the parameter part */
-    size_t from;
     size_t at;
-    *reply = nothing;
-    if (length == 0U || bytes[0] != 0x02U) {
+    reply->response = 0U;
+    reply->width = 0U;
+    reply->value = 0U;
+    reply->error = 0U;
+    if ((length == 0U) || (bytes[0] != 0x02U)) {
         return FIELDSCRIBE_USS_WRONG_START;
     }
-    if (length < 4U || (size_t)bytes[1] + 2U != length || length % 2U != 0U) {
+    if ((length < 4U) || (((size_t)bytes[1] + 2U) != length) || ((length % 2U) != 0U)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     all = (length - 4U) / 2U;
-    if (all < link->pzd || !fieldscribe_uss_fits(link, all - link->pzd)) {
+    if ((all < link->pzd) || !fieldscribe_uss_fits(link, all - link->pzd)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     words = all - link->pzd;
@@ -375,18 +529,60 @@ static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss
     if (bytes[2] != request->unit) {
         return FIELDSCRIBE_USS_WRONG_UNIT;
     }
-    if (room < link->pzd) {
+    if (reply->room < link->pzd) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
     if (link->pkw != 0U) {
         status = fieldscribe_uss_take(profile, link, request, bytes + 3, words, reply);
     }
     if (status != FIELDSCRIBE_USS_WRONG_LENGTH) {
-        for (at = 0U, from = words; at < link->pzd && from < all; ++at, ++from) {
-            pzd[at] = fieldscribe_uss_get(bytes + 3U + 2U * from);
+        size_t from = words;
+        for (at = 0U; (at < link->pzd) && (from < all); ++at) {
+            reply->process[at] = fieldscribe_uss_get(bytes + 3U + (2U * from));
+            ++from;
         }
     }
     return status;
+}
+
+uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_link *link)
+{
+    const uint32_t part = (link->pkw == FIELDSCRIBE_USS_VARIABLE) ? 3U : link->pkw;
+    return 4U + (2U * (part + link->pzd));
+}
+
+uint32_t fieldscribe_uss_left(const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length)
+{
+    uint32_t whole = fieldscribe_uss_reply_length(link);
+    if ((length >= 2U) && (link->pkw == FIELDSCRIBE_USS_VARIABLE)) {
+        whole = 2U + (uint32_t)bytes[1];
+    }
+    return (length < whole) ? (whole - (uint32_t)length) : 0U;
+}
+
+fieldscribe_uss_status fieldscribe_uss_words_of_reply(
+    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words)
+{
+    if (reply->width != what->width) {
+        return FIELDSCRIBE_USS_WRONG_RESPONSE;
+    }
+    if (reply->width == 2U) {
+        words[0] = (uint16_t)(reply->value >> 16);
+        words[1] = (uint16_t)(reply->value & 0xFFFFU);
+    } else {
+        words[0] = (uint16_t)(reply->value & 0xFFFFU);
+    }
+    return FIELDSCRIBE_USS_OK;
+}
+
+const uint16_t *fieldscribe_uss_words_heard(const fieldscribe_uss_heard *where, const uint16_t *process)
+{
+    return &process[where->position];
+}
+
+uint16_t *fieldscribe_uss_words_sent(const fieldscribe_uss_sent *where, uint16_t *process)
+{
+    return &process[where->position];
 }
 
 #ifdef __cplusplus

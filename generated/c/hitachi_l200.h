@@ -8,31 +8,18 @@
  * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
  * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
  * and writes its result only when it returns HITACHI_L200_OK. Decoding takes whatever the device may send.
- *
- * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
- * FIELDSCRIBE_FLOAT32 makes hitachi_l200_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: the results are exact to the bit without them.
+ * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
  */
 #ifndef HITACHI_L200_H
 #define HITACHI_L200_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "fieldscribe.h"
 
-#if !defined(FIELDSCRIBE_NO_FLOAT) && \
-    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#if FIELDSCRIBE_INTERFACE != 1
+#error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-#include <float.h>
-#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
-#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_NO_FLOAT."
-#endif
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 /* 16 is about half floats alone */
-#error "The arithmetic here has excess precision (x87): compile with -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
-#endif
+#if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
+#error "A double has not 53 bits here, and values need them: define FIELDSCRIBE_NO_FLOAT."
 #endif
 
 #define HITACHI_L200_DESCRIPTION_VERSION "1.0.0"
@@ -42,966 +29,304 @@
 extern "C" {
 #endif
 
-/* What conversions answer. */
-typedef enum hitachi_l200_status {
-    HITACHI_L200_OK = 0,
-    HITACHI_L200_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
-    HITACHI_L200_NOT_A_NUMBER,  /* the value is NaN */
-    HITACHI_L200_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    HITACHI_L200_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    HITACHI_L200_NO_CASE,       /* no scale for what the other point holds */
-    HITACHI_L200_OVERFLOW,      /* the result does not fit */
-    HITACHI_L200_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
-} hitachi_l200_status;
-
-/* Where an address counts. */
-enum {
-    HITACHI_L200_SPACE_COIL = 0,
-    HITACHI_L200_SPACE_HOLDING = 1
-};
-
+typedef fieldscribe_status hitachi_l200_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
-/* Machines that can multiply and add in one rounding. Of others than x86 and ARM clang does not tell, MSVC never. */
-#if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
-    defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
-    (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
-#define HITACHI_L200_MAY_FUSE
+typedef fieldscribe_real hitachi_l200_real;
 #endif
+#define HITACHI_L200_OK FIELDSCRIBE_OK
+#define HITACHI_L200_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
+#define HITACHI_L200_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
+#define HITACHI_L200_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
+#define HITACHI_L200_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
+#define HITACHI_L200_NO_CASE FIELDSCRIBE_NO_CASE
+#define HITACHI_L200_OVERFLOW FIELDSCRIBE_OVERFLOW
+#define HITACHI_L200_SPECIAL FIELDSCRIBE_SPECIAL
 
-#if defined(FIELDSCRIBE_FLOAT32)
-typedef float hitachi_l200_real;
-#else
-typedef double hitachi_l200_real;
-#endif
 
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
-static inline hitachi_l200_real hitachi_l200_times(hitachi_l200_real value, hitachi_l200_real factor)
-{
-#if defined(HITACHI_L200_MAY_FUSE)
-    volatile hitachi_l200_real product = value * factor;
-    return product;
-#else
-    return value * factor;
-#endif
-}
+/* ---- coils (coil) ---- */
 
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
-static inline double hitachi_l200_times_wide(double value, double factor)
-{
-#if defined(HITACHI_L200_MAY_FUSE)
-    volatile double product = value * factor;
-    return product;
-#else
-    return value * factor;
-#endif
-}
-
-/* The nearest integer, halves away from zero, if it lies in low..high (which stay below 2^31 - 1 in size). */
-static inline hitachi_l200_status hitachi_l200_round(hitachi_l200_real number, int32_t low, int32_t high, int32_t *whole)
-{
-    int32_t nearest;
-    hitachi_l200_real rest;
-    if (!(number > (hitachi_l200_real)(low - 1) && number < (hitachi_l200_real)(high + 1))) {
-        return number < 0 || number >= 0 ? HITACHI_L200_OUT_OF_RANGE : HITACHI_L200_NOT_A_NUMBER;
-    }
-    nearest = (int32_t)number;
-    rest = number - (hitachi_l200_real)nearest;
-    if (rest >= (hitachi_l200_real)0.5) {
-        ++nearest;
-    } else if (rest <= (hitachi_l200_real)-0.5) {
-        --nearest;
-    }
-    if (nearest < low || nearest > high) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *whole = nearest;
-    return HITACHI_L200_OK;
-}
-
-/* The nearest integer, halves away from zero, if it lies in low..high. */
-static inline hitachi_l200_status hitachi_l200_round_wide(double number, int64_t low, int64_t high, int64_t *whole)
-{
-    int64_t nearest;
-    double rest;
-    if (!(number >= -9223372036854775808.0 && number < 9223372036854775808.0)) {
-        return number < 0 || number >= 0 ? HITACHI_L200_OUT_OF_RANGE : HITACHI_L200_NOT_A_NUMBER;
-    }
-    nearest = (int64_t)number;
-    rest = number - (double)nearest;
-    if (rest >= 0.5) {
-        ++nearest;
-    } else if (rest <= -0.5) {
-        --nearest;
-    }
-    if (nearest < low || nearest > high) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *whole = nearest;
-    return HITACHI_L200_OK;
-}
-#endif
-
-/* ---- Coils ---- */
-
-/* Run command */
 enum {
     HITACHI_L200_RUN_COMMAND_STOP = 0,
     HITACHI_L200_RUN_COMMAND_RUN = 1
 };
-
+static const char *const hitachi_l200_run_command_names[] = {
+    "stop", "run"
+};
 static inline const char *hitachi_l200_run_command_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RUN_COMMAND_STOP:
-        return "stop";
-    case HITACHI_L200_RUN_COMMAND_RUN:
-        return "run";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_run_command_names, raw); }
 
-/*
- * Run command
- * 0, 1; read and write.
- */
-#define HITACHI_L200_RUN_COMMAND_SPACE HITACHI_L200_SPACE_COIL
+/* run command: 0, 1; rw, modicon 1 */
 #define HITACHI_L200_RUN_COMMAND_ADDRESS 0x0000U
-#define HITACHI_L200_RUN_COMMAND_MODICON 1U
-#define HITACHI_L200_RUN_COMMAND_WORDS 1U
 #define HITACHI_L200_RUN_COMMAND_RAW_MIN 0
 #define HITACHI_L200_RUN_COMMAND_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_run_command_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_run_command_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_run_command_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_run_command_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_run_command_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_RUN_COMMAND_RAW_MIN || value > HITACHI_L200_RUN_COMMAND_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_run_command_decode(bool raw)
-{
-    return raw;
-}
-
-/* Direction command */
 enum {
     HITACHI_L200_DIRECTION_COMMAND_FORWARD = 0,
     HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1
 };
-
+static const char *const hitachi_l200_direction_command_names[] = {
+    "forward", "reverse"
+};
 static inline const char *hitachi_l200_direction_command_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_DIRECTION_COMMAND_FORWARD:
-        return "forward";
-    case HITACHI_L200_DIRECTION_COMMAND_REVERSE:
-        return "reverse";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_direction_command_names, raw); }
 
-/*
- * Direction command
- * 0, 1; read and write.
- * Erratum coil_reverse_spelling (certain): printed: Reverse is REV in one row and RV in another; taken: Both are
- * reverse.
- * Erratum rotation_words (likely): printed: The directions are Rechtslauf and Linkslauf, Rechts and Links, FW and
- * REV, FW and RV in four places; taken: Forward and reverse everywhere.
- */
-#define HITACHI_L200_DIRECTION_COMMAND_SPACE HITACHI_L200_SPACE_COIL
+/* direction command: 0, 1; rw, modicon 2 */
 #define HITACHI_L200_DIRECTION_COMMAND_ADDRESS 0x0001U
-#define HITACHI_L200_DIRECTION_COMMAND_MODICON 2U
-#define HITACHI_L200_DIRECTION_COMMAND_WORDS 1U
 #define HITACHI_L200_DIRECTION_COMMAND_RAW_MIN 0
 #define HITACHI_L200_DIRECTION_COMMAND_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_direction_command_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_direction_command_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_direction_command_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_direction_command_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_direction_command_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIRECTION_COMMAND_RAW_MIN || value > HITACHI_L200_DIRECTION_COMMAND_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_direction_command_decode(bool raw)
-{
-    return raw;
-}
-
-/* External trip */
 enum {
     HITACHI_L200_EXTERNAL_TRIP_NO_TRIP = 0,
     HITACHI_L200_EXTERNAL_TRIP_TRIP = 1
 };
-
+static const char *const hitachi_l200_external_trip_names[] = {
+    "no_trip", "trip"
+};
 static inline const char *hitachi_l200_external_trip_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_EXTERNAL_TRIP_NO_TRIP:
-        return "no_trip";
-    case HITACHI_L200_EXTERNAL_TRIP_TRIP:
-        return "trip";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_external_trip_names, raw); }
 
-/*
- * External trip
- * 0, 1; read and write.
- */
-#define HITACHI_L200_EXTERNAL_TRIP_SPACE HITACHI_L200_SPACE_COIL
+/* external trip: 0, 1; rw, modicon 3 */
 #define HITACHI_L200_EXTERNAL_TRIP_ADDRESS 0x0002U
-#define HITACHI_L200_EXTERNAL_TRIP_MODICON 3U
-#define HITACHI_L200_EXTERNAL_TRIP_WORDS 1U
 #define HITACHI_L200_EXTERNAL_TRIP_RAW_MIN 0
 #define HITACHI_L200_EXTERNAL_TRIP_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_external_trip_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_external_trip_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_external_trip_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_external_trip_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_external_trip_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_EXTERNAL_TRIP_RAW_MIN || value > HITACHI_L200_EXTERNAL_TRIP_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_external_trip_decode(bool raw)
-{
-    return raw;
-}
-
-/* Trip reset */
 enum {
     HITACHI_L200_TRIP_RESET_NO_RESET = 0,
     HITACHI_L200_TRIP_RESET_RESET = 1
 };
-
+static const char *const hitachi_l200_trip_reset_names[] = {
+    "no_reset", "reset"
+};
 static inline const char *hitachi_l200_trip_reset_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_TRIP_RESET_NO_RESET:
-        return "no_reset";
-    case HITACHI_L200_TRIP_RESET_RESET:
-        return "reset";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_trip_reset_names, raw); }
 
-/*
- * Trip reset
- * 0, 1; read and write.
- */
-#define HITACHI_L200_TRIP_RESET_SPACE HITACHI_L200_SPACE_COIL
+/* trip reset: 0, 1; rw, modicon 4 */
 #define HITACHI_L200_TRIP_RESET_ADDRESS 0x0003U
-#define HITACHI_L200_TRIP_RESET_MODICON 4U
-#define HITACHI_L200_TRIP_RESET_WORDS 1U
 #define HITACHI_L200_TRIP_RESET_RAW_MIN 0
 #define HITACHI_L200_TRIP_RESET_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_trip_reset_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_trip_reset_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_trip_reset_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_trip_reset_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
+/* reserved coil 0004: 0..1; r, modicon 5; not generated: reserved by the maker */
 
-static inline hitachi_l200_status hitachi_l200_trip_reset_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_TRIP_RESET_RAW_MIN || value > HITACHI_L200_TRIP_RESET_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
+/* reserved coil 0005: 0..1; r, modicon 6; not generated: reserved by the maker */
 
-static inline bool hitachi_l200_trip_reset_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Reserved coil 0004
- * 0..1; read only.
- * Not generated (reserved_coil_0004): reserved by the maker.
- */
-
-/*
- * Reserved coil 0005
- * 0..1; read only.
- * Not generated (reserved_coil_0005): reserved by the maker.
- */
-
-/* Off on */
 enum {
     HITACHI_L200_OFF_ON_OFF = 0,
     HITACHI_L200_OFF_ON_ON = 1
 };
-
+static const char *const hitachi_l200_off_on_names[] = {
+    "off", "on"
+};
 static inline const char *hitachi_l200_off_on_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_OFF_ON_OFF:
-        return "off";
-    case HITACHI_L200_OFF_ON_ON:
-        return "on";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_off_on_names, raw); }
 
-/*
- * Digital input 1
- * 0, 1; read and write.
- * Erratum coil_broken_line (unknown): printed: If a broken line leaves a coil on, the signal is to be removed at the
- * terminals; taken: Not taken as a fact.
- */
-#define HITACHI_L200_DIGITAL_INPUT_1_SPACE HITACHI_L200_SPACE_COIL
+/* digital input 1: 0, 1; rw, modicon 7 */
 #define HITACHI_L200_DIGITAL_INPUT_1_ADDRESS 0x0006U
-#define HITACHI_L200_DIGITAL_INPUT_1_MODICON 7U
-#define HITACHI_L200_DIGITAL_INPUT_1_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_1_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_digital_input_1_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_1_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_1_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_1_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_digital_input_1_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Digital input 2
- * 0, 1; read and write.
- * Erratum coil_input_note_mark (certain): printed: Note 1 is marked at digital input 1 alone; taken: The note
- * applies to all five inputs.
- * Erratum coil_broken_line (unknown): printed: If a broken line leaves a coil on, the signal is to be removed at the
- * terminals; taken: Not taken as a fact.
- */
-#define HITACHI_L200_DIGITAL_INPUT_2_SPACE HITACHI_L200_SPACE_COIL
+/* digital input 2: 0, 1; rw, modicon 8 */
 #define HITACHI_L200_DIGITAL_INPUT_2_ADDRESS 0x0007U
-#define HITACHI_L200_DIGITAL_INPUT_2_MODICON 8U
-#define HITACHI_L200_DIGITAL_INPUT_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_digital_input_2_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_2_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_digital_input_2_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Digital input 3
- * 0, 1; read and write.
- * Erratum coil_input_note_mark (certain): printed: Note 1 is marked at digital input 1 alone; taken: The note
- * applies to all five inputs.
- * Erratum coil_broken_line (unknown): printed: If a broken line leaves a coil on, the signal is to be removed at the
- * terminals; taken: Not taken as a fact.
- */
-#define HITACHI_L200_DIGITAL_INPUT_3_SPACE HITACHI_L200_SPACE_COIL
+/* digital input 3: 0, 1; rw, modicon 9 */
 #define HITACHI_L200_DIGITAL_INPUT_3_ADDRESS 0x0008U
-#define HITACHI_L200_DIGITAL_INPUT_3_MODICON 9U
-#define HITACHI_L200_DIGITAL_INPUT_3_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_3_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_digital_input_3_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_3_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_3_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_3_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_digital_input_3_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Digital input 4
- * 0, 1; read and write.
- * Erratum coil_input_note_mark (certain): printed: Note 1 is marked at digital input 1 alone; taken: The note
- * applies to all five inputs.
- * Erratum coil_broken_line (unknown): printed: If a broken line leaves a coil on, the signal is to be removed at the
- * terminals; taken: Not taken as a fact.
- */
-#define HITACHI_L200_DIGITAL_INPUT_4_SPACE HITACHI_L200_SPACE_COIL
+/* digital input 4: 0, 1; rw, modicon 10 */
 #define HITACHI_L200_DIGITAL_INPUT_4_ADDRESS 0x0009U
-#define HITACHI_L200_DIGITAL_INPUT_4_MODICON 10U
-#define HITACHI_L200_DIGITAL_INPUT_4_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_4_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_digital_input_4_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_4_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_4_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_4_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_digital_input_4_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Digital input 5
- * 0, 1; read and write.
- * Erratum coil_input_note_mark (certain): printed: Note 1 is marked at digital input 1 alone; taken: The note
- * applies to all five inputs.
- * Erratum coil_broken_line (unknown): printed: If a broken line leaves a coil on, the signal is to be removed at the
- * terminals; taken: Not taken as a fact.
- */
-#define HITACHI_L200_DIGITAL_INPUT_5_SPACE HITACHI_L200_SPACE_COIL
+/* digital input 5: 0, 1; rw, modicon 11 */
 #define HITACHI_L200_DIGITAL_INPUT_5_ADDRESS 0x000AU
-#define HITACHI_L200_DIGITAL_INPUT_5_MODICON 11U
-#define HITACHI_L200_DIGITAL_INPUT_5_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_5_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool hitachi_l200_digital_input_5_decode(bool raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_5_check(bool raw)
-{
-    (void)raw;
-    return HITACHI_L200_OK;
-}
+/* unused coil 000c: 0..1; none, modicon 13; not generated: not reachable over the bus */
 
-static inline hitachi_l200_status hitachi_l200_digital_input_5_encode(int32_t value, bool *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_5_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_5_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return HITACHI_L200_OK;
-}
-
-static inline bool hitachi_l200_digital_input_5_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Unused coil 000c
- * 0..1; not reachable over the bus.
- * Not generated (unused_coil_000c): not reachable over the bus.
- */
-
-/* Running */
 enum {
     HITACHI_L200_RUNNING_STOPPED = 0,
     HITACHI_L200_RUNNING_RUNNING = 1
 };
-
+static const char *const hitachi_l200_running_names[] = {
+    "stopped", "running"
+};
 static inline const char *hitachi_l200_running_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RUNNING_STOPPED:
-        return "stopped";
-    case HITACHI_L200_RUNNING_RUNNING:
-        return "running";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_running_names, raw); }
 
-/*
- * Running
- * 0, 1; read only.
- * Erratum coil_running_reference (likely): printed: The text refers to d003, which has three states, stop and two
- * directions; taken: The coil is 1 in both directions.
- */
-#define HITACHI_L200_RUNNING_SPACE HITACHI_L200_SPACE_COIL
+/* running: 0, 1; r, modicon 14 */
 #define HITACHI_L200_RUNNING_ADDRESS 0x000DU
-#define HITACHI_L200_RUNNING_MODICON 14U
-#define HITACHI_L200_RUNNING_WORDS 1U
-#define HITACHI_L200_RUNNING_RAW_MIN 0
-#define HITACHI_L200_RUNNING_RAW_MAX 1
+static inline bool hitachi_l200_running_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_running_decode(bool raw)
-{
-    return raw;
-}
-
-/* Direction status */
 enum {
     HITACHI_L200_DIRECTION_STATUS_FORWARD = 0,
     HITACHI_L200_DIRECTION_STATUS_REVERSE = 1
 };
-
+static const char *const hitachi_l200_direction_status_names[] = {
+    "forward", "reverse"
+};
 static inline const char *hitachi_l200_direction_status_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_DIRECTION_STATUS_FORWARD:
-        return "forward";
-    case HITACHI_L200_DIRECTION_STATUS_REVERSE:
-        return "reverse";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_direction_status_names, raw); }
 
-/*
- * Direction status
- * 0, 1; read only.
- * Erratum coil_reverse_spelling (certain): printed: Reverse is REV in one row and RV in another; taken: Both are
- * reverse.
- * Erratum rotation_words (likely): printed: The directions are Rechtslauf and Linkslauf, Rechts and Links, FW and
- * REV, FW and RV in four places; taken: Forward and reverse everywhere.
- */
-#define HITACHI_L200_DIRECTION_STATUS_SPACE HITACHI_L200_SPACE_COIL
+/* direction status: 0, 1; r, modicon 15 */
 #define HITACHI_L200_DIRECTION_STATUS_ADDRESS 0x000EU
-#define HITACHI_L200_DIRECTION_STATUS_MODICON 15U
-#define HITACHI_L200_DIRECTION_STATUS_WORDS 1U
-#define HITACHI_L200_DIRECTION_STATUS_RAW_MIN 0
-#define HITACHI_L200_DIRECTION_STATUS_RAW_MAX 1
+static inline bool hitachi_l200_direction_status_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_direction_status_decode(bool raw)
-{
-    return raw;
-}
-
-/* Ready */
 enum {
     HITACHI_L200_READY_NOT_READY = 0,
     HITACHI_L200_READY_READY = 1
 };
-
+static const char *const hitachi_l200_ready_names[] = {
+    "not_ready", "ready"
+};
 static inline const char *hitachi_l200_ready_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_READY_NOT_READY:
-        return "not_ready";
-    case HITACHI_L200_READY_READY:
-        return "ready";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_ready_names, raw); }
 
-/*
- * Ready
- * 0, 1; read only.
- */
-#define HITACHI_L200_READY_SPACE HITACHI_L200_SPACE_COIL
+/* ready: 0, 1; r, modicon 16 */
 #define HITACHI_L200_READY_ADDRESS 0x000FU
-#define HITACHI_L200_READY_MODICON 16U
-#define HITACHI_L200_READY_WORDS 1U
-#define HITACHI_L200_READY_RAW_MIN 0
-#define HITACHI_L200_READY_RAW_MAX 1
+static inline bool hitachi_l200_ready_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_ready_decode(bool raw)
-{
-    return raw;
-}
+/* reserved coil 0010: 0..1; r, modicon 17; not generated: reserved by the maker */
 
-/*
- * Reserved coil 0010
- * 0..1; read only.
- * Not generated (reserved_coil_0010): reserved by the maker.
- */
+/* reserved coil 0011: 0..1; r, modicon 18; not generated: reserved by the maker */
 
-/*
- * Reserved coil 0011
- * 0..1; read only.
- * Not generated (reserved_coil_0011): reserved by the maker.
- */
+/* reserved coil 0012: 0..1; r, modicon 19; not generated: reserved by the maker */
 
-/*
- * Reserved coil 0012
- * 0..1; read only.
- * Not generated (reserved_coil_0012): reserved by the maker.
- */
-
-/* Alarm */
 enum {
     HITACHI_L200_ALARM_NORMAL = 0,
     HITACHI_L200_ALARM_TRIPPED = 1
 };
-
+static const char *const hitachi_l200_alarm_names[] = {
+    "normal", "tripped"
+};
 static inline const char *hitachi_l200_alarm_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_ALARM_NORMAL:
-        return "normal";
-    case HITACHI_L200_ALARM_TRIPPED:
-        return "tripped";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_alarm_names, raw); }
 
-/*
- * Alarm
- * 0, 1; read only.
- */
-#define HITACHI_L200_ALARM_SPACE HITACHI_L200_SPACE_COIL
+/* alarm: 0, 1; r, modicon 20 */
 #define HITACHI_L200_ALARM_ADDRESS 0x0013U
-#define HITACHI_L200_ALARM_MODICON 20U
-#define HITACHI_L200_ALARM_WORDS 1U
-#define HITACHI_L200_ALARM_RAW_MIN 0
-#define HITACHI_L200_ALARM_RAW_MAX 1
+static inline bool hitachi_l200_alarm_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_alarm_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Pid deviation
- * 0, 1; read only.
- */
-#define HITACHI_L200_PID_DEVIATION_SPACE HITACHI_L200_SPACE_COIL
+/* pid deviation: 0, 1; r, modicon 21 */
 #define HITACHI_L200_PID_DEVIATION_ADDRESS 0x0014U
-#define HITACHI_L200_PID_DEVIATION_MODICON 21U
-#define HITACHI_L200_PID_DEVIATION_WORDS 1U
-#define HITACHI_L200_PID_DEVIATION_RAW_MIN 0
-#define HITACHI_L200_PID_DEVIATION_RAW_MAX 1
+static inline bool hitachi_l200_pid_deviation_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_pid_deviation_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Overload
- * 0, 1; read only.
- */
-#define HITACHI_L200_OVERLOAD_SPACE HITACHI_L200_SPACE_COIL
+/* overload: 0, 1; r, modicon 22 */
 #define HITACHI_L200_OVERLOAD_ADDRESS 0x0015U
-#define HITACHI_L200_OVERLOAD_MODICON 22U
-#define HITACHI_L200_OVERLOAD_WORDS 1U
-#define HITACHI_L200_OVERLOAD_RAW_MIN 0
-#define HITACHI_L200_OVERLOAD_RAW_MAX 1
+static inline bool hitachi_l200_overload_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_overload_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Frequency arrival in acceleration
- * 0, 1; read only.
- */
-#define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_SPACE HITACHI_L200_SPACE_COIL
+/* frequency arrival in acceleration: 0, 1; r, modicon 23 */
 #define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_ADDRESS 0x0016U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_MODICON 23U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_WORDS 1U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_RAW_MIN 0
-#define HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_RAW_MAX 1
+static inline bool hitachi_l200_frequency_arrival_in_acceleration_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_frequency_arrival_in_acceleration_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Frequency arrival at constant speed
- * 0, 1; read only.
- */
-#define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_SPACE HITACHI_L200_SPACE_COIL
+/* frequency arrival at constant speed: 0, 1; r, modicon 24 */
 #define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_ADDRESS 0x0017U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_MODICON 24U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_WORDS 1U
-#define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_RAW_MIN 0
-#define HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_RAW_MAX 1
+static inline bool hitachi_l200_frequency_arrival_at_constant_speed_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_frequency_arrival_at_constant_speed_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Run mode
- * 0, 1; read only.
- */
-#define HITACHI_L200_RUN_MODE_SPACE HITACHI_L200_SPACE_COIL
+/* run mode: 0, 1; r, modicon 25 */
 #define HITACHI_L200_RUN_MODE_ADDRESS 0x0018U
-#define HITACHI_L200_RUN_MODE_MODICON 25U
-#define HITACHI_L200_RUN_MODE_WORDS 1U
-#define HITACHI_L200_RUN_MODE_RAW_MIN 0
-#define HITACHI_L200_RUN_MODE_RAW_MAX 1
+static inline bool hitachi_l200_run_mode_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_run_mode_decode(bool raw)
-{
-    return raw;
-}
-
-/* Data write */
 enum {
     HITACHI_L200_DATA_WRITE_NORMAL = 0,
     HITACHI_L200_DATA_WRITE_WRITING = 1
 };
-
+static const char *const hitachi_l200_data_write_names[] = {
+    "normal", "writing"
+};
 static inline const char *hitachi_l200_data_write_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_DATA_WRITE_NORMAL:
-        return "normal";
-    case HITACHI_L200_DATA_WRITE_WRITING:
-        return "writing";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_data_write_names, raw); }
 
-/*
- * Data write
- * 0, 1; read only.
- * Erratum enter_busy_coil (certain): printed: The coil to watch is given as 001Ah; taken: Coil data_write, wire
- * 0019h.
- */
-#define HITACHI_L200_DATA_WRITE_SPACE HITACHI_L200_SPACE_COIL
+/* data write: 0, 1; r, modicon 26 */
 #define HITACHI_L200_DATA_WRITE_ADDRESS 0x0019U
-#define HITACHI_L200_DATA_WRITE_MODICON 26U
-#define HITACHI_L200_DATA_WRITE_WORDS 1U
-#define HITACHI_L200_DATA_WRITE_RAW_MIN 0
-#define HITACHI_L200_DATA_WRITE_RAW_MAX 1
+static inline bool hitachi_l200_data_write_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_data_write_decode(bool raw)
-{
-    return raw;
-}
-
-/* Error flag */
 enum {
     HITACHI_L200_ERROR_FLAG_NO_ERROR = 0,
     HITACHI_L200_ERROR_FLAG_ERROR = 1
 };
-
+static const char *const hitachi_l200_error_flag_names[] = {
+    "no_error", "error"
+};
 static inline const char *hitachi_l200_error_flag_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_ERROR_FLAG_NO_ERROR:
-        return "no_error";
-    case HITACHI_L200_ERROR_FLAG_ERROR:
-        return "error";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_error_flag_names, raw); }
 
-/*
- * Crc error
- * 0, 1; read only.
- * Erratum coil_error_flags_clearing (unknown): printed: A communication error stays until it is cleared, yet these
- * coils are read-only; taken: access: r.
- */
-#define HITACHI_L200_CRC_ERROR_SPACE HITACHI_L200_SPACE_COIL
+/* crc error: 0, 1; r, modicon 27 */
 #define HITACHI_L200_CRC_ERROR_ADDRESS 0x001AU
-#define HITACHI_L200_CRC_ERROR_MODICON 27U
-#define HITACHI_L200_CRC_ERROR_WORDS 1U
-#define HITACHI_L200_CRC_ERROR_RAW_MIN 0
-#define HITACHI_L200_CRC_ERROR_RAW_MAX 1
+static inline bool hitachi_l200_crc_error_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_crc_error_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Overrun error
- * 0, 1; read only.
- * Erratum coil_error_flags_clearing (unknown): printed: A communication error stays until it is cleared, yet these
- * coils are read-only; taken: access: r.
- * Erratum coil_error_note_mark (certain): printed: Note 2 is marked at the CRC error alone; taken: The note applies
- * to all five error coils.
- */
-#define HITACHI_L200_OVERRUN_ERROR_SPACE HITACHI_L200_SPACE_COIL
+/* overrun error: 0, 1; r, modicon 28 */
 #define HITACHI_L200_OVERRUN_ERROR_ADDRESS 0x001BU
-#define HITACHI_L200_OVERRUN_ERROR_MODICON 28U
-#define HITACHI_L200_OVERRUN_ERROR_WORDS 1U
-#define HITACHI_L200_OVERRUN_ERROR_RAW_MIN 0
-#define HITACHI_L200_OVERRUN_ERROR_RAW_MAX 1
+static inline bool hitachi_l200_overrun_error_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_overrun_error_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Framing error
- * 0, 1; read only.
- * Erratum coil_error_flags_clearing (unknown): printed: A communication error stays until it is cleared, yet these
- * coils are read-only; taken: access: r.
- * Erratum coil_error_note_mark (certain): printed: Note 2 is marked at the CRC error alone; taken: The note applies
- * to all five error coils.
- */
-#define HITACHI_L200_FRAMING_ERROR_SPACE HITACHI_L200_SPACE_COIL
+/* framing error: 0, 1; r, modicon 29 */
 #define HITACHI_L200_FRAMING_ERROR_ADDRESS 0x001CU
-#define HITACHI_L200_FRAMING_ERROR_MODICON 29U
-#define HITACHI_L200_FRAMING_ERROR_WORDS 1U
-#define HITACHI_L200_FRAMING_ERROR_RAW_MIN 0
-#define HITACHI_L200_FRAMING_ERROR_RAW_MAX 1
+static inline bool hitachi_l200_framing_error_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_framing_error_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Parity error
- * 0, 1; read only.
- * Erratum coil_parity_error_wire_decimal (certain): printed: wire 39; taken: wire 29.
- * Erratum coil_error_flags_clearing (unknown): printed: A communication error stays until it is cleared, yet these
- * coils are read-only; taken: access: r.
- * Erratum coil_error_note_mark (certain): printed: Note 2 is marked at the CRC error alone; taken: The note applies
- * to all five error coils.
- */
-#define HITACHI_L200_PARITY_ERROR_SPACE HITACHI_L200_SPACE_COIL
+/* parity error: 0, 1; r, modicon 30; erratum coil_parity_error_wire_decimal */
 #define HITACHI_L200_PARITY_ERROR_ADDRESS 0x001DU
-#define HITACHI_L200_PARITY_ERROR_MODICON 30U
-#define HITACHI_L200_PARITY_ERROR_WORDS 1U
-#define HITACHI_L200_PARITY_ERROR_RAW_MIN 0
-#define HITACHI_L200_PARITY_ERROR_RAW_MAX 1
+static inline bool hitachi_l200_parity_error_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_parity_error_decode(bool raw)
-{
-    return raw;
-}
-
-/*
- * Checksum error
- * 0, 1; read only.
- * Erratum coil_error_flags_clearing (unknown): printed: A communication error stays until it is cleared, yet these
- * coils are read-only; taken: access: r.
- * Erratum coil_error_note_mark (certain): printed: Note 2 is marked at the CRC error alone; taken: The note applies
- * to all five error coils.
- */
-#define HITACHI_L200_CHECKSUM_ERROR_SPACE HITACHI_L200_SPACE_COIL
+/* checksum error: 0, 1; r, modicon 31 */
 #define HITACHI_L200_CHECKSUM_ERROR_ADDRESS 0x001EU
-#define HITACHI_L200_CHECKSUM_ERROR_MODICON 31U
-#define HITACHI_L200_CHECKSUM_ERROR_WORDS 1U
-#define HITACHI_L200_CHECKSUM_ERROR_RAW_MIN 0
-#define HITACHI_L200_CHECKSUM_ERROR_RAW_MAX 1
+static inline bool hitachi_l200_checksum_error_decode(bool raw) { return raw; }
 
-static inline bool hitachi_l200_checksum_error_decode(bool raw)
-{
-    return raw;
-}
+/* ---- status (holding) ---- */
 
-/* ---- Status ---- */
-
-/*
- * Network frequency setpoint
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum network_frequency_setpoint_access (likely): printed: The R/W column is empty; taken: access: rw.
- * Erratum network_frequency_setpoint_title (likely): printed: The title is the same as that of d001; taken: A
- * setpoint; d001 is the monitored value.
- * Erratum status_keeps (unknown): printed: Values written with 06h or 10h are said to be lost at power-off unless
- * ENTER stores them; taken: No keeps is given for these registers.
- */
-#define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* network frequency setpoint: 0..400 Hz; 0.1 Hz a count; rw, modicon 2, reference 400002 */
 #define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_ADDRESS 0x0001U
-#define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_MODICON 2U
-#define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_REFERENCE 400002U
-#define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_WORDS 1U
 #define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_RAW_MAX 4000
 #define HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_network_frequency_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_network_frequency_setpoint_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_network_frequency_setpoint_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_network_frequency_setpoint_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_RAW_MIN, HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_network_frequency_setpoint_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_network_frequency_setpoint_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_network_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_network_frequency_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Inverter status */
 enum {
     HITACHI_L200_INVERTER_STATUS_INITIAL_STATE = 0,
     HITACHI_L200_INVERTER_STATUS_RESERVED = 1,
@@ -1014,1333 +339,422 @@ enum {
     HITACHI_L200_INVERTER_STATUS_TRIPPED = 8,
     HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE = 9
 };
-
+static const char *const hitachi_l200_inverter_status_names[] = {
+    "initial_state", "reserved", "stopped", "running", "coasting", "jogging", "dc_braking", "restarting", "tripped",
+    "undervoltage"
+};
 static inline const char *hitachi_l200_inverter_status_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_INVERTER_STATUS_INITIAL_STATE:
-        return "initial_state";
-    case HITACHI_L200_INVERTER_STATUS_RESERVED:
-        return "reserved";
-    case HITACHI_L200_INVERTER_STATUS_STOPPED:
-        return "stopped";
-    case HITACHI_L200_INVERTER_STATUS_RUNNING:
-        return "running";
-    case HITACHI_L200_INVERTER_STATUS_COASTING:
-        return "coasting";
-    case HITACHI_L200_INVERTER_STATUS_JOGGING:
-        return "jogging";
-    case HITACHI_L200_INVERTER_STATUS_DC_BRAKING:
-        return "dc_braking";
-    case HITACHI_L200_INVERTER_STATUS_RESTARTING:
-        return "restarting";
-    case HITACHI_L200_INVERTER_STATUS_TRIPPED:
-        return "tripped";
-    case HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE:
-        return "undervoltage";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_inverter_status_names, raw); }
 
-/*
- * Inverter status
- * 0..9; read and write.
- * Erratum inverter_status_access (unknown): printed: The R/W column says R/W for a register that reports what the
- * inverter is doing; taken: access: rw, as printed.
- * Erratum status_keeps (unknown): printed: Values written with 06h or 10h are said to be lost at power-off unless
- * ENTER stores them; taken: No keeps is given for these registers.
- */
-#define HITACHI_L200_INVERTER_STATUS_SPACE HITACHI_L200_SPACE_HOLDING
+/* inverter status: 0..9; rw, modicon 3, reference 400003 */
 #define HITACHI_L200_INVERTER_STATUS_ADDRESS 0x0002U
-#define HITACHI_L200_INVERTER_STATUS_MODICON 3U
-#define HITACHI_L200_INVERTER_STATUS_REFERENCE 400003U
-#define HITACHI_L200_INVERTER_STATUS_WORDS 1U
 #define HITACHI_L200_INVERTER_STATUS_RAW_MIN 0
 #define HITACHI_L200_INVERTER_STATUS_RAW_MAX 9
+FIELDSCRIBE_STATUS hitachi_l200_inverter_status_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 9)); }
+FIELDSCRIBE_STATUS hitachi_l200_inverter_status_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 9, raw)); }
+static inline int32_t hitachi_l200_inverter_status_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_inverter_status_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INVERTER_STATUS_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_inverter_status_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INVERTER_STATUS_RAW_MIN || value > HITACHI_L200_INVERTER_STATUS_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_inverter_status_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Network process value
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- * Erratum network_process_value_access (likely): printed: The R/W column is empty; taken: access: rw.
- * Erratum status_keeps (unknown): printed: Values written with 06h or 10h are said to be lost at power-off unless
- * ENTER stores them; taken: No keeps is given for these registers.
- */
-#define HITACHI_L200_NETWORK_PROCESS_VALUE_SPACE HITACHI_L200_SPACE_HOLDING
+/* network process value: 0..100 %; 0.1 % a count; rw, modicon 5, reference 400005 */
 #define HITACHI_L200_NETWORK_PROCESS_VALUE_ADDRESS 0x0004U
-#define HITACHI_L200_NETWORK_PROCESS_VALUE_MODICON 5U
-#define HITACHI_L200_NETWORK_PROCESS_VALUE_REFERENCE 400005U
-#define HITACHI_L200_NETWORK_PROCESS_VALUE_WORDS 1U
 #define HITACHI_L200_NETWORK_PROCESS_VALUE_RAW_MIN 0
 #define HITACHI_L200_NETWORK_PROCESS_VALUE_RAW_MAX 1000
 #define HITACHI_L200_NETWORK_PROCESS_VALUE_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_network_process_value_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_NETWORK_PROCESS_VALUE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_network_process_value_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_network_process_value_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_network_process_value_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_NETWORK_PROCESS_VALUE_RAW_MIN, HITACHI_L200_NETWORK_PROCESS_VALUE_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_network_process_value_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_network_process_value_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_network_process_value_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_network_process_value_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_network_process_value_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_network_process_value_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* ---- Monitor d ---- */
+/* ---- monitor d (holding) ---- */
 
-/*
- * d001: Output frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read only.
- */
-#define HITACHI_L200_OUTPUT_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* d001 output frequency: 0..400 Hz; 0.1 Hz a count; r, modicon 4098, reference 404098 */
 #define HITACHI_L200_OUTPUT_FREQUENCY_ADDRESS 0x1001U
-#define HITACHI_L200_OUTPUT_FREQUENCY_CODE "d001"
-#define HITACHI_L200_OUTPUT_FREQUENCY_MODICON 4098U
-#define HITACHI_L200_OUTPUT_FREQUENCY_REFERENCE 404098U
-#define HITACHI_L200_OUTPUT_FREQUENCY_WORDS 1U
-#define HITACHI_L200_OUTPUT_FREQUENCY_RAW_MIN 0
-#define HITACHI_L200_OUTPUT_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_OUTPUT_FREQUENCY_DECIMALS 1
-
-static inline int32_t hitachi_l200_output_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_output_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_output_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_output_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d002: Motor current
- * 0..200 %, raw 0..2000, in steps of 0.1 %; read only.
- * Erratum d002_rated_current_scale (certain): printed: Note 1 gives a rated current of 1000 for d002 and does not
- * name its unit; taken: Raw 1000 is 100.0 % of the rated current.
- * Erratum d002_unit_in_title (certain): printed: The title says ampere, the range and the step are in percent;
- * taken: unit: %.
- * Erratum d002_motor_or_rated_current (unknown): printed: The description speaks of the set motor current; note 1
- * speaks of a rated current; taken: Percent of a rated current.
- */
-#define HITACHI_L200_MOTOR_CURRENT_SPACE HITACHI_L200_SPACE_HOLDING
+/* d002 motor current: 0..200 %; 0.1 % a count; r, modicon 4099, reference 404099 */
 #define HITACHI_L200_MOTOR_CURRENT_ADDRESS 0x1002U
-#define HITACHI_L200_MOTOR_CURRENT_CODE "d002"
-#define HITACHI_L200_MOTOR_CURRENT_MODICON 4099U
-#define HITACHI_L200_MOTOR_CURRENT_REFERENCE 404099U
-#define HITACHI_L200_MOTOR_CURRENT_WORDS 1U
-#define HITACHI_L200_MOTOR_CURRENT_RAW_MIN 0
-#define HITACHI_L200_MOTOR_CURRENT_RAW_MAX 2000
 #define HITACHI_L200_MOTOR_CURRENT_DECIMALS 1
-
-static inline int32_t hitachi_l200_motor_current_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_motor_current_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_motor_current_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_motor_current_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Rotation direction */
 enum {
     HITACHI_L200_ROTATION_DIRECTION_STOPPED = 0,
     HITACHI_L200_ROTATION_DIRECTION_FORWARD = 1,
     HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2
 };
-
+static const char *const hitachi_l200_rotation_direction_names[] = {
+    "stopped", "forward", "reverse"
+};
 static inline const char *hitachi_l200_rotation_direction_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_ROTATION_DIRECTION_STOPPED:
-        return "stopped";
-    case HITACHI_L200_ROTATION_DIRECTION_FORWARD:
-        return "forward";
-    case HITACHI_L200_ROTATION_DIRECTION_REVERSE:
-        return "reverse";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_rotation_direction_names, raw); }
 
-/*
- * d003: Rotation direction
- * 0..2; read only.
- * Erratum rotation_words (likely): printed: The directions are Rechtslauf and Linkslauf, Rechts and Links, FW and
- * REV, FW and RV in four places; taken: Forward and reverse everywhere.
- */
-#define HITACHI_L200_ROTATION_DIRECTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* d003 rotation direction: 0..2; r, modicon 4100, reference 404100 */
 #define HITACHI_L200_ROTATION_DIRECTION_ADDRESS 0x1003U
-#define HITACHI_L200_ROTATION_DIRECTION_CODE "d003"
-#define HITACHI_L200_ROTATION_DIRECTION_MODICON 4100U
-#define HITACHI_L200_ROTATION_DIRECTION_REFERENCE 404100U
-#define HITACHI_L200_ROTATION_DIRECTION_WORDS 1U
-#define HITACHI_L200_ROTATION_DIRECTION_RAW_MIN 0
-#define HITACHI_L200_ROTATION_DIRECTION_RAW_MAX 2
-
-static inline int32_t hitachi_l200_rotation_direction_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_rotation_direction_decode(uint16_t raw) { return raw; }
 
 /*
- * d004: Scaled process value
- * 0..9999 %, raw 0..999900, in steps of 0.01 %; read only.
- * Erratum d004_range_in_units (likely): printed: range in units 0.00..99900; taken: range in units 0..9999.00.
- * Erratum d004_resolution (likely): printed: resolution 0.00 %; taken: resolution 0.01 %.
+ * d004 scaled process value: 0..9999 %; 0.01 % a count; r, modicon 4101, reference 404101; errata d004_range_in_units,
+ * d004_resolution
  */
-#define HITACHI_L200_SCALED_PROCESS_VALUE_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_SCALED_PROCESS_VALUE_ADDRESS 0x1004U
-#define HITACHI_L200_SCALED_PROCESS_VALUE_CODE "d004"
-#define HITACHI_L200_SCALED_PROCESS_VALUE_MODICON 4101U
-#define HITACHI_L200_SCALED_PROCESS_VALUE_REFERENCE 404101U
 #define HITACHI_L200_SCALED_PROCESS_VALUE_WORDS 2U
-#define HITACHI_L200_SCALED_PROCESS_VALUE_RAW_MIN 0
-#define HITACHI_L200_SCALED_PROCESS_VALUE_RAW_MAX 999900
 #define HITACHI_L200_SCALED_PROCESS_VALUE_DECIMALS 2
-
-static inline int64_t hitachi_l200_scaled_process_value_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline double hitachi_l200_scaled_process_value_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+static inline int64_t hitachi_l200_scaled_process_value_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_scaled_process_value_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_scaled_process_value_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline double hitachi_l200_scaled_process_value_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_scaled_process_value_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_scaled_process_value_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
-/*
- * d005: Digital inputs
- * 0..31; read only.
- * Erratum d005_range (likely): printed: range 0..63; taken: range 0..31.
- */
-#define HITACHI_L200_DIGITAL_INPUTS_SPACE HITACHI_L200_SPACE_HOLDING
+/* d005 digital inputs: 0..31; r, modicon 4103, reference 404103; erratum d005_range */
 #define HITACHI_L200_DIGITAL_INPUTS_ADDRESS 0x1006U
-#define HITACHI_L200_DIGITAL_INPUTS_CODE "d005"
-#define HITACHI_L200_DIGITAL_INPUTS_MODICON 4103U
-#define HITACHI_L200_DIGITAL_INPUTS_REFERENCE 404103U
-#define HITACHI_L200_DIGITAL_INPUTS_WORDS 1U
-#define HITACHI_L200_DIGITAL_INPUTS_RAW_MIN 0
-#define HITACHI_L200_DIGITAL_INPUTS_RAW_MAX 31
 #define HITACHI_L200_DIGITAL_INPUTS_INPUT_1_MASK 0x0001U
 #define HITACHI_L200_DIGITAL_INPUTS_INPUT_2_MASK 0x0002U
 #define HITACHI_L200_DIGITAL_INPUTS_INPUT_3_MASK 0x0004U
 #define HITACHI_L200_DIGITAL_INPUTS_INPUT_4_MASK 0x0008U
 #define HITACHI_L200_DIGITAL_INPUTS_INPUT_5_MASK 0x0010U
+static inline int32_t hitachi_l200_digital_inputs_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_digital_inputs_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * d006: Digital outputs
- * 0..7; read only.
- */
-#define HITACHI_L200_DIGITAL_OUTPUTS_SPACE HITACHI_L200_SPACE_HOLDING
+/* d006 digital outputs: 0..7; r, modicon 4104, reference 404104 */
 #define HITACHI_L200_DIGITAL_OUTPUTS_ADDRESS 0x1007U
-#define HITACHI_L200_DIGITAL_OUTPUTS_CODE "d006"
-#define HITACHI_L200_DIGITAL_OUTPUTS_MODICON 4104U
-#define HITACHI_L200_DIGITAL_OUTPUTS_REFERENCE 404104U
-#define HITACHI_L200_DIGITAL_OUTPUTS_WORDS 1U
-#define HITACHI_L200_DIGITAL_OUTPUTS_RAW_MIN 0
-#define HITACHI_L200_DIGITAL_OUTPUTS_RAW_MAX 7
 #define HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_11_MASK 0x0001U
 #define HITACHI_L200_DIGITAL_OUTPUTS_OUTPUT_12_MASK 0x0002U
 #define HITACHI_L200_DIGITAL_OUTPUTS_RELAY_AL_MASK 0x0004U
-
-static inline int32_t hitachi_l200_digital_outputs_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_outputs_decode(uint16_t raw) { return raw; }
 
 /*
- * d007: Scaled output frequency
- * raw 0..999999; read only.
- * Erratum d007_scale (unknown): printed: The step is 0.01 Hz and the raw range 0 to 999999, but the displayed range
- * is 0.00 to 99999; taken: No scale; documented only.
- * Not generated (scaled_output_frequency): the manual does not settle its scale.
+ * d007 scaled output frequency: raw 0..999999; r, modicon 4105, reference 404105; not generated: the manual does not
+ * settle its scale
  */
-#define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_ADDRESS 0x1008U
-#define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_CODE "d007"
-#define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_MODICON 4105U
-#define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_REFERENCE 404105U
 #define HITACHI_L200_SCALED_OUTPUT_FREQUENCY_WORDS 2U
 
-/*
- * d013: Output voltage
- * 0..200 %, raw 0..20000, in steps of 0.01 %; read only.
- * Erratum d013_unit_in_title (certain): printed: The title says volt, the range and the step are in percent; taken:
- * unit: %.
- */
-#define HITACHI_L200_OUTPUT_VOLTAGE_SPACE HITACHI_L200_SPACE_HOLDING
+/* d013 output voltage: 0..200 %; 0.01 % a count; r, modicon 4108, reference 404108 */
 #define HITACHI_L200_OUTPUT_VOLTAGE_ADDRESS 0x100BU
-#define HITACHI_L200_OUTPUT_VOLTAGE_CODE "d013"
-#define HITACHI_L200_OUTPUT_VOLTAGE_MODICON 4108U
-#define HITACHI_L200_OUTPUT_VOLTAGE_REFERENCE 404108U
-#define HITACHI_L200_OUTPUT_VOLTAGE_WORDS 1U
-#define HITACHI_L200_OUTPUT_VOLTAGE_RAW_MIN 0
-#define HITACHI_L200_OUTPUT_VOLTAGE_RAW_MAX 20000
 #define HITACHI_L200_OUTPUT_VOLTAGE_DECIMALS 2
-
-static inline int32_t hitachi_l200_output_voltage_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_output_voltage_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+static inline int32_t hitachi_l200_output_voltage_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_output_voltage_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * d016: Run time
- * 0..999999 h, raw 0..999999; read only.
- * Erratum d016_range_in_units (likely): printed: range in units 0..999000; taken: range in units 0..999999.
- */
-#define HITACHI_L200_RUN_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d016 run time: 0..999999 h; r, modicon 4110, reference 404110; erratum d016_range_in_units */
 #define HITACHI_L200_RUN_TIME_ADDRESS 0x100DU
-#define HITACHI_L200_RUN_TIME_CODE "d016"
-#define HITACHI_L200_RUN_TIME_MODICON 4110U
-#define HITACHI_L200_RUN_TIME_REFERENCE 404110U
 #define HITACHI_L200_RUN_TIME_WORDS 2U
-#define HITACHI_L200_RUN_TIME_RAW_MIN 0
-#define HITACHI_L200_RUN_TIME_RAW_MAX 999999
-
-static inline int64_t hitachi_l200_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_run_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d017: Power on time
- * 0..999999 h, raw 0..999999; read only.
- * Erratum d017_range_in_units (likely): printed: range in units 0..999000; taken: range in units 0..999999.
- */
-#define HITACHI_L200_POWER_ON_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d017 power on time: 0..999999 h; r, modicon 4112, reference 404112; erratum d017_range_in_units */
 #define HITACHI_L200_POWER_ON_TIME_ADDRESS 0x100FU
-#define HITACHI_L200_POWER_ON_TIME_CODE "d017"
-#define HITACHI_L200_POWER_ON_TIME_MODICON 4112U
-#define HITACHI_L200_POWER_ON_TIME_REFERENCE 404112U
 #define HITACHI_L200_POWER_ON_TIME_WORDS 2U
-#define HITACHI_L200_POWER_ON_TIME_RAW_MIN 0
-#define HITACHI_L200_POWER_ON_TIME_RAW_MAX 999999
-
-static inline int64_t hitachi_l200_power_on_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_power_on_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_power_on_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_power_on_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d080: Trip count
- * 0..65535; read only.
- * Erratum d080_d017_order (certain): printed: d080 stands after d017 although its address is 0010h; taken: at:
- * 0010h.
- */
-#define HITACHI_L200_TRIP_COUNT_SPACE HITACHI_L200_SPACE_HOLDING
+/* d080 trip count: 0..65535; r, modicon 17, reference 400017 */
 #define HITACHI_L200_TRIP_COUNT_ADDRESS 0x0010U
-#define HITACHI_L200_TRIP_COUNT_CODE "d080"
-#define HITACHI_L200_TRIP_COUNT_MODICON 17U
-#define HITACHI_L200_TRIP_COUNT_REFERENCE 400017U
-#define HITACHI_L200_TRIP_COUNT_WORDS 1U
-#define HITACHI_L200_TRIP_COUNT_RAW_MIN 0
-#define HITACHI_L200_TRIP_COUNT_RAW_MAX 65535
+static inline int32_t hitachi_l200_trip_count_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_trip_count_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Trip code */
 enum {
     HITACHI_L200_TRIP_CODE_OVERVOLTAGE = 7,
     HITACHI_L200_TRIP_CODE_UNDERVOLTAGE = 9,
     HITACHI_L200_TRIP_CODE_NO_TRIP = 255
 };
-
+static const fieldscribe_name hitachi_l200_trip_code_names[] = {
+    {HITACHI_L200_TRIP_CODE_OVERVOLTAGE, "overvoltage"}, {HITACHI_L200_TRIP_CODE_UNDERVOLTAGE, "undervoltage"},
+    {HITACHI_L200_TRIP_CODE_NO_TRIP, "no_trip"}
+};
 static inline const char *hitachi_l200_trip_code_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_TRIP_CODE_OVERVOLTAGE:
-        return "overvoltage";
-    case HITACHI_L200_TRIP_CODE_UNDERVOLTAGE:
-        return "undervoltage";
-    case HITACHI_L200_TRIP_CODE_NO_TRIP:
-        return "no_trip";
-    default:
-        return NULL;
-    }
-}
+{ return fieldscribe_name_of(hitachi_l200_trip_code_names, FIELDSCRIBE_COUNT(hitachi_l200_trip_code_names), raw); }
 
-/*
- * d081: Trip 1 error
- * 0..65535; read only.
- * Erratum d081_wire_five_digits (certain): printed: The first list prints 00011h; taken: 0011h.
- * Erratum d081_titles (certain): printed: The same three registers have other titles in the two lists; taken: The
- * titles of the second list; Trip 1 is the latest, as the first list says.
- * Erratum trip_code_no_fault (likely): printed: The example shows 0007h for E07, 0009h for E09 and 00FFh for no
- * trip; the lists of the registers give no codes; taken: 7, 9 and 255 are named; all others stay numbers, and
- * whether E10 is 10 or 10h stays open.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_ERROR_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 error: 0..65535; r, modicon 18, reference 400018 */
 #define HITACHI_L200_TRIP_1_ERROR_ADDRESS 0x0011U
-#define HITACHI_L200_TRIP_1_ERROR_CODE "d081"
-#define HITACHI_L200_TRIP_1_ERROR_MODICON 18U
-#define HITACHI_L200_TRIP_1_ERROR_REFERENCE 400018U
-#define HITACHI_L200_TRIP_1_ERROR_WORDS 1U
-#define HITACHI_L200_TRIP_1_ERROR_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_ERROR_RAW_MAX 65535
+static inline int32_t hitachi_l200_trip_1_error_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_trip_1_error_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * d081: Trip 1 output frequency
- * 0..6553.5 Hz, raw 0..65535, in steps of 0.1 Hz; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 output frequency: 0..6553.5 Hz; 0.1 Hz a count; r, modicon 20, reference 400020 */
 #define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_ADDRESS 0x0013U
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_CODE "d081"
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_MODICON 20U
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_REFERENCE 400020U
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_WORDS 1U
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_RAW_MAX 65535
 #define HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_1_output_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_1_output_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_1_output_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_1_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d081: Trip 1 motor current
- * 0..6553.5 %, raw 0..65535, in steps of 0.1 %; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 22, reference 400022 */
 #define HITACHI_L200_TRIP_1_MOTOR_CURRENT_ADDRESS 0x0015U
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_CODE "d081"
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_MODICON 22U
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_REFERENCE 400022U
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_WORDS 1U
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_MOTOR_CURRENT_RAW_MAX 65535
 #define HITACHI_L200_TRIP_1_MOTOR_CURRENT_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_1_motor_current_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_1_motor_current_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_1_motor_current_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_1_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d081: Trip 1 dc bus voltage
- * 0..6553.5 V, raw 0..65535, in steps of 0.1 V; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 23, reference 400023 */
 #define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_ADDRESS 0x0016U
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_CODE "d081"
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_MODICON 23U
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_REFERENCE 400023U
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_WORDS 1U
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_RAW_MAX 65535
 #define HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_1_dc_bus_voltage_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_1_dc_bus_voltage_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_1_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_1_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d081: Trip 1 run time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_RUN_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 run time: 0..4294967295 h; r, modicon 24, reference 400024 */
 #define HITACHI_L200_TRIP_1_RUN_TIME_ADDRESS 0x0017U
-#define HITACHI_L200_TRIP_1_RUN_TIME_CODE "d081"
-#define HITACHI_L200_TRIP_1_RUN_TIME_MODICON 24U
-#define HITACHI_L200_TRIP_1_RUN_TIME_REFERENCE 400024U
 #define HITACHI_L200_TRIP_1_RUN_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_1_RUN_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_1_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_1_run_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_1_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_1_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d081: Trip 1 power on time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d081 trip 1 power on time: 0..4294967295 h; r, modicon 26, reference 400026 */
 #define HITACHI_L200_TRIP_1_POWER_ON_TIME_ADDRESS 0x0019U
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_CODE "d081"
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_MODICON 26U
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_REFERENCE 400026U
 #define HITACHI_L200_TRIP_1_POWER_ON_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_1_POWER_ON_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_1_power_on_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_1_power_on_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_1_power_on_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_1_power_on_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d082: Trip 2 error
- * 0..65535; read only.
- * Erratum d081_titles (certain): printed: The same three registers have other titles in the two lists; taken: The
- * titles of the second list; Trip 1 is the latest, as the first list says.
- * Erratum d082_address_in_example (certain): printed: The read example gives 0013h for d082; taken: 001Bh.
- * Erratum trip_code_no_fault (likely): printed: The example shows 0007h for E07, 0009h for E09 and 00FFh for no
- * trip; the lists of the registers give no codes; taken: 7, 9 and 255 are named; all others stay numbers, and
- * whether E10 is 10 or 10h stays open.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_ERROR_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 error: 0..65535; r, modicon 28, reference 400028 */
 #define HITACHI_L200_TRIP_2_ERROR_ADDRESS 0x001BU
-#define HITACHI_L200_TRIP_2_ERROR_CODE "d082"
-#define HITACHI_L200_TRIP_2_ERROR_MODICON 28U
-#define HITACHI_L200_TRIP_2_ERROR_REFERENCE 400028U
-#define HITACHI_L200_TRIP_2_ERROR_WORDS 1U
-#define HITACHI_L200_TRIP_2_ERROR_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_ERROR_RAW_MAX 65535
+static inline int32_t hitachi_l200_trip_2_error_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_trip_2_error_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * d082: Trip 2 output frequency
- * 0..6553.5 Hz, raw 0..65535, in steps of 0.1 Hz; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 output frequency: 0..6553.5 Hz; 0.1 Hz a count; r, modicon 30, reference 400030 */
 #define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_ADDRESS 0x001DU
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_CODE "d082"
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_MODICON 30U
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_REFERENCE 400030U
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_WORDS 1U
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_RAW_MAX 65535
 #define HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_2_output_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_2_output_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_2_output_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_2_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d082: Trip 2 motor current
- * 0..6553.5 %, raw 0..65535, in steps of 0.1 %; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 32, reference 400032 */
 #define HITACHI_L200_TRIP_2_MOTOR_CURRENT_ADDRESS 0x001FU
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_CODE "d082"
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_MODICON 32U
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_REFERENCE 400032U
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_WORDS 1U
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_MOTOR_CURRENT_RAW_MAX 65535
 #define HITACHI_L200_TRIP_2_MOTOR_CURRENT_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_2_motor_current_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_2_motor_current_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_2_motor_current_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_2_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d082: Trip 2 dc bus voltage
- * 0..6553.5 V, raw 0..65535, in steps of 0.1 V; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 33, reference 400033 */
 #define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_ADDRESS 0x0020U
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_CODE "d082"
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_MODICON 33U
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_REFERENCE 400033U
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_WORDS 1U
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_RAW_MAX 65535
 #define HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_2_dc_bus_voltage_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_2_dc_bus_voltage_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_2_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_2_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d082: Trip 2 run time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_RUN_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 run time: 0..4294967295 h; r, modicon 34, reference 400034 */
 #define HITACHI_L200_TRIP_2_RUN_TIME_ADDRESS 0x0021U
-#define HITACHI_L200_TRIP_2_RUN_TIME_CODE "d082"
-#define HITACHI_L200_TRIP_2_RUN_TIME_MODICON 34U
-#define HITACHI_L200_TRIP_2_RUN_TIME_REFERENCE 400034U
 #define HITACHI_L200_TRIP_2_RUN_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_2_RUN_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_2_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_2_run_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_2_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_2_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d082: Trip 2 power on time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d082 trip 2 power on time: 0..4294967295 h; r, modicon 36, reference 400036 */
 #define HITACHI_L200_TRIP_2_POWER_ON_TIME_ADDRESS 0x0023U
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_CODE "d082"
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_MODICON 36U
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_REFERENCE 400036U
 #define HITACHI_L200_TRIP_2_POWER_ON_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_2_POWER_ON_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_2_power_on_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_2_power_on_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_2_power_on_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_2_power_on_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d083: Trip 3 error
- * 0..65535; read only.
- * Erratum d081_titles (certain): printed: The same three registers have other titles in the two lists; taken: The
- * titles of the second list; Trip 1 is the latest, as the first list says.
- * Erratum trip_code_no_fault (likely): printed: The example shows 0007h for E07, 0009h for E09 and 00FFh for no
- * trip; the lists of the registers give no codes; taken: 7, 9 and 255 are named; all others stay numbers, and
- * whether E10 is 10 or 10h stays open.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_ERROR_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 error: 0..65535; r, modicon 38, reference 400038 */
 #define HITACHI_L200_TRIP_3_ERROR_ADDRESS 0x0025U
-#define HITACHI_L200_TRIP_3_ERROR_CODE "d083"
-#define HITACHI_L200_TRIP_3_ERROR_MODICON 38U
-#define HITACHI_L200_TRIP_3_ERROR_REFERENCE 400038U
-#define HITACHI_L200_TRIP_3_ERROR_WORDS 1U
-#define HITACHI_L200_TRIP_3_ERROR_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_ERROR_RAW_MAX 65535
+static inline int32_t hitachi_l200_trip_3_error_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_trip_3_error_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * d083: Trip 3 output frequency
- * 0..6553.5 Hz, raw 0..65535, in steps of 0.1 Hz; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 output frequency: 0..6553.5 Hz; 0.1 Hz a count; r, modicon 40, reference 400040 */
 #define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_ADDRESS 0x0027U
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_CODE "d083"
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_MODICON 40U
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_REFERENCE 400040U
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_WORDS 1U
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_RAW_MAX 65535
 #define HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_3_output_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_3_output_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_3_output_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_3_output_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d083: Trip 3 motor current
- * 0..6553.5 %, raw 0..65535, in steps of 0.1 %; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 motor current: 0..6553.5 %; 0.1 % a count; r, modicon 42, reference 400042 */
 #define HITACHI_L200_TRIP_3_MOTOR_CURRENT_ADDRESS 0x0029U
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_CODE "d083"
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_MODICON 42U
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_REFERENCE 400042U
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_WORDS 1U
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_MOTOR_CURRENT_RAW_MAX 65535
 #define HITACHI_L200_TRIP_3_MOTOR_CURRENT_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_3_motor_current_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_3_motor_current_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_3_motor_current_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_3_motor_current_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d083: Trip 3 dc bus voltage
- * 0..6553.5 V, raw 0..65535, in steps of 0.1 V; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 dc bus voltage: 0..6553.5 V; 0.1 V a count; r, modicon 43, reference 400043 */
 #define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_ADDRESS 0x002AU
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_CODE "d083"
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_MODICON 43U
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_REFERENCE 400043U
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_WORDS 1U
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_RAW_MAX 65535
 #define HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_DECIMALS 1
-
-static inline int32_t hitachi_l200_trip_3_dc_bus_voltage_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_real hitachi_l200_trip_3_dc_bus_voltage_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline int32_t hitachi_l200_trip_3_dc_bus_voltage_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real hitachi_l200_trip_3_dc_bus_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * d083: Trip 3 run time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_RUN_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 run time: 0..4294967295 h; r, modicon 44, reference 400044 */
 #define HITACHI_L200_TRIP_3_RUN_TIME_ADDRESS 0x002BU
-#define HITACHI_L200_TRIP_3_RUN_TIME_CODE "d083"
-#define HITACHI_L200_TRIP_3_RUN_TIME_MODICON 44U
-#define HITACHI_L200_TRIP_3_RUN_TIME_REFERENCE 400044U
 #define HITACHI_L200_TRIP_3_RUN_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_3_RUN_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_3_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_3_run_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_3_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_3_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * d083: Trip 3 power on time
- * 0..4294967295 h, raw 0..4294967295; read only.
- * Erratum trip_record_holes (unknown): printed: Nothing is printed for the second and the fourth register of each
- * trip record; taken: No points there.
- * Erratum trip_record_no_ranges (likely): printed: The trip registers have a step and no range; taken: No range;
- * unsigned.
- */
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* d083 trip 3 power on time: 0..4294967295 h; r, modicon 46, reference 400046 */
 #define HITACHI_L200_TRIP_3_POWER_ON_TIME_ADDRESS 0x002DU
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_CODE "d083"
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_MODICON 46U
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_REFERENCE 400046U
 #define HITACHI_L200_TRIP_3_POWER_ON_TIME_WORDS 2U
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_RAW_MIN 0
-#define HITACHI_L200_TRIP_3_POWER_ON_TIME_RAW_MAX 4294967295
-
-static inline int64_t hitachi_l200_trip_3_power_on_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t hitachi_l200_trip_3_power_on_time_decode(uint32_t raw) { return raw; }
 static inline void hitachi_l200_trip_3_power_on_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t hitachi_l200_trip_3_power_on_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/* ---- Basic f ---- */
+/* ---- basic f (holding) ---- */
 
-/*
- * F001: Frequency setpoint
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum f001_address (unknown): printed: Both address columns are empty but for a lone h; taken: at: ~.
- * Not generated (frequency_setpoint): the manual prints no address.
- */
+/* F001 frequency setpoint: 0..400 Hz; 0.1 Hz a count; rw; not generated: the manual prints no address */
 
 /*
- * F002: Acceleration time
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum f002_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
- * Erratum f002_start_value (certain): printed: The example calls 0.01 s the initial value of F002; taken: 0.01 s is
- * the step; no default is given.
+ * F002 acceleration time: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon 4116,
+ * reference 404116
  */
-#define HITACHI_L200_ACCELERATION_TIME_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_ACCELERATION_TIME_ADDRESS 0x1013U
-#define HITACHI_L200_ACCELERATION_TIME_CODE "F002"
-#define HITACHI_L200_ACCELERATION_TIME_MODICON 4116U
-#define HITACHI_L200_ACCELERATION_TIME_REFERENCE 404116U
 #define HITACHI_L200_ACCELERATION_TIME_WORDS 2U
 #define HITACHI_L200_ACCELERATION_TIME_RAW_MIN 1
 #define HITACHI_L200_ACCELERATION_TIME_RAW_MAX 300000
 #define HITACHI_L200_ACCELERATION_TIME_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_ACCELERATION_TIME_RAW_MIN && raw <= HITACHI_L200_ACCELERATION_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_acceleration_time_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_acceleration_time_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_ACCELERATION_TIME_RAW_MIN, HITACHI_L200_ACCELERATION_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
-static inline double hitachi_l200_acceleration_time_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_check(uint32_t raw) { return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_acceleration_time_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_acceleration_time_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_acceleration_time_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
+static inline double hitachi_l200_acceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_acceleration_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_acceleration_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
 /*
- * F202: Acceleration time set 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum f002_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * F202 acceleration time set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
+ * 5377, reference 405377
  */
-#define HITACHI_L200_ACCELERATION_TIME_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_ACCELERATION_TIME_SET_2_ADDRESS 0x1500U
-#define HITACHI_L200_ACCELERATION_TIME_SET_2_CODE "F202"
-#define HITACHI_L200_ACCELERATION_TIME_SET_2_MODICON 5377U
-#define HITACHI_L200_ACCELERATION_TIME_SET_2_REFERENCE 405377U
 #define HITACHI_L200_ACCELERATION_TIME_SET_2_WORDS 2U
 #define HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MIN 1
 #define HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MAX 300000
 #define HITACHI_L200_ACCELERATION_TIME_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_set_2_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MIN && raw <= HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_set_2_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_acceleration_time_set_2_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_acceleration_time_set_2_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MIN, HITACHI_L200_ACCELERATION_TIME_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_set_2_check(uint32_t raw)
+{ return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_set_2_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_acceleration_time_set_2_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_acceleration_time_set_2_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_acceleration_time_set_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
 static inline double hitachi_l200_acceleration_time_set_2_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+{ return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_acceleration_time_set_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_acceleration_time_set_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
 /*
- * F003: Deceleration time
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum f002_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * F003 deceleration time: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon 4118,
+ * reference 404118
  */
-#define HITACHI_L200_DECELERATION_TIME_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DECELERATION_TIME_ADDRESS 0x1015U
-#define HITACHI_L200_DECELERATION_TIME_CODE "F003"
-#define HITACHI_L200_DECELERATION_TIME_MODICON 4118U
-#define HITACHI_L200_DECELERATION_TIME_REFERENCE 404118U
 #define HITACHI_L200_DECELERATION_TIME_WORDS 2U
 #define HITACHI_L200_DECELERATION_TIME_RAW_MIN 1
 #define HITACHI_L200_DECELERATION_TIME_RAW_MAX 300000
 #define HITACHI_L200_DECELERATION_TIME_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_DECELERATION_TIME_RAW_MIN && raw <= HITACHI_L200_DECELERATION_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_deceleration_time_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_time_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_DECELERATION_TIME_RAW_MIN, HITACHI_L200_DECELERATION_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
-static inline double hitachi_l200_deceleration_time_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_check(uint32_t raw) { return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_deceleration_time_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_deceleration_time_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_deceleration_time_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
+static inline double hitachi_l200_deceleration_time_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_deceleration_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_deceleration_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
 /*
- * F203: Deceleration time set 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum f002_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * F203 deceleration time set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
+ * 5379, reference 405379
  */
-#define HITACHI_L200_DECELERATION_TIME_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DECELERATION_TIME_SET_2_ADDRESS 0x1502U
-#define HITACHI_L200_DECELERATION_TIME_SET_2_CODE "F203"
-#define HITACHI_L200_DECELERATION_TIME_SET_2_MODICON 5379U
-#define HITACHI_L200_DECELERATION_TIME_SET_2_REFERENCE 405379U
 #define HITACHI_L200_DECELERATION_TIME_SET_2_WORDS 2U
 #define HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MIN 1
 #define HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MAX 300000
 #define HITACHI_L200_DECELERATION_TIME_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_set_2_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MIN && raw <= HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_set_2_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_deceleration_time_set_2_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_time_set_2_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MIN, HITACHI_L200_DECELERATION_TIME_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_set_2_check(uint32_t raw)
+{ return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_set_2_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_deceleration_time_set_2_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_deceleration_time_set_2_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_deceleration_time_set_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
 static inline double hitachi_l200_deceleration_time_set_2_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+{ return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_deceleration_time_set_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_deceleration_time_set_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
-/* Motor direction */
 enum {
     HITACHI_L200_MOTOR_DIRECTION_FORWARD = 0,
     HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1
 };
-
+static const char *const hitachi_l200_motor_direction_names[] = {
+    "forward", "reverse"
+};
 static inline const char *hitachi_l200_motor_direction_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_MOTOR_DIRECTION_FORWARD:
-        return "forward";
-    case HITACHI_L200_MOTOR_DIRECTION_REVERSE:
-        return "reverse";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_direction_names, raw); }
 
-/*
- * F004: Motor direction
- * 0, 1; read and write.
- * Erratum rotation_words (likely): printed: The directions are Rechtslauf and Linkslauf, Rechts and Links, FW and
- * REV, FW and RV in four places; taken: Forward and reverse everywhere.
- * Erratum f004_wire_decimal (certain): printed: wire 4219; taken: wire 4119.
- */
-#define HITACHI_L200_MOTOR_DIRECTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* F004 motor direction: 0, 1; rw, modicon 4120, reference 404120; erratum f004_wire_decimal */
 #define HITACHI_L200_MOTOR_DIRECTION_ADDRESS 0x1017U
-#define HITACHI_L200_MOTOR_DIRECTION_CODE "F004"
-#define HITACHI_L200_MOTOR_DIRECTION_MODICON 4120U
-#define HITACHI_L200_MOTOR_DIRECTION_REFERENCE 404120U
-#define HITACHI_L200_MOTOR_DIRECTION_WORDS 1U
 #define HITACHI_L200_MOTOR_DIRECTION_RAW_MIN 0
 #define HITACHI_L200_MOTOR_DIRECTION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_motor_direction_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_direction_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_motor_direction_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_direction_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_DIRECTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
+/* ---- standard a (holding) ---- */
 
-static inline hitachi_l200_status hitachi_l200_motor_direction_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_DIRECTION_RAW_MIN || value > HITACHI_L200_MOTOR_DIRECTION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_direction_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* ---- Standard a ---- */
-
-/* Frequency source */
 enum {
     HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER = 0,
     HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI = 1,
@@ -2348,4406 +762,1609 @@ enum {
     HITACHI_L200_FREQUENCY_SOURCE_MODBUS = 3,
     HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT = 10
 };
-
+static const fieldscribe_name hitachi_l200_frequency_source_names[] = {
+    {HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER, "keypad_potentiometer"},
+    {HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI, "terminal_o_oi"},
+    {HITACHI_L200_FREQUENCY_SOURCE_F001_OR_A020, "f001_or_a020"}, {HITACHI_L200_FREQUENCY_SOURCE_MODBUS, "modbus"},
+    {HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT, "calculation_result"}
+};
 static inline const char *hitachi_l200_frequency_source_name(int32_t raw)
 {
-    switch (raw) {
-    case HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER:
-        return "keypad_potentiometer";
-    case HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI:
-        return "terminal_o_oi";
-    case HITACHI_L200_FREQUENCY_SOURCE_F001_OR_A020:
-        return "f001_or_a020";
-    case HITACHI_L200_FREQUENCY_SOURCE_MODBUS:
-        return "modbus";
-    case HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT:
-        return "calculation_result";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(hitachi_l200_frequency_source_names,
+        FIELDSCRIBE_COUNT(hitachi_l200_frequency_source_names), raw);
 }
 
-/*
- * A001: Frequency source
- * 0..3, 10; read and write.
- * Erratum a001_code_10_label (likely): printed: The group list calls code 10 a logic combination, the table at the
- * front a calculation output; taken: 10 is the result of the calculation.
- */
-#define HITACHI_L200_FREQUENCY_SOURCE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A001 frequency source: 0..3, 10; rw, modicon 4121, reference 404121 */
 #define HITACHI_L200_FREQUENCY_SOURCE_ADDRESS 0x1018U
-#define HITACHI_L200_FREQUENCY_SOURCE_CODE "A001"
-#define HITACHI_L200_FREQUENCY_SOURCE_MODICON 4121U
-#define HITACHI_L200_FREQUENCY_SOURCE_REFERENCE 404121U
-#define HITACHI_L200_FREQUENCY_SOURCE_WORDS 1U
 #define HITACHI_L200_FREQUENCY_SOURCE_RAW_MIN 0
 #define HITACHI_L200_FREQUENCY_SOURCE_RAW_MAX 10
-
-static inline hitachi_l200_status hitachi_l200_frequency_source_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_frequency_source_check(uint16_t raw)
+{ return fieldscribe_known(((raw <= 3U) || (raw == 10U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_source_encode(int32_t value, uint16_t *raw)
 {
-    return raw <= 3U || raw == 10U ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 10)
+        ? fieldscribe_keep_u16(hitachi_l200_frequency_source_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
+static inline int32_t hitachi_l200_frequency_source_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_frequency_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_FREQUENCY_SOURCE_RAW_MIN || value > HITACHI_L200_FREQUENCY_SOURCE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_frequency_source_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t hitachi_l200_frequency_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A201: Frequency source set 2
- * 0..3, 10; read and write.
- * Erratum a001_code_10_label (likely): printed: The group list calls code 10 a logic combination, the table at the
- * front a calculation output; taken: 10 is the result of the calculation.
- */
-#define HITACHI_L200_FREQUENCY_SOURCE_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A201 frequency source set 2: 0..3, 10; rw, modicon 5386, reference 405386 */
 #define HITACHI_L200_FREQUENCY_SOURCE_SET_2_ADDRESS 0x1509U
-#define HITACHI_L200_FREQUENCY_SOURCE_SET_2_CODE "A201"
-#define HITACHI_L200_FREQUENCY_SOURCE_SET_2_MODICON 5386U
-#define HITACHI_L200_FREQUENCY_SOURCE_SET_2_REFERENCE 405386U
-#define HITACHI_L200_FREQUENCY_SOURCE_SET_2_WORDS 1U
 #define HITACHI_L200_FREQUENCY_SOURCE_SET_2_RAW_MIN 0
 #define HITACHI_L200_FREQUENCY_SOURCE_SET_2_RAW_MAX 10
-
-static inline hitachi_l200_status hitachi_l200_frequency_source_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_frequency_source_set_2_check(uint16_t raw)
+{ return fieldscribe_known(((raw <= 3U) || (raw == 10U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_source_set_2_encode(int32_t value, uint16_t *raw)
 {
-    return raw <= 3U || raw == 10U ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 10)
+        ? fieldscribe_keep_u16(hitachi_l200_frequency_source_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
+static inline int32_t hitachi_l200_frequency_source_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_frequency_source_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_FREQUENCY_SOURCE_SET_2_RAW_MIN || value > HITACHI_L200_FREQUENCY_SOURCE_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_frequency_source_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t hitachi_l200_frequency_source_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Run source */
 enum {
     HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV = 1,
     HITACHI_L200_RUN_SOURCE_RUN_KEY = 2,
     HITACHI_L200_RUN_SOURCE_MODBUS = 3
 };
-
+static const fieldscribe_name hitachi_l200_run_source_names[] = {
+    {HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV, "terminal_fw_rv"}, {HITACHI_L200_RUN_SOURCE_RUN_KEY, "run_key"},
+    {HITACHI_L200_RUN_SOURCE_MODBUS, "modbus"}
+};
 static inline const char *hitachi_l200_run_source_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV:
-        return "terminal_fw_rv";
-    case HITACHI_L200_RUN_SOURCE_RUN_KEY:
-        return "run_key";
-    case HITACHI_L200_RUN_SOURCE_MODBUS:
-        return "modbus";
-    default:
-        return NULL;
-    }
-}
+{ return fieldscribe_name_of(hitachi_l200_run_source_names, FIELDSCRIBE_COUNT(hitachi_l200_run_source_names), raw); }
 
-/*
- * A002: Run source
- * 1..3; read and write.
- * Erratum a002_wire_decimal (certain): printed: wire 4221; taken: wire 4121.
- */
-#define HITACHI_L200_RUN_SOURCE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A002 run source: 1..3; rw, modicon 4122, reference 404122; erratum a002_wire_decimal */
 #define HITACHI_L200_RUN_SOURCE_ADDRESS 0x1019U
-#define HITACHI_L200_RUN_SOURCE_CODE "A002"
-#define HITACHI_L200_RUN_SOURCE_MODICON 4122U
-#define HITACHI_L200_RUN_SOURCE_REFERENCE 404122U
-#define HITACHI_L200_RUN_SOURCE_WORDS 1U
 #define HITACHI_L200_RUN_SOURCE_RAW_MIN 1
 #define HITACHI_L200_RUN_SOURCE_RAW_MAX 3
+FIELDSCRIBE_STATUS hitachi_l200_run_source_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 3)); }
+FIELDSCRIBE_STATUS hitachi_l200_run_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 1, 3, raw)); }
+static inline int32_t hitachi_l200_run_source_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_run_source_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_RUN_SOURCE_RAW_MIN && raw <= HITACHI_L200_RUN_SOURCE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_run_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RUN_SOURCE_RAW_MIN || value > HITACHI_L200_RUN_SOURCE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_run_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A202: Run source set 2
- * 1..3; read and write.
- */
-#define HITACHI_L200_RUN_SOURCE_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A202 run source set 2: 1..3; rw, modicon 5387, reference 405387 */
 #define HITACHI_L200_RUN_SOURCE_SET_2_ADDRESS 0x150AU
-#define HITACHI_L200_RUN_SOURCE_SET_2_CODE "A202"
-#define HITACHI_L200_RUN_SOURCE_SET_2_MODICON 5387U
-#define HITACHI_L200_RUN_SOURCE_SET_2_REFERENCE 405387U
-#define HITACHI_L200_RUN_SOURCE_SET_2_WORDS 1U
 #define HITACHI_L200_RUN_SOURCE_SET_2_RAW_MIN 1
 #define HITACHI_L200_RUN_SOURCE_SET_2_RAW_MAX 3
+FIELDSCRIBE_STATUS hitachi_l200_run_source_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 3)); }
+FIELDSCRIBE_STATUS hitachi_l200_run_source_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 1, 3, raw)); }
+static inline int32_t hitachi_l200_run_source_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_run_source_set_2_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_RUN_SOURCE_SET_2_RAW_MIN && raw <= HITACHI_L200_RUN_SOURCE_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_run_source_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RUN_SOURCE_SET_2_RAW_MIN || value > HITACHI_L200_RUN_SOURCE_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_run_source_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A003: Motor rated frequency
- * 30..min(400, maximum_frequency.raw) Hz, raw 30..min(400, maximum_frequency.raw); read and write.
- */
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A003 motor rated frequency: 30..min(400, maximum_frequency.raw) Hz; rw, modicon 4123, reference 404123 */
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_ADDRESS 0x101AU
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_CODE "A003"
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_MODICON 4123U
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_REFERENCE 404123U
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_WORDS 1U
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MIN 30
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MAX 400
-
-static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_check(uint16_t raw, uint16_t maximum_frequency_raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_check(uint16_t raw, uint16_t maximum_frequency_raw)
 {
-    const int32_t number = raw;
-    int32_t high;
-    high = (int32_t)maximum_frequency_raw;
-    if (high > 400) {
-        high = 400;
-    }
-    return number >= 30 && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_whole_of(30),
+        fieldscribe_no_more(fieldscribe_whole_of((int64_t)maximum_frequency_raw), 400));
 }
-
-static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_encode(int32_t value, uint16_t maximum_frequency_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_encode(
+    int32_t value, uint16_t maximum_frequency_raw, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MIN || value > HITACHI_L200_MOTOR_RATED_FREQUENCY_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_motor_rated_frequency_check(number, maximum_frequency_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 30, 400)
+        ? fieldscribe_keep_u16(hitachi_l200_motor_rated_frequency_check((uint16_t)value, maximum_frequency_raw),
+        (uint16_t)value, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
+static inline int32_t hitachi_l200_motor_rated_frequency_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_motor_rated_frequency_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A203: Motor rated frequency set 2
- * 30..min(400, maximum_frequency_set_2.raw) Hz, raw 30..min(400, maximum_frequency_set_2.raw); read and write.
- * Erratum set_2_limits (likely): printed: A203 and A204 share the description of A003 and A004, A261 and A262 also
- * their range, which names A062, A004 and A061 of the first set; taken: The limits of a second set are the points of
- * the second set; b082 has one set.
- */
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A203 motor rated frequency set 2: 30..min(400, maximum_frequency_set_2.raw) Hz; rw, modicon 5388, reference 405388 */
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_ADDRESS 0x150BU
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_CODE "A203"
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_MODICON 5388U
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_REFERENCE 405388U
-#define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MIN 30
 #define HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MAX 400
-
-static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_set_2_check(uint16_t raw, uint16_t maximum_frequency_set_2_raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_set_2_check(uint16_t raw, uint16_t maximum_frequency_set_2_raw)
 {
-    const int32_t number = raw;
-    int32_t high;
-    high = (int32_t)maximum_frequency_set_2_raw;
-    if (high > 400) {
-        high = 400;
-    }
-    return number >= 30 && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_whole_of(30),
+        fieldscribe_no_more(fieldscribe_whole_of((int64_t)maximum_frequency_set_2_raw), 400));
 }
-
-static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_set_2_encode(int32_t value, uint16_t maximum_frequency_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_rated_frequency_set_2_encode(
+    int32_t value, uint16_t maximum_frequency_set_2_raw, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MIN || value > HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_motor_rated_frequency_set_2_check(number, maximum_frequency_set_2_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 30, 400)
+        ? fieldscribe_keep_u16(hitachi_l200_motor_rated_frequency_set_2_check((uint16_t)value,
+        maximum_frequency_set_2_raw), (uint16_t)value, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_motor_rated_frequency_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_motor_rated_frequency_set_2_decode(uint16_t raw) { return raw; }
 
 /*
- * A004: Maximum frequency
- * max(30, motor_rated_frequency.raw)..400 Hz, raw max(30, motor_rated_frequency.raw)..400; read and write.
- * Erratum a004_range (likely): printed: range 30..400; taken: range A003 .. 400.
+ * A004 maximum frequency: max(30, motor_rated_frequency.raw)..400 Hz; rw, modicon 4124, reference 404124; erratum
+ * a004_range
  */
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_MAXIMUM_FREQUENCY_ADDRESS 0x101BU
-#define HITACHI_L200_MAXIMUM_FREQUENCY_CODE "A004"
-#define HITACHI_L200_MAXIMUM_FREQUENCY_MODICON 4124U
-#define HITACHI_L200_MAXIMUM_FREQUENCY_REFERENCE 404124U
-#define HITACHI_L200_MAXIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MIN 30
 #define HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MAX 400
-
-static inline hitachi_l200_status hitachi_l200_maximum_frequency_check(uint16_t raw, uint16_t motor_rated_frequency_raw)
+FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_check(uint16_t raw, uint16_t motor_rated_frequency_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    low = (int32_t)motor_rated_frequency_raw;
-    if (low < 30) {
-        low = 30;
-    }
-    return number >= low && number <= 400 ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)motor_rated_frequency_raw), 30),
+        fieldscribe_whole_of(400));
 }
-
-static inline hitachi_l200_status hitachi_l200_maximum_frequency_encode(int32_t value, uint16_t motor_rated_frequency_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_encode(
+    int32_t value, uint16_t motor_rated_frequency_raw, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MIN || value > HITACHI_L200_MAXIMUM_FREQUENCY_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_maximum_frequency_check(number, motor_rated_frequency_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 30, 400)
+        ? fieldscribe_keep_u16(hitachi_l200_maximum_frequency_check((uint16_t)value, motor_rated_frequency_raw),
+        (uint16_t)value, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_maximum_frequency_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_maximum_frequency_decode(uint16_t raw) { return raw; }
 
 /*
- * A204: Maximum frequency set 2
- * max(30, motor_rated_frequency_set_2.raw)..400 Hz, raw max(30, motor_rated_frequency_set_2.raw)..400; read and
- * write.
- * Erratum a204_range (likely): printed: range 30..400; taken: range A203 .. 400.
- * Erratum set_2_limits (likely): printed: A203 and A204 share the description of A003 and A004, A261 and A262 also
- * their range, which names A062, A004 and A061 of the first set; taken: The limits of a second set are the points of
- * the second set; b082 has one set.
+ * A204 maximum frequency set 2: max(30, motor_rated_frequency_set_2.raw)..400 Hz; rw, modicon 5389, reference 405389;
+ * erratum a204_range
  */
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_ADDRESS 0x150CU
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_CODE "A204"
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_MODICON 5389U
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_REFERENCE 405389U
-#define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MIN 30
 #define HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MAX 400
-
-static inline hitachi_l200_status hitachi_l200_maximum_frequency_set_2_check(uint16_t raw, uint16_t motor_rated_frequency_set_2_raw)
+FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_set_2_check(uint16_t raw, uint16_t motor_rated_frequency_set_2_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    low = (int32_t)motor_rated_frequency_set_2_raw;
-    if (low < 30) {
-        low = 30;
-    }
-    return number >= low && number <= 400 ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_between(raw,
+        fieldscribe_no_less(fieldscribe_whole_of((int64_t)motor_rated_frequency_set_2_raw), 30),
+        fieldscribe_whole_of(400));
 }
-
-static inline hitachi_l200_status hitachi_l200_maximum_frequency_set_2_encode(int32_t value, uint16_t motor_rated_frequency_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_maximum_frequency_set_2_encode(
+    int32_t value, uint16_t motor_rated_frequency_set_2_raw, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MIN || value > HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_maximum_frequency_set_2_check(number, motor_rated_frequency_set_2_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 30, 400)
+        ? fieldscribe_keep_u16(hitachi_l200_maximum_frequency_set_2_check((uint16_t)value,
+        motor_rated_frequency_set_2_raw), (uint16_t)value, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
+static inline int32_t hitachi_l200_maximum_frequency_set_2_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_maximum_frequency_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* At terminal selection */
 enum {
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI = 0,
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI_AT_IGNORED = 1,
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_POTENTIOMETER = 2,
     HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER = 3
 };
-
+static const char *const hitachi_l200_at_terminal_selection_names[] = {
+    "o_and_oi", "o_and_oi_at_ignored", "o_and_potentiometer", "oi_and_potentiometer"
+};
 static inline const char *hitachi_l200_at_terminal_selection_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI:
-        return "o_and_oi";
-    case HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI_AT_IGNORED:
-        return "o_and_oi_at_ignored";
-    case HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_POTENTIOMETER:
-        return "o_and_potentiometer";
-    case HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER:
-        return "oi_and_potentiometer";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_at_terminal_selection_names, raw); }
 
-/*
- * A005: At terminal selection
- * 0..3; read and write.
- */
-#define HITACHI_L200_AT_TERMINAL_SELECTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A005 at terminal selection: 0..3; rw, modicon 4125, reference 404125 */
 #define HITACHI_L200_AT_TERMINAL_SELECTION_ADDRESS 0x101CU
-#define HITACHI_L200_AT_TERMINAL_SELECTION_CODE "A005"
-#define HITACHI_L200_AT_TERMINAL_SELECTION_MODICON 4125U
-#define HITACHI_L200_AT_TERMINAL_SELECTION_REFERENCE 404125U
-#define HITACHI_L200_AT_TERMINAL_SELECTION_WORDS 1U
 #define HITACHI_L200_AT_TERMINAL_SELECTION_RAW_MIN 0
 #define HITACHI_L200_AT_TERMINAL_SELECTION_RAW_MAX 3
+FIELDSCRIBE_STATUS hitachi_l200_at_terminal_selection_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 3)); }
+FIELDSCRIBE_STATUS hitachi_l200_at_terminal_selection_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 3, raw)); }
+static inline int32_t hitachi_l200_at_terminal_selection_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_at_terminal_selection_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_AT_TERMINAL_SELECTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_at_terminal_selection_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_AT_TERMINAL_SELECTION_RAW_MIN || value > HITACHI_L200_AT_TERMINAL_SELECTION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_at_terminal_selection_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A011: Input o minimum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A011 input o minimum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4128, reference 404128 */
 #define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_ADDRESS 0x101FU
-#define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_CODE "A011"
-#define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_MODICON 4128U
-#define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_REFERENCE 404128U
-#define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_o_minimum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_minimum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_o_minimum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_o_minimum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_input_o_minimum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A012: Input o maximum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A012 input o maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4130, reference 404130 */
 #define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_ADDRESS 0x1021U
-#define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_CODE "A012"
-#define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_MODICON 4130U
-#define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_REFERENCE 404130U
-#define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_o_maximum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_maximum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_o_maximum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_o_maximum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_input_o_maximum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A013: Input o minimum setpoint
- * 0..100 %, raw 0..100; read and write.
- */
-#define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A013 input o minimum setpoint: 0..100 %; rw, modicon 4131, reference 404131 */
 #define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_ADDRESS 0x1022U
-#define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_CODE "A013"
-#define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_MODICON 4131U
-#define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_REFERENCE 404131U
-#define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_setpoint_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_minimum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_input_o_minimum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_o_minimum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_minimum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_minimum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A014: Input o maximum setpoint
- * 0..100 %, raw 0..100; read and write.
- */
-#define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A014 input o maximum setpoint: 0..100 %; rw, modicon 4132, reference 404132 */
 #define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_ADDRESS 0x1023U
-#define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_CODE "A014"
-#define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_MODICON 4132U
-#define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_REFERENCE 404132U
-#define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_setpoint_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_maximum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_input_o_maximum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_o_maximum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_maximum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_maximum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Input o start condition */
 enum {
     HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1
 };
-
+static const char *const hitachi_l200_input_o_start_condition_names[] = {
+    "minimum_frequency", "zero_hz"
+};
 static inline const char *hitachi_l200_input_o_start_condition_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY:
-        return "minimum_frequency";
-    case HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ:
-        return "zero_hz";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_input_o_start_condition_names, raw); }
 
-/*
- * A015: Input o start condition
- * 0, 1; read and write.
- */
-#define HITACHI_L200_INPUT_O_START_CONDITION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A015 input o start condition: 0, 1; rw, modicon 4133, reference 404133 */
 #define HITACHI_L200_INPUT_O_START_CONDITION_ADDRESS 0x1024U
-#define HITACHI_L200_INPUT_O_START_CONDITION_CODE "A015"
-#define HITACHI_L200_INPUT_O_START_CONDITION_MODICON 4133U
-#define HITACHI_L200_INPUT_O_START_CONDITION_REFERENCE 404133U
-#define HITACHI_L200_INPUT_O_START_CONDITION_WORDS 1U
 #define HITACHI_L200_INPUT_O_START_CONDITION_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_START_CONDITION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_input_o_start_condition_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_start_condition_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_input_o_start_condition_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_o_start_condition_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_START_CONDITION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_start_condition_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_O_START_CONDITION_RAW_MIN || value > HITACHI_L200_INPUT_O_START_CONDITION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_start_condition_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Analog input filter */
 enum {
     HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND = 17
 };
-
+static const fieldscribe_name hitachi_l200_analog_input_filter_names[] = {
+    {HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND, "samples_16_dead_band"}
+};
 static inline const char *hitachi_l200_analog_input_filter_name(int32_t raw)
 {
-    switch (raw) {
-    case HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND:
-        return "samples_16_dead_band";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(hitachi_l200_analog_input_filter_names,
+        FIELDSCRIBE_COUNT(hitachi_l200_analog_input_filter_names), raw);
 }
 
-/*
- * A016: Analog input filter
- * 1..17; read and write.
- * Erratum a016_unit (likely): printed: The step is one sample, which is not a unit of the range with code 17; taken:
- * A number of samples without unit; 17 is named.
- */
-#define HITACHI_L200_ANALOG_INPUT_FILTER_SPACE HITACHI_L200_SPACE_HOLDING
+/* A016 analog input filter: 1..17; rw, modicon 4134, reference 404134 */
 #define HITACHI_L200_ANALOG_INPUT_FILTER_ADDRESS 0x1025U
-#define HITACHI_L200_ANALOG_INPUT_FILTER_CODE "A016"
-#define HITACHI_L200_ANALOG_INPUT_FILTER_MODICON 4134U
-#define HITACHI_L200_ANALOG_INPUT_FILTER_REFERENCE 404134U
-#define HITACHI_L200_ANALOG_INPUT_FILTER_WORDS 1U
 #define HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MIN 1
 #define HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MAX 17
+FIELDSCRIBE_STATUS hitachi_l200_analog_input_filter_check(uint16_t raw) { return fieldscribe_check(raw, 1, 17); }
+FIELDSCRIBE_STATUS hitachi_l200_analog_input_filter_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 1, 17, raw); }
+static inline int32_t hitachi_l200_analog_input_filter_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_analog_input_filter_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MIN && raw <= HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_analog_input_filter_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MIN || value > HITACHI_L200_ANALOG_INPUT_FILTER_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_analog_input_filter_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A020: Base frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a020_start_value (certain): printed: The example calls 0.1 Hz the initial value of A020; taken: 0.1 Hz is
- * the step; no default is given.
- * Erratum a020_title_in_example (certain): printed: The example calls A020 the fixed frequency 0, the list the base
- * frequency and the first fixed frequency; taken: A020 is the frequency with no CF input set; A021 is fixed
- * frequency 1.
- */
-#define HITACHI_L200_BASE_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A020 base frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4137, reference 404137 */
 #define HITACHI_L200_BASE_FREQUENCY_ADDRESS 0x1028U
-#define HITACHI_L200_BASE_FREQUENCY_CODE "A020"
-#define HITACHI_L200_BASE_FREQUENCY_MODICON 4137U
-#define HITACHI_L200_BASE_FREQUENCY_REFERENCE 404137U
-#define HITACHI_L200_BASE_FREQUENCY_WORDS 1U
 #define HITACHI_L200_BASE_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_BASE_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_BASE_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_base_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_BASE_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_base_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_base_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_base_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_BASE_FREQUENCY_RAW_MIN, HITACHI_L200_BASE_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_base_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_base_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_base_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A220: Base frequency set 2
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_BASE_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A220 base frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5391, reference 405391 */
 #define HITACHI_L200_BASE_FREQUENCY_SET_2_ADDRESS 0x150EU
-#define HITACHI_L200_BASE_FREQUENCY_SET_2_CODE "A220"
-#define HITACHI_L200_BASE_FREQUENCY_SET_2_MODICON 5391U
-#define HITACHI_L200_BASE_FREQUENCY_SET_2_REFERENCE 405391U
-#define HITACHI_L200_BASE_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_BASE_FREQUENCY_SET_2_RAW_MIN 0
 #define HITACHI_L200_BASE_FREQUENCY_SET_2_RAW_MAX 4000
 #define HITACHI_L200_BASE_FREQUENCY_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_base_frequency_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_BASE_FREQUENCY_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_base_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_base_frequency_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_base_frequency_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_BASE_FREQUENCY_SET_2_RAW_MIN, HITACHI_L200_BASE_FREQUENCY_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_base_frequency_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_base_frequency_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_base_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_base_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A021: Fixed frequency 1
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a021_title (certain): printed: The title says Festfrequen; taken: Festfrequenz.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_1_SPACE HITACHI_L200_SPACE_HOLDING
+/* A021 fixed frequency 1: 0..400 Hz; 0.1 Hz a count; rw, modicon 4139, reference 404139 */
 #define HITACHI_L200_FIXED_FREQUENCY_1_ADDRESS 0x102AU
-#define HITACHI_L200_FIXED_FREQUENCY_1_CODE "A021"
-#define HITACHI_L200_FIXED_FREQUENCY_1_MODICON 4139U
-#define HITACHI_L200_FIXED_FREQUENCY_1_REFERENCE 404139U
-#define HITACHI_L200_FIXED_FREQUENCY_1_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_1_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_1_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_1_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_1_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_1_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_1_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_1_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_1_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_1_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_1_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_1_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_1_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_1_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A022: Fixed frequency 2
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A022 fixed frequency 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 4141, reference 404141 */
 #define HITACHI_L200_FIXED_FREQUENCY_2_ADDRESS 0x102CU
-#define HITACHI_L200_FIXED_FREQUENCY_2_CODE "A022"
-#define HITACHI_L200_FIXED_FREQUENCY_2_MODICON 4141U
-#define HITACHI_L200_FIXED_FREQUENCY_2_REFERENCE 404141U
-#define HITACHI_L200_FIXED_FREQUENCY_2_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_2_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_2_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_2_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A023: Fixed frequency 3
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_3_SPACE HITACHI_L200_SPACE_HOLDING
+/* A023 fixed frequency 3: 0..400 Hz; 0.1 Hz a count; rw, modicon 4143, reference 404143 */
 #define HITACHI_L200_FIXED_FREQUENCY_3_ADDRESS 0x102EU
-#define HITACHI_L200_FIXED_FREQUENCY_3_CODE "A023"
-#define HITACHI_L200_FIXED_FREQUENCY_3_MODICON 4143U
-#define HITACHI_L200_FIXED_FREQUENCY_3_REFERENCE 404143U
-#define HITACHI_L200_FIXED_FREQUENCY_3_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_3_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_3_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_3_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_3_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_3_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_3_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_3_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_3_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_3_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_3_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_3_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_3_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_3_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A024: Fixed frequency 4
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_4_SPACE HITACHI_L200_SPACE_HOLDING
+/* A024 fixed frequency 4: 0..400 Hz; 0.1 Hz a count; rw, modicon 4145, reference 404145 */
 #define HITACHI_L200_FIXED_FREQUENCY_4_ADDRESS 0x1030U
-#define HITACHI_L200_FIXED_FREQUENCY_4_CODE "A024"
-#define HITACHI_L200_FIXED_FREQUENCY_4_MODICON 4145U
-#define HITACHI_L200_FIXED_FREQUENCY_4_REFERENCE 404145U
-#define HITACHI_L200_FIXED_FREQUENCY_4_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_4_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_4_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_4_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_4_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_4_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_4_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_4_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_4_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_4_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_4_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_4_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_4_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_4_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_4_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A025: Fixed frequency 5
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a025_terminals (certain): printed: The title names CF1 and CF4, as does that of A029; taken: CF1 and CF3.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_5_SPACE HITACHI_L200_SPACE_HOLDING
+/* A025 fixed frequency 5: 0..400 Hz; 0.1 Hz a count; rw, modicon 4147, reference 404147 */
 #define HITACHI_L200_FIXED_FREQUENCY_5_ADDRESS 0x1032U
-#define HITACHI_L200_FIXED_FREQUENCY_5_CODE "A025"
-#define HITACHI_L200_FIXED_FREQUENCY_5_MODICON 4147U
-#define HITACHI_L200_FIXED_FREQUENCY_5_REFERENCE 404147U
-#define HITACHI_L200_FIXED_FREQUENCY_5_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_5_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_5_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_5_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_5_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_5_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_5_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_5_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_5_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_5_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_5_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_5_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_5_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_5_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_5_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A026: Fixed frequency 6
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_6_SPACE HITACHI_L200_SPACE_HOLDING
+/* A026 fixed frequency 6: 0..400 Hz; 0.1 Hz a count; rw, modicon 4149, reference 404149 */
 #define HITACHI_L200_FIXED_FREQUENCY_6_ADDRESS 0x1034U
-#define HITACHI_L200_FIXED_FREQUENCY_6_CODE "A026"
-#define HITACHI_L200_FIXED_FREQUENCY_6_MODICON 4149U
-#define HITACHI_L200_FIXED_FREQUENCY_6_REFERENCE 404149U
-#define HITACHI_L200_FIXED_FREQUENCY_6_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_6_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_6_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_6_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_6_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_6_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_6_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_6_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_6_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_6_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_6_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_6_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_6_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_6_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_6_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A027: Fixed frequency 7
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_7_SPACE HITACHI_L200_SPACE_HOLDING
+/* A027 fixed frequency 7: 0..400 Hz; 0.1 Hz a count; rw, modicon 4151, reference 404151 */
 #define HITACHI_L200_FIXED_FREQUENCY_7_ADDRESS 0x1036U
-#define HITACHI_L200_FIXED_FREQUENCY_7_CODE "A027"
-#define HITACHI_L200_FIXED_FREQUENCY_7_MODICON 4151U
-#define HITACHI_L200_FIXED_FREQUENCY_7_REFERENCE 404151U
-#define HITACHI_L200_FIXED_FREQUENCY_7_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_7_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_7_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_7_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_7_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_7_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_7_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_7_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_7_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_7_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_7_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_7_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_7_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_7_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_7_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A028: Fixed frequency 8
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_8_SPACE HITACHI_L200_SPACE_HOLDING
+/* A028 fixed frequency 8: 0..400 Hz; 0.1 Hz a count; rw, modicon 4153, reference 404153 */
 #define HITACHI_L200_FIXED_FREQUENCY_8_ADDRESS 0x1038U
-#define HITACHI_L200_FIXED_FREQUENCY_8_CODE "A028"
-#define HITACHI_L200_FIXED_FREQUENCY_8_MODICON 4153U
-#define HITACHI_L200_FIXED_FREQUENCY_8_REFERENCE 404153U
-#define HITACHI_L200_FIXED_FREQUENCY_8_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_8_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_8_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_8_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_8_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_8_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_8_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_8_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_8_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_8_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_8_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_8_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_8_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_8_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_8_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A029: Fixed frequency 9
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_9_SPACE HITACHI_L200_SPACE_HOLDING
+/* A029 fixed frequency 9: 0..400 Hz; 0.1 Hz a count; rw, modicon 4155, reference 404155 */
 #define HITACHI_L200_FIXED_FREQUENCY_9_ADDRESS 0x103AU
-#define HITACHI_L200_FIXED_FREQUENCY_9_CODE "A029"
-#define HITACHI_L200_FIXED_FREQUENCY_9_MODICON 4155U
-#define HITACHI_L200_FIXED_FREQUENCY_9_REFERENCE 404155U
-#define HITACHI_L200_FIXED_FREQUENCY_9_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_9_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_9_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_9_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_9_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_9_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_9_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_9_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_9_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_9_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_9_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_9_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_9_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_9_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_9_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A030: Fixed frequency 10
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_10_SPACE HITACHI_L200_SPACE_HOLDING
+/* A030 fixed frequency 10: 0..400 Hz; 0.1 Hz a count; rw, modicon 4157, reference 404157 */
 #define HITACHI_L200_FIXED_FREQUENCY_10_ADDRESS 0x103CU
-#define HITACHI_L200_FIXED_FREQUENCY_10_CODE "A030"
-#define HITACHI_L200_FIXED_FREQUENCY_10_MODICON 4157U
-#define HITACHI_L200_FIXED_FREQUENCY_10_REFERENCE 404157U
-#define HITACHI_L200_FIXED_FREQUENCY_10_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_10_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_10_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_10_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_10_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_10_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_10_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_10_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_10_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_10_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_10_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_10_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_10_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_10_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_10_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A031: Fixed frequency 11
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a031_terminals (certain): printed: A plus sign is missing between CF2 and CF4; taken: CF1, CF2 and CF4.
- * Erratum a031_hex_broken (certain): printed: The hex column prints 103Fh1 and 03Eh on two lines; taken: 103Fh and
- * 103Eh.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_11_SPACE HITACHI_L200_SPACE_HOLDING
+/* A031 fixed frequency 11: 0..400 Hz; 0.1 Hz a count; rw, modicon 4159, reference 404159 */
 #define HITACHI_L200_FIXED_FREQUENCY_11_ADDRESS 0x103EU
-#define HITACHI_L200_FIXED_FREQUENCY_11_CODE "A031"
-#define HITACHI_L200_FIXED_FREQUENCY_11_MODICON 4159U
-#define HITACHI_L200_FIXED_FREQUENCY_11_REFERENCE 404159U
-#define HITACHI_L200_FIXED_FREQUENCY_11_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_11_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_11_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_11_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_11_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_11_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_11_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_11_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_11_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_11_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_11_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_11_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_11_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_11_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_11_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A032: Fixed frequency 12
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_12_SPACE HITACHI_L200_SPACE_HOLDING
+/* A032 fixed frequency 12: 0..400 Hz; 0.1 Hz a count; rw, modicon 4161, reference 404161 */
 #define HITACHI_L200_FIXED_FREQUENCY_12_ADDRESS 0x1040U
-#define HITACHI_L200_FIXED_FREQUENCY_12_CODE "A032"
-#define HITACHI_L200_FIXED_FREQUENCY_12_MODICON 4161U
-#define HITACHI_L200_FIXED_FREQUENCY_12_REFERENCE 404161U
-#define HITACHI_L200_FIXED_FREQUENCY_12_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_12_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_12_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_12_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_12_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_12_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_12_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_12_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_12_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_12_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_12_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_12_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_12_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_12_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_12_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A033: Fixed frequency 13
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_13_SPACE HITACHI_L200_SPACE_HOLDING
+/* A033 fixed frequency 13: 0..400 Hz; 0.1 Hz a count; rw, modicon 4163, reference 404163 */
 #define HITACHI_L200_FIXED_FREQUENCY_13_ADDRESS 0x1042U
-#define HITACHI_L200_FIXED_FREQUENCY_13_CODE "A033"
-#define HITACHI_L200_FIXED_FREQUENCY_13_MODICON 4163U
-#define HITACHI_L200_FIXED_FREQUENCY_13_REFERENCE 404163U
-#define HITACHI_L200_FIXED_FREQUENCY_13_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_13_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_13_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_13_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_13_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_13_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_13_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_13_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_13_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_13_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_13_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_13_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_13_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_13_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_13_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A034: Fixed frequency 14
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_14_SPACE HITACHI_L200_SPACE_HOLDING
+/* A034 fixed frequency 14: 0..400 Hz; 0.1 Hz a count; rw, modicon 4165, reference 404165 */
 #define HITACHI_L200_FIXED_FREQUENCY_14_ADDRESS 0x1044U
-#define HITACHI_L200_FIXED_FREQUENCY_14_CODE "A034"
-#define HITACHI_L200_FIXED_FREQUENCY_14_MODICON 4165U
-#define HITACHI_L200_FIXED_FREQUENCY_14_REFERENCE 404165U
-#define HITACHI_L200_FIXED_FREQUENCY_14_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_14_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_14_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_14_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_14_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_14_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_14_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_14_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_14_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_14_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_14_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_14_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_14_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_14_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_14_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A035: Fixed frequency 15
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FIXED_FREQUENCY_15_SPACE HITACHI_L200_SPACE_HOLDING
+/* A035 fixed frequency 15: 0..400 Hz; 0.1 Hz a count; rw, modicon 4167, reference 404167 */
 #define HITACHI_L200_FIXED_FREQUENCY_15_ADDRESS 0x1046U
-#define HITACHI_L200_FIXED_FREQUENCY_15_CODE "A035"
-#define HITACHI_L200_FIXED_FREQUENCY_15_MODICON 4167U
-#define HITACHI_L200_FIXED_FREQUENCY_15_REFERENCE 404167U
-#define HITACHI_L200_FIXED_FREQUENCY_15_WORDS 1U
 #define HITACHI_L200_FIXED_FREQUENCY_15_RAW_MIN 0
 #define HITACHI_L200_FIXED_FREQUENCY_15_RAW_MAX 4000
 #define HITACHI_L200_FIXED_FREQUENCY_15_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_15_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FIXED_FREQUENCY_15_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_15_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_fixed_frequency_15_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_fixed_frequency_15_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FIXED_FREQUENCY_15_RAW_MIN, HITACHI_L200_FIXED_FREQUENCY_15_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_fixed_frequency_15_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_fixed_frequency_15_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_fixed_frequency_15_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_fixed_frequency_15_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A038: Jog frequency
- * 0..9.99 Hz, raw 0..999, in steps of 0.01 Hz; read and write.
- */
-#define HITACHI_L200_JOG_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A038 jog frequency: 0..9.99 Hz; 0.01 Hz a count; rw, modicon 4168, reference 404168 */
 #define HITACHI_L200_JOG_FREQUENCY_ADDRESS 0x1047U
-#define HITACHI_L200_JOG_FREQUENCY_CODE "A038"
-#define HITACHI_L200_JOG_FREQUENCY_MODICON 4168U
-#define HITACHI_L200_JOG_FREQUENCY_REFERENCE 404168U
-#define HITACHI_L200_JOG_FREQUENCY_WORDS 1U
 #define HITACHI_L200_JOG_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_JOG_FREQUENCY_RAW_MAX 999
 #define HITACHI_L200_JOG_FREQUENCY_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_jog_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JOG_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jog_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 999) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jog_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jog_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_JOG_FREQUENCY_RAW_MIN, HITACHI_L200_JOG_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jog_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_check(uint16_t raw) { return fieldscribe_check(raw, 0, 999); }
+FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 999, raw); }
+static inline int32_t hitachi_l200_jog_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jog_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 0, 999, raw); }
+static inline fieldscribe_real hitachi_l200_jog_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 100); }
 #endif
 
-/* Jog stop mode */
 enum {
     HITACHI_L200_JOG_STOP_MODE_COAST = 0,
     HITACHI_L200_JOG_STOP_MODE_RAMP = 1,
     HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2
 };
-
+static const char *const hitachi_l200_jog_stop_mode_names[] = {
+    "coast", "ramp", "dc_brake"
+};
 static inline const char *hitachi_l200_jog_stop_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_JOG_STOP_MODE_COAST:
-        return "coast";
-    case HITACHI_L200_JOG_STOP_MODE_RAMP:
-        return "ramp";
-    case HITACHI_L200_JOG_STOP_MODE_DC_BRAKE:
-        return "dc_brake";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_jog_stop_mode_names, raw); }
 
-/*
- * A039: Jog stop mode
- * 0..2; read and write.
- */
-#define HITACHI_L200_JOG_STOP_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A039 jog stop mode: 0..2; rw, modicon 4169, reference 404169 */
 #define HITACHI_L200_JOG_STOP_MODE_ADDRESS 0x1048U
-#define HITACHI_L200_JOG_STOP_MODE_CODE "A039"
-#define HITACHI_L200_JOG_STOP_MODE_MODICON 4169U
-#define HITACHI_L200_JOG_STOP_MODE_REFERENCE 404169U
-#define HITACHI_L200_JOG_STOP_MODE_WORDS 1U
 #define HITACHI_L200_JOG_STOP_MODE_RAW_MIN 0
 #define HITACHI_L200_JOG_STOP_MODE_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_jog_stop_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_jog_stop_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_jog_stop_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_jog_stop_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JOG_STOP_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jog_stop_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_JOG_STOP_MODE_RAW_MIN || value > HITACHI_L200_JOG_STOP_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jog_stop_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Boost mode */
 enum {
     HITACHI_L200_BOOST_MODE_MANUAL = 0,
     HITACHI_L200_BOOST_MODE_AUTOMATIC = 1
 };
-
+static const char *const hitachi_l200_boost_mode_names[] = {
+    "manual", "automatic"
+};
 static inline const char *hitachi_l200_boost_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_BOOST_MODE_MANUAL:
-        return "manual";
-    case HITACHI_L200_BOOST_MODE_AUTOMATIC:
-        return "automatic";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_boost_mode_names, raw); }
 
-/*
- * A041: Boost mode
- * 0, 1; read and write.
- */
-#define HITACHI_L200_BOOST_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A041 boost mode: 0, 1; rw, modicon 4170, reference 404170 */
 #define HITACHI_L200_BOOST_MODE_ADDRESS 0x1049U
-#define HITACHI_L200_BOOST_MODE_CODE "A041"
-#define HITACHI_L200_BOOST_MODE_MODICON 4170U
-#define HITACHI_L200_BOOST_MODE_REFERENCE 404170U
-#define HITACHI_L200_BOOST_MODE_WORDS 1U
 #define HITACHI_L200_BOOST_MODE_RAW_MIN 0
 #define HITACHI_L200_BOOST_MODE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_boost_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_boost_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_boost_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_boost_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_BOOST_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_boost_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_BOOST_MODE_RAW_MIN || value > HITACHI_L200_BOOST_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_boost_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A241: Boost mode set 2
- * 0, 1; read and write.
- * Erratum a241_hex_mark (certain): printed: The second hex number is printed without its h; taken: 150Fh.
- */
-#define HITACHI_L200_BOOST_MODE_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A241 boost mode set 2: 0, 1; rw, modicon 5392, reference 405392 */
 #define HITACHI_L200_BOOST_MODE_SET_2_ADDRESS 0x150FU
-#define HITACHI_L200_BOOST_MODE_SET_2_CODE "A241"
-#define HITACHI_L200_BOOST_MODE_SET_2_MODICON 5392U
-#define HITACHI_L200_BOOST_MODE_SET_2_REFERENCE 405392U
-#define HITACHI_L200_BOOST_MODE_SET_2_WORDS 1U
 #define HITACHI_L200_BOOST_MODE_SET_2_RAW_MIN 0
 #define HITACHI_L200_BOOST_MODE_SET_2_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_boost_mode_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_boost_mode_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_boost_mode_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_boost_mode_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_BOOST_MODE_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_boost_mode_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_BOOST_MODE_SET_2_RAW_MIN || value > HITACHI_L200_BOOST_MODE_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_boost_mode_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A042: Manual boost
- * 0..20 %, raw 0..200, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_MANUAL_BOOST_SPACE HITACHI_L200_SPACE_HOLDING
+/* A042 manual boost: 0..20 %; 0.1 % a count; rw, modicon 4171, reference 404171 */
 #define HITACHI_L200_MANUAL_BOOST_ADDRESS 0x104AU
-#define HITACHI_L200_MANUAL_BOOST_CODE "A042"
-#define HITACHI_L200_MANUAL_BOOST_MODICON 4171U
-#define HITACHI_L200_MANUAL_BOOST_REFERENCE 404171U
-#define HITACHI_L200_MANUAL_BOOST_WORDS 1U
 #define HITACHI_L200_MANUAL_BOOST_RAW_MIN 0
 #define HITACHI_L200_MANUAL_BOOST_RAW_MAX 200
 #define HITACHI_L200_MANUAL_BOOST_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MANUAL_BOOST_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 200) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_manual_boost_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_manual_boost_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_MANUAL_BOOST_RAW_MIN, HITACHI_L200_MANUAL_BOOST_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_manual_boost_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_check(uint16_t raw) { return fieldscribe_check(raw, 0, 200); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 200, raw); }
+static inline int32_t hitachi_l200_manual_boost_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 200, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A242: Manual boost set 2
- * 0..20 %, raw 0..200, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_MANUAL_BOOST_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A242 manual boost set 2: 0..20 %; 0.1 % a count; rw, modicon 5393, reference 405393 */
 #define HITACHI_L200_MANUAL_BOOST_SET_2_ADDRESS 0x1510U
-#define HITACHI_L200_MANUAL_BOOST_SET_2_CODE "A242"
-#define HITACHI_L200_MANUAL_BOOST_SET_2_MODICON 5393U
-#define HITACHI_L200_MANUAL_BOOST_SET_2_REFERENCE 405393U
-#define HITACHI_L200_MANUAL_BOOST_SET_2_WORDS 1U
 #define HITACHI_L200_MANUAL_BOOST_SET_2_RAW_MIN 0
 #define HITACHI_L200_MANUAL_BOOST_SET_2_RAW_MAX 200
 #define HITACHI_L200_MANUAL_BOOST_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MANUAL_BOOST_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 200) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_manual_boost_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_manual_boost_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_MANUAL_BOOST_SET_2_RAW_MIN, HITACHI_L200_MANUAL_BOOST_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_manual_boost_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_check(uint16_t raw) { return fieldscribe_check(raw, 0, 200); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 200, raw); }
+static inline int32_t hitachi_l200_manual_boost_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 200, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A043: Manual boost frequency
- * 0..50 %, raw 0..500, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A043 manual boost frequency: 0..50 %; 0.1 % a count; rw, modicon 4172, reference 404172 */
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_ADDRESS 0x104BU
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_CODE "A043"
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_MODICON 4172U
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_REFERENCE 404172U
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_WORDS 1U
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_RAW_MAX 500
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MANUAL_BOOST_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 500) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_manual_boost_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_MANUAL_BOOST_FREQUENCY_RAW_MIN, HITACHI_L200_MANUAL_BOOST_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_manual_boost_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_check(uint16_t raw) { return fieldscribe_check(raw, 0, 500); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 500, raw); }
+static inline int32_t hitachi_l200_manual_boost_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A243: Manual boost frequency set 2
- * 0..50 %, raw 0..500, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A243 manual boost frequency set 2: 0..50 %; 0.1 % a count; rw, modicon 5394, reference 405394 */
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_ADDRESS 0x1511U
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_CODE "A243"
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_MODICON 5394U
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_REFERENCE 405394U
-#define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_RAW_MIN 0
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_RAW_MAX 500
 #define HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 500) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_manual_boost_frequency_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_manual_boost_frequency_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_RAW_MIN, HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_manual_boost_frequency_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 500); }
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 500, raw); }
+static inline int32_t hitachi_l200_manual_boost_frequency_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_manual_boost_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
+static inline fieldscribe_real hitachi_l200_manual_boost_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Vf characteristic */
 enum {
     HITACHI_L200_VF_CHARACTERISTIC_CONSTANT = 0,
     HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1
 };
-
+static const char *const hitachi_l200_vf_characteristic_names[] = {
+    "constant", "quadratic"
+};
 static inline const char *hitachi_l200_vf_characteristic_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_VF_CHARACTERISTIC_CONSTANT:
-        return "constant";
-    case HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC:
-        return "quadratic";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_vf_characteristic_names, raw); }
 
-/*
- * A044: Vf characteristic
- * 0, 1; read and write.
- */
-#define HITACHI_L200_VF_CHARACTERISTIC_SPACE HITACHI_L200_SPACE_HOLDING
+/* A044 vf characteristic: 0, 1; rw, modicon 4173, reference 404173 */
 #define HITACHI_L200_VF_CHARACTERISTIC_ADDRESS 0x104CU
-#define HITACHI_L200_VF_CHARACTERISTIC_CODE "A044"
-#define HITACHI_L200_VF_CHARACTERISTIC_MODICON 4173U
-#define HITACHI_L200_VF_CHARACTERISTIC_REFERENCE 404173U
-#define HITACHI_L200_VF_CHARACTERISTIC_WORDS 1U
 #define HITACHI_L200_VF_CHARACTERISTIC_RAW_MIN 0
 #define HITACHI_L200_VF_CHARACTERISTIC_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_vf_characteristic_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_vf_characteristic_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_vf_characteristic_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_vf_characteristic_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_VF_CHARACTERISTIC_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_vf_characteristic_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_VF_CHARACTERISTIC_RAW_MIN || value > HITACHI_L200_VF_CHARACTERISTIC_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_vf_characteristic_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A244: Vf characteristic set 2
- * 0, 1; read and write.
- */
-#define HITACHI_L200_VF_CHARACTERISTIC_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A244 vf characteristic set 2: 0, 1; rw, modicon 5395, reference 405395 */
 #define HITACHI_L200_VF_CHARACTERISTIC_SET_2_ADDRESS 0x1512U
-#define HITACHI_L200_VF_CHARACTERISTIC_SET_2_CODE "A244"
-#define HITACHI_L200_VF_CHARACTERISTIC_SET_2_MODICON 5395U
-#define HITACHI_L200_VF_CHARACTERISTIC_SET_2_REFERENCE 405395U
-#define HITACHI_L200_VF_CHARACTERISTIC_SET_2_WORDS 1U
 #define HITACHI_L200_VF_CHARACTERISTIC_SET_2_RAW_MIN 0
 #define HITACHI_L200_VF_CHARACTERISTIC_SET_2_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_vf_characteristic_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_vf_characteristic_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_vf_characteristic_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_vf_characteristic_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_VF_CHARACTERISTIC_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_vf_characteristic_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_VF_CHARACTERISTIC_SET_2_RAW_MIN || value > HITACHI_L200_VF_CHARACTERISTIC_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_vf_characteristic_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A045: Output voltage setting
- * 20..100 %, raw 20..100; read and write.
- */
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SPACE HITACHI_L200_SPACE_HOLDING
+/* A045 output voltage setting: 20..100 %; rw, modicon 4174, reference 404174 */
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_ADDRESS 0x104DU
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_CODE "A045"
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_MODICON 4174U
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_REFERENCE 404174U
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_WORDS 1U
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MIN 20
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_output_voltage_setting_check(uint16_t raw) { return fieldscribe_check(raw, 20, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_output_voltage_setting_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 20, 100, raw); }
+static inline int32_t hitachi_l200_output_voltage_setting_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_output_voltage_setting_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MIN && raw <= HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_output_voltage_setting_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MIN || value > HITACHI_L200_OUTPUT_VOLTAGE_SETTING_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_output_voltage_setting_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A245: Output voltage setting set 2
- * 20..100 %, raw 20..100; read and write.
- */
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A245 output voltage setting set 2: 20..100 %; rw, modicon 5396, reference 405396 */
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_ADDRESS 0x1513U
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_CODE "A245"
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_MODICON 5396U
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_REFERENCE 405396U
-#define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_WORDS 1U
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MIN 20
 #define HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_output_voltage_setting_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 20, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_output_voltage_setting_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 20, 100, raw); }
+static inline int32_t hitachi_l200_output_voltage_setting_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_output_voltage_setting_set_2_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MIN && raw <= HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_output_voltage_setting_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MIN || value > HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_output_voltage_setting_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Inactive active */
 enum {
     HITACHI_L200_INACTIVE_ACTIVE_INACTIVE = 0,
     HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1
 };
-
+static const char *const hitachi_l200_inactive_active_names[] = {
+    "inactive", "active"
+};
 static inline const char *hitachi_l200_inactive_active_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_INACTIVE_ACTIVE_INACTIVE:
-        return "inactive";
-    case HITACHI_L200_INACTIVE_ACTIVE_ACTIVE:
-        return "active";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_inactive_active_names, raw); }
 
-/*
- * A051: Dc brake enable
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DC_BRAKE_ENABLE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A051 dc brake enable: 0, 1; rw, modicon 4177, reference 404177 */
 #define HITACHI_L200_DC_BRAKE_ENABLE_ADDRESS 0x1050U
-#define HITACHI_L200_DC_BRAKE_ENABLE_CODE "A051"
-#define HITACHI_L200_DC_BRAKE_ENABLE_MODICON 4177U
-#define HITACHI_L200_DC_BRAKE_ENABLE_REFERENCE 404177U
-#define HITACHI_L200_DC_BRAKE_ENABLE_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_ENABLE_RAW_MIN 0
 #define HITACHI_L200_DC_BRAKE_ENABLE_RAW_MAX 1
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_enable_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DC_BRAKE_ENABLE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_enable_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DC_BRAKE_ENABLE_RAW_MIN || value > HITACHI_L200_DC_BRAKE_ENABLE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_dc_brake_enable_decode(uint16_t raw)
-{
-    return raw;
-}
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_enable_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_enable_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_dc_brake_enable_decode(uint16_t raw) { return raw; }
 
 /*
- * A052: Dc brake frequency
- * max(0.5, start_frequency.raw x 0.1)..60 Hz, raw max(5, start_frequency.raw)..600, in steps of 0.1 Hz; read and
- * write.
- * Erratum limit_factor_ten (certain): printed: The raw limits are given as b082, A004, A061 and A062 times 10,
- * although b082, A061 and A062 travel in tenths of a hertz already; taken: The value of the named parameter in Hz
- * times 10.
+ * A052 dc brake frequency: max(0.5, start_frequency.raw x 0.1)..60 Hz; 0.1 Hz a count; rw, modicon 4178, reference
+ * 404178
  */
-#define HITACHI_L200_DC_BRAKE_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_ADDRESS 0x1051U
-#define HITACHI_L200_DC_BRAKE_FREQUENCY_CODE "A052"
-#define HITACHI_L200_DC_BRAKE_FREQUENCY_MODICON 4178U
-#define HITACHI_L200_DC_BRAKE_FREQUENCY_REFERENCE 404178U
-#define HITACHI_L200_DC_BRAKE_FREQUENCY_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MIN 5
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX 600
 #define HITACHI_L200_DC_BRAKE_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_frequency_check(uint16_t raw, uint16_t start_frequency_raw)
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_check(uint16_t raw, uint16_t start_frequency_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    low = (int32_t)start_frequency_raw;
-    if (low < 5) {
-        low = 5;
-    }
-    return number >= low && number <= 600 ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)start_frequency_raw), 5),
+        fieldscribe_whole_of(600));
 }
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_frequency_encode_count(int32_t count, uint16_t start_frequency_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode_count(
+    int32_t count, uint16_t start_frequency_raw, uint16_t *raw)
 {
-    if (count < 5 || count > 600) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)count;
-    const hitachi_l200_status status = hitachi_l200_dc_brake_frequency_check(number, start_frequency_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(count, 5, 600)
+        ? fieldscribe_keep_u16(hitachi_l200_dc_brake_frequency_check((uint16_t)count, start_frequency_raw),
+        (uint16_t)count, raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_dc_brake_frequency_decode_count(uint16_t raw)
+static inline int32_t hitachi_l200_dc_brake_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_frequency_encode(
+    fieldscribe_real value, uint16_t start_frequency_raw, uint16_t *raw)
 {
-    return raw;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MIN, HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        hitachi_l200_dc_brake_frequency_check((uint16_t)whole.number, start_frequency_raw)), (uint16_t)whole.number,
+        raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_dc_brake_frequency_encode(hitachi_l200_real value, uint16_t start_frequency_raw, uint16_t *raw)
-{
-    int32_t whole = 0;
-    hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MIN, HITACHI_L200_DC_BRAKE_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        status = hitachi_l200_dc_brake_frequency_check((uint16_t)whole, start_frequency_raw);
-    }
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_dc_brake_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+static inline fieldscribe_real hitachi_l200_dc_brake_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A053: Dc brake delay
- * 0..5 s, raw 0..50, in steps of 0.1 s; read and write.
- * Erratum a053_resolution (certain): printed: No step is printed; taken: 0.1 s.
- */
-#define HITACHI_L200_DC_BRAKE_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A053 dc brake delay: 0..5 s; 0.1 s a count; rw, modicon 4179, reference 404179 */
 #define HITACHI_L200_DC_BRAKE_DELAY_ADDRESS 0x1052U
-#define HITACHI_L200_DC_BRAKE_DELAY_CODE "A053"
-#define HITACHI_L200_DC_BRAKE_DELAY_MODICON 4179U
-#define HITACHI_L200_DC_BRAKE_DELAY_REFERENCE 404179U
-#define HITACHI_L200_DC_BRAKE_DELAY_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_DELAY_RAW_MIN 0
 #define HITACHI_L200_DC_BRAKE_DELAY_RAW_MAX 50
 #define HITACHI_L200_DC_BRAKE_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DC_BRAKE_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 50) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_dc_brake_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_dc_brake_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DC_BRAKE_DELAY_RAW_MIN, HITACHI_L200_DC_BRAKE_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_dc_brake_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_check(uint16_t raw) { return fieldscribe_check(raw, 0, 50); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 50, raw); }
+static inline int32_t hitachi_l200_dc_brake_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 50, raw); }
+static inline fieldscribe_real hitachi_l200_dc_brake_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A054: Dc brake torque
- * 0..100 %, raw 0..100; read and write.
- */
-#define HITACHI_L200_DC_BRAKE_TORQUE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A054 dc brake torque: 0..100 %; rw, modicon 4180, reference 404180 */
 #define HITACHI_L200_DC_BRAKE_TORQUE_ADDRESS 0x1053U
-#define HITACHI_L200_DC_BRAKE_TORQUE_CODE "A054"
-#define HITACHI_L200_DC_BRAKE_TORQUE_MODICON 4180U
-#define HITACHI_L200_DC_BRAKE_TORQUE_REFERENCE 404180U
-#define HITACHI_L200_DC_BRAKE_TORQUE_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_TORQUE_RAW_MIN 0
 #define HITACHI_L200_DC_BRAKE_TORQUE_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_torque_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_torque_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_dc_brake_torque_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_dc_brake_torque_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DC_BRAKE_TORQUE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_torque_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DC_BRAKE_TORQUE_RAW_MIN || value > HITACHI_L200_DC_BRAKE_TORQUE_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_dc_brake_torque_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A055: Dc brake time
- * 0..60 s, raw 0..600, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_DC_BRAKE_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* A055 dc brake time: 0..60 s; 0.1 s a count; rw, modicon 4181, reference 404181 */
 #define HITACHI_L200_DC_BRAKE_TIME_ADDRESS 0x1054U
-#define HITACHI_L200_DC_BRAKE_TIME_CODE "A055"
-#define HITACHI_L200_DC_BRAKE_TIME_MODICON 4181U
-#define HITACHI_L200_DC_BRAKE_TIME_REFERENCE 404181U
-#define HITACHI_L200_DC_BRAKE_TIME_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_TIME_RAW_MIN 0
 #define HITACHI_L200_DC_BRAKE_TIME_RAW_MAX 600
 #define HITACHI_L200_DC_BRAKE_TIME_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_time_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DC_BRAKE_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 600) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_dc_brake_time_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_dc_brake_time_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DC_BRAKE_TIME_RAW_MIN, HITACHI_L200_DC_BRAKE_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_dc_brake_time_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_check(uint16_t raw) { return fieldscribe_check(raw, 0, 600); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 600, raw); }
+static inline int32_t hitachi_l200_dc_brake_time_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 600, raw); }
+static inline fieldscribe_real hitachi_l200_dc_brake_time_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Dc brake trigger */
 enum {
     HITACHI_L200_DC_BRAKE_TRIGGER_EDGE = 0,
     HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1
 };
-
+static const char *const hitachi_l200_dc_brake_trigger_names[] = {
+    "edge", "level"
+};
 static inline const char *hitachi_l200_dc_brake_trigger_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_DC_BRAKE_TRIGGER_EDGE:
-        return "edge";
-    case HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL:
-        return "level";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_dc_brake_trigger_names, raw); }
 
-/*
- * A056: Dc brake trigger
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DC_BRAKE_TRIGGER_SPACE HITACHI_L200_SPACE_HOLDING
+/* A056 dc brake trigger: 0, 1; rw, modicon 4182, reference 404182 */
 #define HITACHI_L200_DC_BRAKE_TRIGGER_ADDRESS 0x1055U
-#define HITACHI_L200_DC_BRAKE_TRIGGER_CODE "A056"
-#define HITACHI_L200_DC_BRAKE_TRIGGER_MODICON 4182U
-#define HITACHI_L200_DC_BRAKE_TRIGGER_REFERENCE 404182U
-#define HITACHI_L200_DC_BRAKE_TRIGGER_WORDS 1U
 #define HITACHI_L200_DC_BRAKE_TRIGGER_RAW_MIN 0
 #define HITACHI_L200_DC_BRAKE_TRIGGER_RAW_MAX 1
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_trigger_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DC_BRAKE_TRIGGER_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_dc_brake_trigger_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DC_BRAKE_TRIGGER_RAW_MIN || value > HITACHI_L200_DC_BRAKE_TRIGGER_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_dc_brake_trigger_decode(uint16_t raw)
-{
-    return raw;
-}
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_trigger_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_dc_brake_trigger_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_dc_brake_trigger_decode(uint16_t raw) { return raw; }
 
 /*
- * A061: Upper frequency limit
- * lower_frequency_limit.raw x 0.1..min(400, maximum_frequency.raw) Hz; while lower_frequency_limit.raw is 0: from 0,
- * raw lower_frequency_limit.raw..min(4000, maximum_frequency.raw x 10); while lower_frequency_limit.raw is 0: from
- * 0, in steps of 0.1 Hz; read and write.
- * Special code: 0 inactive (may be written).
- * Erratum limit_factor_ten (certain): printed: The raw limits are given as b082, A004, A061 and A062 times 10,
- * although b082, A061 and A062 travel in tenths of a hertz already; taken: The value of the named parameter in Hz
- * times 10.
- * Erratum a061_above_one (likely): printed: The limit is said to be active above 1 and inactive at 0; raw 1, which
- * is 0.1 Hz, is left out; taken: 0 is inactive, every other number is a frequency.
+ * A061 upper frequency limit: lower_frequency_limit.raw x 0.1..min(400, maximum_frequency.raw) Hz; while
+ * lower_frequency_limit.raw is 0: from 0; 0.1 Hz a count; rw, modicon 4186, reference 404186; Special code: 0 inactive
+ * (may be written)
  */
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_ADDRESS 0x1059U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_CODE "A061"
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_MODICON 4186U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_REFERENCE 404186U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_WORDS 1U
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN 0
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX 4000
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_DECIMALS 1
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_INACTIVE 0
-
-static inline bool hitachi_l200_upper_frequency_limit_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool hitachi_l200_upper_frequency_limit_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool hitachi_l200_upper_frequency_limit_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool hitachi_l200_upper_frequency_limit_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *hitachi_l200_upper_frequency_limit_special_name(uint16_t raw)
+{ return (raw == 0U) ? "inactive" : NULL; }
+/* The raw numbers of other points. */
+typedef struct hitachi_l200_upper_frequency_limit_with {
+    uint16_t lower_frequency_limit_raw;
+    uint16_t maximum_frequency_raw;
+} hitachi_l200_upper_frequency_limit_with;
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_check(
+    uint16_t raw, const hitachi_l200_upper_frequency_limit_with *with)
 {
-    if (raw == 0U) {
-        return "inactive";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : (fieldscribe_between(raw, (with->lower_frequency_limit_raw != 0)
+        ? fieldscribe_whole_of((int64_t)with->lower_frequency_limit_raw) : fieldscribe_whole_of(0),
+        fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->maximum_frequency_raw * 10), 4000))));
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_check(uint16_t raw, uint16_t lower_frequency_limit_raw, uint16_t maximum_frequency_raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode_count(
+    int32_t count, const hitachi_l200_upper_frequency_limit_with *with, uint16_t *raw)
 {
-    if (raw == 0U) {
-        return HITACHI_L200_OK;
-    }
-    if (hitachi_l200_upper_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high;
-    if (lower_frequency_limit_raw != 0) {
-        low = (int32_t)lower_frequency_limit_raw;
-    }
-    high = (int32_t)maximum_frequency_raw * 10;
-    if (high > 4000) {
-        high = 4000;
-    }
-    return number >= low && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 4000)
+        ? fieldscribe_keep_u16((hitachi_l200_upper_frequency_limit_is_special((uint16_t)count) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_upper_frequency_limit_check((uint16_t)count, with)), (uint16_t)count, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_encode_count(int32_t count, uint16_t lower_frequency_limit_raw, uint16_t maximum_frequency_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode_count(uint16_t raw, int32_t *count)
 {
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)count;
-    const hitachi_l200_status status = hitachi_l200_upper_frequency_limit_is_special(number) ? HITACHI_L200_SPECIAL : hitachi_l200_upper_frequency_limit_check(number, lower_frequency_limit_raw, maximum_frequency_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_keep_s32(hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, count);
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_decode_count(uint16_t raw, int32_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode(
+    fieldscribe_real value, const hitachi_l200_upper_frequency_limit_with *with, uint16_t *raw)
 {
-    if (hitachi_l200_upper_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *count = raw;
-    return HITACHI_L200_OK;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_upper_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_upper_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_encode(hitachi_l200_real value, uint16_t lower_frequency_limit_raw, uint16_t maximum_frequency_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
 {
-    int32_t whole = 0;
-    hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        status = hitachi_l200_upper_frequency_limit_is_special((uint16_t)whole) ? HITACHI_L200_SPECIAL : hitachi_l200_upper_frequency_limit_check((uint16_t)whole, lower_frequency_limit_raw, maximum_frequency_raw);
-    }
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_decode(uint16_t raw, hitachi_l200_real *value)
-{
-    if (hitachi_l200_upper_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *value = (hitachi_l200_real)raw / 10;
-    return HITACHI_L200_OK;
+    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
 }
 #endif
 
 /*
- * A261: Upper frequency limit set 2
- * lower_frequency_limit_set_2.raw x 0.1..min(400, maximum_frequency_set_2.raw) Hz; while
- * lower_frequency_limit_set_2.raw is 0: from 0, raw lower_frequency_limit_set_2.raw..min(4000,
- * maximum_frequency_set_2.raw x 10); while lower_frequency_limit_set_2.raw is 0: from 0, in steps of 0.1 Hz; read
- * and write.
- * Special code: 0 inactive (may be written).
- * Erratum set_2_limits (likely): printed: A203 and A204 share the description of A003 and A004, A261 and A262 also
- * their range, which names A062, A004 and A061 of the first set; taken: The limits of a second set are the points of
- * the second set; b082 has one set.
- * Erratum limit_factor_ten (certain): printed: The raw limits are given as b082, A004, A061 and A062 times 10,
- * although b082, A061 and A062 travel in tenths of a hertz already; taken: The value of the named parameter in Hz
- * times 10.
- * Erratum a061_above_one (likely): printed: The limit is said to be active above 1 and inactive at 0; raw 1, which
- * is 0.1 Hz, is left out; taken: 0 is inactive, every other number is a frequency.
+ * A261 upper frequency limit set 2: lower_frequency_limit_set_2.raw x 0.1..min(400, maximum_frequency_set_2.raw) Hz;
+ * while lower_frequency_limit_set_2.raw is 0: from 0; 0.1 Hz a count; rw, modicon 5399, reference 405399; Special code:
+ * 0 inactive (may be written)
  */
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_ADDRESS 0x1516U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_CODE "A261"
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_MODICON 5399U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_REFERENCE 405399U
-#define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_WORDS 1U
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN 0
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX 4000
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_DECIMALS 1
 #define HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_INACTIVE 0
-
-static inline bool hitachi_l200_upper_frequency_limit_set_2_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool hitachi_l200_upper_frequency_limit_set_2_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool hitachi_l200_upper_frequency_limit_set_2_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool hitachi_l200_upper_frequency_limit_set_2_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *hitachi_l200_upper_frequency_limit_set_2_special_name(uint16_t raw)
+{ return (raw == 0U) ? "inactive" : NULL; }
+/* The raw numbers of other points. */
+typedef struct hitachi_l200_upper_frequency_limit_set_2_with {
+    uint16_t lower_frequency_limit_set_2_raw;
+    uint16_t maximum_frequency_set_2_raw;
+} hitachi_l200_upper_frequency_limit_set_2_with;
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_check(
+    uint16_t raw, const hitachi_l200_upper_frequency_limit_set_2_with *with)
 {
-    if (raw == 0U) {
-        return "inactive";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : (fieldscribe_between(raw, (with->lower_frequency_limit_set_2_raw != 0)
+        ? fieldscribe_whole_of((int64_t)with->lower_frequency_limit_set_2_raw) : fieldscribe_whole_of(0),
+        fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->maximum_frequency_set_2_raw * 10), 4000))));
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_check(uint16_t raw, uint16_t lower_frequency_limit_set_2_raw, uint16_t maximum_frequency_set_2_raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode_count(
+    int32_t count, const hitachi_l200_upper_frequency_limit_set_2_with *with, uint16_t *raw)
 {
-    if (raw == 0U) {
-        return HITACHI_L200_OK;
-    }
-    if (hitachi_l200_upper_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high;
-    if (lower_frequency_limit_set_2_raw != 0) {
-        low = (int32_t)lower_frequency_limit_set_2_raw;
-    }
-    high = (int32_t)maximum_frequency_set_2_raw * 10;
-    if (high > 4000) {
-        high = 4000;
-    }
-    return number >= low && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 4000)
+        ? fieldscribe_keep_u16((hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)count)
+        ? FIELDSCRIBE_SPECIAL : hitachi_l200_upper_frequency_limit_set_2_check((uint16_t)count, with)), (uint16_t)count,
+        raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_encode_count(int32_t count, uint16_t lower_frequency_limit_set_2_raw, uint16_t maximum_frequency_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode_count(uint16_t raw, int32_t *count)
 {
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)count;
-    const hitachi_l200_status status = hitachi_l200_upper_frequency_limit_set_2_is_special(number) ? HITACHI_L200_SPECIAL : hitachi_l200_upper_frequency_limit_set_2_check(number, lower_frequency_limit_set_2_raw, maximum_frequency_set_2_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_keep_s32(hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, count);
 }
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_decode_count(uint16_t raw, int32_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode(
+    fieldscribe_real value, const hitachi_l200_upper_frequency_limit_set_2_with *with, uint16_t *raw)
 {
-    if (hitachi_l200_upper_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *count = raw;
-    return HITACHI_L200_OK;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
+        HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_upper_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_encode(hitachi_l200_real value, uint16_t lower_frequency_limit_set_2_raw, uint16_t maximum_frequency_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
 {
-    int32_t whole = 0;
-    hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        status = hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)whole) ? HITACHI_L200_SPECIAL : hitachi_l200_upper_frequency_limit_set_2_check((uint16_t)whole, lower_frequency_limit_set_2_raw, maximum_frequency_set_2_raw);
-    }
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_decode(uint16_t raw, hitachi_l200_real *value)
-{
-    if (hitachi_l200_upper_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *value = (hitachi_l200_real)raw / 10;
-    return HITACHI_L200_OK;
+    return fieldscribe_keep_real(hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
 }
 #endif
 
 /*
- * A062: Lower frequency limit
- * max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit.raw x 0.1) Hz; while upper_frequency_limit.raw
- * is 0: to 400, raw max(5, start_frequency.raw)..min(4000, upper_frequency_limit.raw); while
- * upper_frequency_limit.raw is 0: to 4000, in steps of 0.1 Hz; read and write.
- * Special code: 0 inactive (may be written).
- * Erratum limit_factor_ten (certain): printed: The raw limits are given as b082, A004, A061 and A062 times 10,
- * although b082, A061 and A062 travel in tenths of a hertz already; taken: The value of the named parameter in Hz
- * times 10.
- * Erratum a061_above_one (likely): printed: The limit is said to be active above 1 and inactive at 0; raw 1, which
- * is 0.1 Hz, is left out; taken: 0 is inactive, every other number is a frequency.
- * Erratum a062_limit_when_a061_inactive (unknown): printed: With A061 at 0 the printed upper limit of A062 would be
- * 0; taken: The limit does not apply while A061 is inactive.
+ * A062 lower frequency limit: max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit.raw x 0.1) Hz; while
+ * upper_frequency_limit.raw is 0: to 400; 0.1 Hz a count; rw, modicon 4187, reference 404187; Special code: 0 inactive
+ * (may be written)
  */
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_ADDRESS 0x105AU
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_CODE "A062"
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_MODICON 4187U
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_REFERENCE 404187U
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_WORDS 1U
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_RAW_MIN 5
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_RAW_MAX 4000
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_DECIMALS 1
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_INACTIVE 0
-
-static inline bool hitachi_l200_lower_frequency_limit_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool hitachi_l200_lower_frequency_limit_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool hitachi_l200_lower_frequency_limit_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool hitachi_l200_lower_frequency_limit_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *hitachi_l200_lower_frequency_limit_special_name(uint16_t raw)
+{ return (raw == 0U) ? "inactive" : NULL; }
+/* The raw numbers of other points. */
+typedef struct hitachi_l200_lower_frequency_limit_with {
+    uint16_t start_frequency_raw;
+    uint16_t upper_frequency_limit_raw;
+} hitachi_l200_lower_frequency_limit_with;
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_check(
+    uint16_t raw, const hitachi_l200_lower_frequency_limit_with *with)
 {
-    if (raw == 0U) {
-        return "inactive";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : (fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)with->start_frequency_raw), 5),
+        (with->upper_frequency_limit_raw != 0)
+        ? fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->upper_frequency_limit_raw), 4000)
+        : fieldscribe_whole_of(4000))));
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_check(uint16_t raw, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode_count(
+    int32_t count, const hitachi_l200_lower_frequency_limit_with *with, uint16_t *raw)
 {
-    if (raw == 0U) {
-        return HITACHI_L200_OK;
-    }
-    if (hitachi_l200_lower_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high = 4000;
-    low = (int32_t)start_frequency_raw;
-    if (low < 5) {
-        low = 5;
-    }
-    if (upper_frequency_limit_raw != 0) {
-        high = (int32_t)upper_frequency_limit_raw;
-        if (high > 4000) {
-            high = 4000;
-        }
-    }
-    return number >= low && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 4000)
+        ? fieldscribe_keep_u16((hitachi_l200_lower_frequency_limit_is_special((uint16_t)count) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_lower_frequency_limit_check((uint16_t)count, with)), (uint16_t)count, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_encode_count(int32_t count, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode_count(uint16_t raw, int32_t *count)
 {
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)count;
-    const hitachi_l200_status status = hitachi_l200_lower_frequency_limit_is_special(number) ? HITACHI_L200_SPECIAL : hitachi_l200_lower_frequency_limit_check(number, start_frequency_raw, upper_frequency_limit_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_keep_s32(hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, count);
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_decode_count(uint16_t raw, int32_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode(
+    fieldscribe_real value, const hitachi_l200_lower_frequency_limit_with *with, uint16_t *raw)
 {
-    if (hitachi_l200_lower_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *count = raw;
-    return HITACHI_L200_OK;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_lower_frequency_limit_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_lower_frequency_limit_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_encode(hitachi_l200_real value, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode(uint16_t raw, fieldscribe_real *value)
 {
-    int32_t whole = 0;
-    hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), 0, HITACHI_L200_LOWER_FREQUENCY_LIMIT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        status = hitachi_l200_lower_frequency_limit_is_special((uint16_t)whole) ? HITACHI_L200_SPECIAL : hitachi_l200_lower_frequency_limit_check((uint16_t)whole, start_frequency_raw, upper_frequency_limit_raw);
-    }
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_decode(uint16_t raw, hitachi_l200_real *value)
-{
-    if (hitachi_l200_lower_frequency_limit_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *value = (hitachi_l200_real)raw / 10;
-    return HITACHI_L200_OK;
+    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
 }
 #endif
 
 /*
- * A262: Lower frequency limit set 2
- * max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit_set_2.raw x 0.1) Hz; while
- * upper_frequency_limit_set_2.raw is 0: to 400, raw max(5, start_frequency.raw)..min(4000,
- * upper_frequency_limit_set_2.raw); while upper_frequency_limit_set_2.raw is 0: to 4000, in steps of 0.1 Hz; read
- * and write.
- * Special code: 0 inactive (may be written).
- * Erratum set_2_limits (likely): printed: A203 and A204 share the description of A003 and A004, A261 and A262 also
- * their range, which names A062, A004 and A061 of the first set; taken: The limits of a second set are the points of
- * the second set; b082 has one set.
- * Erratum limit_factor_ten (certain): printed: The raw limits are given as b082, A004, A061 and A062 times 10,
- * although b082, A061 and A062 travel in tenths of a hertz already; taken: The value of the named parameter in Hz
- * times 10.
- * Erratum a061_above_one (likely): printed: The limit is said to be active above 1 and inactive at 0; raw 1, which
- * is 0.1 Hz, is left out; taken: 0 is inactive, every other number is a frequency.
- * Erratum a062_limit_when_a061_inactive (unknown): printed: With A061 at 0 the printed upper limit of A062 would be
- * 0; taken: The limit does not apply while A061 is inactive.
+ * A262 lower frequency limit set 2: max(0.5, start_frequency.raw x 0.1)..min(400, upper_frequency_limit_set_2.raw x
+ * 0.1) Hz; while upper_frequency_limit_set_2.raw is 0: to 400; 0.1 Hz a count; rw, modicon 5400, reference 405400;
+ * Special code: 0 inactive (may be written)
  */
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_ADDRESS 0x1517U
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_CODE "A262"
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_MODICON 5400U
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_REFERENCE 405400U
-#define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_WORDS 1U
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_RAW_MIN 5
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_RAW_MAX 4000
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_DECIMALS 1
 #define HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_INACTIVE 0
-
-static inline bool hitachi_l200_lower_frequency_limit_set_2_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool hitachi_l200_lower_frequency_limit_set_2_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool hitachi_l200_lower_frequency_limit_set_2_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool hitachi_l200_lower_frequency_limit_set_2_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *hitachi_l200_lower_frequency_limit_set_2_special_name(uint16_t raw)
+{ return (raw == 0U) ? "inactive" : NULL; }
+/* The raw numbers of other points. */
+typedef struct hitachi_l200_lower_frequency_limit_set_2_with {
+    uint16_t start_frequency_raw;
+    uint16_t upper_frequency_limit_set_2_raw;
+} hitachi_l200_lower_frequency_limit_set_2_with;
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_check(
+    uint16_t raw, const hitachi_l200_lower_frequency_limit_set_2_with *with)
 {
-    if (raw == 0U) {
-        return "inactive";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : (fieldscribe_between(raw, fieldscribe_no_less(fieldscribe_whole_of((int64_t)with->start_frequency_raw), 5),
+        (with->upper_frequency_limit_set_2_raw != 0)
+        ? fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->upper_frequency_limit_set_2_raw), 4000)
+        : fieldscribe_whole_of(4000))));
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_check(uint16_t raw, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_set_2_raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode_count(
+    int32_t count, const hitachi_l200_lower_frequency_limit_set_2_with *with, uint16_t *raw)
 {
-    if (raw == 0U) {
-        return HITACHI_L200_OK;
-    }
-    if (hitachi_l200_lower_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high = 4000;
-    low = (int32_t)start_frequency_raw;
-    if (low < 5) {
-        low = 5;
-    }
-    if (upper_frequency_limit_set_2_raw != 0) {
-        high = (int32_t)upper_frequency_limit_set_2_raw;
-        if (high > 4000) {
-            high = 4000;
-        }
-    }
-    return number >= low && number <= high ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 4000)
+        ? fieldscribe_keep_u16((hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)count)
+        ? FIELDSCRIBE_SPECIAL : hitachi_l200_lower_frequency_limit_set_2_check((uint16_t)count, with)), (uint16_t)count,
+        raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_encode_count(int32_t count, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode_count(uint16_t raw, int32_t *count)
 {
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)count;
-    const hitachi_l200_status status = hitachi_l200_lower_frequency_limit_set_2_is_special(number) ? HITACHI_L200_SPECIAL : hitachi_l200_lower_frequency_limit_set_2_check(number, start_frequency_raw, upper_frequency_limit_set_2_raw);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_keep_s32(hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, count);
 }
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_decode_count(uint16_t raw, int32_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode(
+    fieldscribe_real value, const hitachi_l200_lower_frequency_limit_set_2_with *with, uint16_t *raw)
 {
-    if (hitachi_l200_lower_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *count = raw;
-    return HITACHI_L200_OK;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        (hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL
+        : hitachi_l200_lower_frequency_limit_set_2_check((uint16_t)whole.number, with))), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_encode(hitachi_l200_real value, uint16_t start_frequency_raw, uint16_t upper_frequency_limit_set_2_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode(uint16_t raw, fieldscribe_real *value)
 {
-    int32_t whole = 0;
-    hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), 0, HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        status = hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)whole) ? HITACHI_L200_SPECIAL : hitachi_l200_lower_frequency_limit_set_2_check((uint16_t)whole, start_frequency_raw, upper_frequency_limit_set_2_raw);
-    }
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_decode(uint16_t raw, hitachi_l200_real *value)
-{
-    if (hitachi_l200_lower_frequency_limit_set_2_is_special(raw)) {
-        return HITACHI_L200_SPECIAL;
-    }
-    *value = (hitachi_l200_real)raw / 10;
-    return HITACHI_L200_OK;
+    return fieldscribe_keep_real(hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, fieldscribe_ratio(raw, 10), value);
 }
 #endif
 
-/*
- * A063: Jump frequency 1
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_1_SPACE HITACHI_L200_SPACE_HOLDING
+/* A063 jump frequency 1: 0..400 Hz; 0.1 Hz a count; rw, modicon 4189, reference 404189 */
 #define HITACHI_L200_JUMP_FREQUENCY_1_ADDRESS 0x105CU
-#define HITACHI_L200_JUMP_FREQUENCY_1_CODE "A063"
-#define HITACHI_L200_JUMP_FREQUENCY_1_MODICON 4189U
-#define HITACHI_L200_JUMP_FREQUENCY_1_REFERENCE 404189U
-#define HITACHI_L200_JUMP_FREQUENCY_1_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_1_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_1_RAW_MAX 4000
 #define HITACHI_L200_JUMP_FREQUENCY_1_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_1_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_1_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_1_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_1_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_1_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_jump_frequency_1_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_1_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A064: Jump frequency 1 width
- * 0..10 Hz, raw 0..100, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_SPACE HITACHI_L200_SPACE_HOLDING
+/* A064 jump frequency 1 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4190, reference 404190 */
 #define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_ADDRESS 0x105DU
-#define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_CODE "A064"
-#define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_MODICON 4190U
-#define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_REFERENCE 404190U
-#define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_RAW_MAX 100
 #define HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_width_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_width_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 100) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_1_width_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_1_width_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_1_width_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 100, raw); }
+static inline int32_t hitachi_l200_jump_frequency_1_width_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_1_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_1_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A065: Jump frequency 2
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A065 jump frequency 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 4192, reference 404192 */
 #define HITACHI_L200_JUMP_FREQUENCY_2_ADDRESS 0x105FU
-#define HITACHI_L200_JUMP_FREQUENCY_2_CODE "A065"
-#define HITACHI_L200_JUMP_FREQUENCY_2_MODICON 4192U
-#define HITACHI_L200_JUMP_FREQUENCY_2_REFERENCE 404192U
-#define HITACHI_L200_JUMP_FREQUENCY_2_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_2_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_2_RAW_MAX 4000
 #define HITACHI_L200_JUMP_FREQUENCY_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_2_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_jump_frequency_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_2_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A066: Jump frequency 2 width
- * 0..10 Hz, raw 0..100, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_SPACE HITACHI_L200_SPACE_HOLDING
+/* A066 jump frequency 2 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4193, reference 404193 */
 #define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_ADDRESS 0x1060U
-#define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_CODE "A066"
-#define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_MODICON 4193U
-#define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_REFERENCE 404193U
-#define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_RAW_MAX 100
 #define HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_width_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_width_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 100) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_2_width_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_2_width_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_2_width_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 100, raw); }
+static inline int32_t hitachi_l200_jump_frequency_2_width_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_2_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_2_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A067: Jump frequency 3
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_3_SPACE HITACHI_L200_SPACE_HOLDING
+/* A067 jump frequency 3: 0..400 Hz; 0.1 Hz a count; rw, modicon 4195, reference 404195 */
 #define HITACHI_L200_JUMP_FREQUENCY_3_ADDRESS 0x1062U
-#define HITACHI_L200_JUMP_FREQUENCY_3_CODE "A067"
-#define HITACHI_L200_JUMP_FREQUENCY_3_MODICON 4195U
-#define HITACHI_L200_JUMP_FREQUENCY_3_REFERENCE 404195U
-#define HITACHI_L200_JUMP_FREQUENCY_3_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_3_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_3_RAW_MAX 4000
 #define HITACHI_L200_JUMP_FREQUENCY_3_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_3_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_3_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_3_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_3_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_3_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_jump_frequency_3_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_3_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A068: Jump frequency 3 width
- * 0..10 Hz, raw 0..100, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_SPACE HITACHI_L200_SPACE_HOLDING
+/* A068 jump frequency 3 width: 0..10 Hz; 0.1 Hz a count; rw, modicon 4196, reference 404196 */
 #define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_ADDRESS 0x1063U
-#define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_CODE "A068"
-#define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_MODICON 4196U
-#define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_REFERENCE 404196U
-#define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_WORDS 1U
 #define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_RAW_MIN 0
 #define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_RAW_MAX 100
 #define HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_width_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_width_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 100) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_jump_frequency_3_width_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_jump_frequency_3_width_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_RAW_MIN, HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_jump_frequency_3_width_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 100, raw); }
+static inline int32_t hitachi_l200_jump_frequency_3_width_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_jump_frequency_3_width_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_jump_frequency_3_width_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A071: Pid enable
- * 0, 1; read and write.
- */
-#define HITACHI_L200_PID_ENABLE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A071 pid enable: 0, 1; rw, modicon 4200, reference 404200 */
 #define HITACHI_L200_PID_ENABLE_ADDRESS 0x1067U
-#define HITACHI_L200_PID_ENABLE_CODE "A071"
-#define HITACHI_L200_PID_ENABLE_MODICON 4200U
-#define HITACHI_L200_PID_ENABLE_REFERENCE 404200U
-#define HITACHI_L200_PID_ENABLE_WORDS 1U
 #define HITACHI_L200_PID_ENABLE_RAW_MIN 0
 #define HITACHI_L200_PID_ENABLE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_pid_enable_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_enable_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_pid_enable_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_pid_enable_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_ENABLE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_enable_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_PID_ENABLE_RAW_MIN || value > HITACHI_L200_PID_ENABLE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_enable_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A072: Pid proportional gain
- * 0.2..5, raw 2..50, in steps of 0.1; read and write.
- */
-#define HITACHI_L200_PID_PROPORTIONAL_GAIN_SPACE HITACHI_L200_SPACE_HOLDING
+/* A072 pid proportional gain: 0.2..5; 0.1 a count; rw, modicon 4201, reference 404201 */
 #define HITACHI_L200_PID_PROPORTIONAL_GAIN_ADDRESS 0x1068U
-#define HITACHI_L200_PID_PROPORTIONAL_GAIN_CODE "A072"
-#define HITACHI_L200_PID_PROPORTIONAL_GAIN_MODICON 4201U
-#define HITACHI_L200_PID_PROPORTIONAL_GAIN_REFERENCE 404201U
-#define HITACHI_L200_PID_PROPORTIONAL_GAIN_WORDS 1U
 #define HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MIN 2
 #define HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MAX 50
 #define HITACHI_L200_PID_PROPORTIONAL_GAIN_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_proportional_gain_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MIN && raw <= HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_proportional_gain_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 2 || count > 50) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_proportional_gain_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_proportional_gain_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MIN, HITACHI_L200_PID_PROPORTIONAL_GAIN_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_proportional_gain_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_check(uint16_t raw) { return fieldscribe_check(raw, 2, 50); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 2, 50, raw); }
+static inline int32_t hitachi_l200_pid_proportional_gain_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 2, 50, raw); }
+static inline fieldscribe_real hitachi_l200_pid_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A073: Pid integral time
- * 0..150 s, raw 0..1500, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_PID_INTEGRAL_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* A073 pid integral time: 0..150 s; 0.1 s a count; rw, modicon 4202, reference 404202 */
 #define HITACHI_L200_PID_INTEGRAL_TIME_ADDRESS 0x1069U
-#define HITACHI_L200_PID_INTEGRAL_TIME_CODE "A073"
-#define HITACHI_L200_PID_INTEGRAL_TIME_MODICON 4202U
-#define HITACHI_L200_PID_INTEGRAL_TIME_REFERENCE 404202U
-#define HITACHI_L200_PID_INTEGRAL_TIME_WORDS 1U
 #define HITACHI_L200_PID_INTEGRAL_TIME_RAW_MIN 0
 #define HITACHI_L200_PID_INTEGRAL_TIME_RAW_MAX 1500
 #define HITACHI_L200_PID_INTEGRAL_TIME_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_integral_time_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_INTEGRAL_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_integral_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1500) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_integral_time_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_integral_time_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_INTEGRAL_TIME_RAW_MIN, HITACHI_L200_PID_INTEGRAL_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_integral_time_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1500); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1500, raw); }
+static inline int32_t hitachi_l200_pid_integral_time_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_integral_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1500, raw); }
+static inline fieldscribe_real hitachi_l200_pid_integral_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A074: Pid derivative time
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_PID_DERIVATIVE_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* A074 pid derivative time: 0..100 s; 0.1 s a count; rw, modicon 4203, reference 404203 */
 #define HITACHI_L200_PID_DERIVATIVE_TIME_ADDRESS 0x106AU
-#define HITACHI_L200_PID_DERIVATIVE_TIME_CODE "A074"
-#define HITACHI_L200_PID_DERIVATIVE_TIME_MODICON 4203U
-#define HITACHI_L200_PID_DERIVATIVE_TIME_REFERENCE 404203U
-#define HITACHI_L200_PID_DERIVATIVE_TIME_WORDS 1U
 #define HITACHI_L200_PID_DERIVATIVE_TIME_RAW_MIN 0
 #define HITACHI_L200_PID_DERIVATIVE_TIME_RAW_MAX 1000
 #define HITACHI_L200_PID_DERIVATIVE_TIME_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_derivative_time_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_DERIVATIVE_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_derivative_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_derivative_time_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_derivative_time_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_DERIVATIVE_TIME_RAW_MIN, HITACHI_L200_PID_DERIVATIVE_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_derivative_time_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_pid_derivative_time_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_derivative_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_derivative_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A075: Pid display factor
- * 0.01..99.99, raw 1..9999, in steps of 0.01; read and write.
- */
-#define HITACHI_L200_PID_DISPLAY_FACTOR_SPACE HITACHI_L200_SPACE_HOLDING
+/* A075 pid display factor: 0.01..99.99; 0.01 a count; rw, modicon 4204, reference 404204 */
 #define HITACHI_L200_PID_DISPLAY_FACTOR_ADDRESS 0x106BU
-#define HITACHI_L200_PID_DISPLAY_FACTOR_CODE "A075"
-#define HITACHI_L200_PID_DISPLAY_FACTOR_MODICON 4204U
-#define HITACHI_L200_PID_DISPLAY_FACTOR_REFERENCE 404204U
-#define HITACHI_L200_PID_DISPLAY_FACTOR_WORDS 1U
 #define HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MIN 1
 #define HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MAX 9999
 #define HITACHI_L200_PID_DISPLAY_FACTOR_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_pid_display_factor_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MIN && raw <= HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_display_factor_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9999) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_display_factor_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_display_factor_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MIN, HITACHI_L200_PID_DISPLAY_FACTOR_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_display_factor_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_check(uint16_t raw) { return fieldscribe_check(raw, 1, 9999); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 9999, raw); }
+static inline int32_t hitachi_l200_pid_display_factor_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_display_factor_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 1, 9999, raw); }
+static inline fieldscribe_real hitachi_l200_pid_display_factor_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/* Pid process value source */
 enum {
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI = 0,
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O = 1,
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS = 2,
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT = 10
 };
-
+static const fieldscribe_name hitachi_l200_pid_process_value_source_names[] = {
+    {HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI, "terminal_oi"},
+    {HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O, "terminal_o"},
+    {HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS, "modbus"},
+    {HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT, "calculation_result"}
+};
 static inline const char *hitachi_l200_pid_process_value_source_name(int32_t raw)
 {
-    switch (raw) {
-    case HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI:
-        return "terminal_oi";
-    case HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O:
-        return "terminal_o";
-    case HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS:
-        return "modbus";
-    case HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT:
-        return "calculation_result";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(hitachi_l200_pid_process_value_source_names,
+        FIELDSCRIBE_COUNT(hitachi_l200_pid_process_value_source_names), raw);
 }
 
-/*
- * A076: Pid process value source
- * 0..3, 10; read and write.
- * Erratum a076_range (unknown): printed: range 0, 1, 2, 3; taken: range 0, 1, 2, 3, 10.
- * Erratum a076_code_10_label (likely): printed: Code 10 is called a logic combination; taken: 10 is the result of
- * the calculation.
- */
-#define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A076 pid process value source: 0..3, 10; rw, modicon 4205, reference 404205; erratum a076_range */
 #define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_ADDRESS 0x106CU
-#define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CODE "A076"
-#define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODICON 4205U
-#define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_REFERENCE 404205U
-#define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_WORDS 1U
 #define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_RAW_MIN 0
 #define HITACHI_L200_PID_PROCESS_VALUE_SOURCE_RAW_MAX 10
-
-static inline hitachi_l200_status hitachi_l200_pid_process_value_source_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_source_check(uint16_t raw)
+{ return ((raw <= 3U) || (raw == 10U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE; }
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_source_encode(int32_t value, uint16_t *raw)
 {
-    return raw <= 3U || raw == 10U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_within(value, 0, 10)
+        ? fieldscribe_keep_u16(hitachi_l200_pid_process_value_source_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
+static inline int32_t hitachi_l200_pid_process_value_source_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_pid_process_value_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_PID_PROCESS_VALUE_SOURCE_RAW_MIN || value > HITACHI_L200_PID_PROCESS_VALUE_SOURCE_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_pid_process_value_source_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t hitachi_l200_pid_process_value_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Pid inversion */
 enum {
     HITACHI_L200_PID_INVERSION_SETPOINT_MINUS_PROCESS_VALUE = 0,
     HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT = 1
 };
-
+static const char *const hitachi_l200_pid_inversion_names[] = {
+    "setpoint_minus_process_value", "process_value_minus_setpoint"
+};
 static inline const char *hitachi_l200_pid_inversion_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_PID_INVERSION_SETPOINT_MINUS_PROCESS_VALUE:
-        return "setpoint_minus_process_value";
-    case HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT:
-        return "process_value_minus_setpoint";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_pid_inversion_names, raw); }
 
-/*
- * A077: Pid inversion
- * 0, 1; read and write.
- */
-#define HITACHI_L200_PID_INVERSION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A077 pid inversion: 0, 1; rw, modicon 4206, reference 404206 */
 #define HITACHI_L200_PID_INVERSION_ADDRESS 0x106DU
-#define HITACHI_L200_PID_INVERSION_CODE "A077"
-#define HITACHI_L200_PID_INVERSION_MODICON 4206U
-#define HITACHI_L200_PID_INVERSION_REFERENCE 404206U
-#define HITACHI_L200_PID_INVERSION_WORDS 1U
 #define HITACHI_L200_PID_INVERSION_RAW_MIN 0
 #define HITACHI_L200_PID_INVERSION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_pid_inversion_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_inversion_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_pid_inversion_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_pid_inversion_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_INVERSION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_inversion_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_PID_INVERSION_RAW_MIN || value > HITACHI_L200_PID_INVERSION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_inversion_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A078: Pid output limit
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_PID_OUTPUT_LIMIT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A078 pid output limit: 0..100 %; 0.1 % a count; rw, modicon 4207, reference 404207 */
 #define HITACHI_L200_PID_OUTPUT_LIMIT_ADDRESS 0x106EU
-#define HITACHI_L200_PID_OUTPUT_LIMIT_CODE "A078"
-#define HITACHI_L200_PID_OUTPUT_LIMIT_MODICON 4207U
-#define HITACHI_L200_PID_OUTPUT_LIMIT_REFERENCE 404207U
-#define HITACHI_L200_PID_OUTPUT_LIMIT_WORDS 1U
 #define HITACHI_L200_PID_OUTPUT_LIMIT_RAW_MIN 0
 #define HITACHI_L200_PID_OUTPUT_LIMIT_RAW_MAX 1000
 #define HITACHI_L200_PID_OUTPUT_LIMIT_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_output_limit_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_OUTPUT_LIMIT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_output_limit_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_output_limit_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_output_limit_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_OUTPUT_LIMIT_RAW_MIN, HITACHI_L200_PID_OUTPUT_LIMIT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_output_limit_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_pid_output_limit_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_output_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_output_limit_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Avr mode */
 enum {
     HITACHI_L200_AVR_MODE_ACTIVE = 0,
     HITACHI_L200_AVR_MODE_INACTIVE = 1,
     HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2
 };
-
+static const char *const hitachi_l200_avr_mode_names[] = {
+    "active", "inactive", "inactive_in_deceleration"
+};
 static inline const char *hitachi_l200_avr_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_AVR_MODE_ACTIVE:
-        return "active";
-    case HITACHI_L200_AVR_MODE_INACTIVE:
-        return "inactive";
-    case HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION:
-        return "inactive_in_deceleration";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_avr_mode_names, raw); }
 
-/*
- * A081: Avr mode
- * 0..2; read and write.
- */
-#define HITACHI_L200_AVR_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A081 avr mode: 0..2; rw, modicon 4208, reference 404208 */
 #define HITACHI_L200_AVR_MODE_ADDRESS 0x106FU
-#define HITACHI_L200_AVR_MODE_CODE "A081"
-#define HITACHI_L200_AVR_MODE_MODICON 4208U
-#define HITACHI_L200_AVR_MODE_REFERENCE 404208U
-#define HITACHI_L200_AVR_MODE_WORDS 1U
 #define HITACHI_L200_AVR_MODE_RAW_MIN 0
 #define HITACHI_L200_AVR_MODE_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_avr_mode_check(uint16_t raw) { return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_avr_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_avr_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_avr_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_AVR_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_avr_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_AVR_MODE_RAW_MIN || value > HITACHI_L200_AVR_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_avr_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A082: Motor voltage
- * 0..5; read and write.
- * Erratum a082_codes (unknown): printed: Eleven voltages are listed for two voltage classes; their codes are not
- * printed; taken: Bare numbers.
- * Erratum a082_range_200v (unknown): printed: The range 0-5 has six codes; the 200 V class has five voltages; taken:
- * range: 0..5 for both classes.
- */
-#define HITACHI_L200_MOTOR_VOLTAGE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A082 motor voltage: 0..5; rw, modicon 4209, reference 404209 */
 #define HITACHI_L200_MOTOR_VOLTAGE_ADDRESS 0x1070U
-#define HITACHI_L200_MOTOR_VOLTAGE_CODE "A082"
-#define HITACHI_L200_MOTOR_VOLTAGE_MODICON 4209U
-#define HITACHI_L200_MOTOR_VOLTAGE_REFERENCE 404209U
-#define HITACHI_L200_MOTOR_VOLTAGE_WORDS 1U
 #define HITACHI_L200_MOTOR_VOLTAGE_RAW_MIN 0
 #define HITACHI_L200_MOTOR_VOLTAGE_RAW_MAX 5
-
-static inline hitachi_l200_status hitachi_l200_motor_voltage_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_VOLTAGE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_voltage_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_VOLTAGE_RAW_MIN || value > HITACHI_L200_MOTOR_VOLTAGE_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_voltage_decode(uint16_t raw)
-{
-    return raw;
-}
+FIELDSCRIBE_STATUS hitachi_l200_motor_voltage_check(uint16_t raw) { return fieldscribe_check(raw, 0, 5); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_voltage_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 5, raw); }
+static inline int32_t hitachi_l200_motor_voltage_decode(uint16_t raw) { return raw; }
 
 /*
- * A092: Acceleration time 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum a092_resolution (certain): printed: resolution 0.1 s; taken: resolution 0.01 s.
- * Erratum a092_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * A092 acceleration time 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon 4212,
+ * reference 404212; erratum a092_resolution
  */
-#define HITACHI_L200_ACCELERATION_TIME_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_ACCELERATION_TIME_2_ADDRESS 0x1073U
-#define HITACHI_L200_ACCELERATION_TIME_2_CODE "A092"
-#define HITACHI_L200_ACCELERATION_TIME_2_MODICON 4212U
-#define HITACHI_L200_ACCELERATION_TIME_2_REFERENCE 404212U
 #define HITACHI_L200_ACCELERATION_TIME_2_WORDS 2U
 #define HITACHI_L200_ACCELERATION_TIME_2_RAW_MIN 1
 #define HITACHI_L200_ACCELERATION_TIME_2_RAW_MAX 300000
 #define HITACHI_L200_ACCELERATION_TIME_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_2_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_ACCELERATION_TIME_2_RAW_MIN && raw <= HITACHI_L200_ACCELERATION_TIME_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_time_2_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_acceleration_time_2_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_acceleration_time_2_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_ACCELERATION_TIME_2_RAW_MIN, HITACHI_L200_ACCELERATION_TIME_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
-static inline double hitachi_l200_acceleration_time_2_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_2_check(uint32_t raw)
+{ return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_2_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_acceleration_time_2_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_acceleration_time_2_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_acceleration_time_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_time_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
+static inline double hitachi_l200_acceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_acceleration_time_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_acceleration_time_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
 /*
- * A292: Acceleration time 2 set 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum a292_resolution (certain): printed: resolution 0.1 s; taken: resolution 0.01 s.
- * Erratum a092_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
- * Erratum a292_high_address (unknown): printed: Both address columns of the high word are empty but for a lone h;
- * taken: at: ~.
- * Not generated (acceleration_time_2_set_2): the manual prints no address.
+ * A292 acceleration time 2 set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw; erratum
+ * a292_resolution; not generated: the manual prints no address
  */
 
 /*
- * A093: Deceleration time 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum a093_resolution (certain): printed: resolution 0.1 s; taken: resolution 0.01 s.
- * Erratum a092_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * A093 deceleration time 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon 4214,
+ * reference 404214; erratum a093_resolution
  */
-#define HITACHI_L200_DECELERATION_TIME_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DECELERATION_TIME_2_ADDRESS 0x1075U
-#define HITACHI_L200_DECELERATION_TIME_2_CODE "A093"
-#define HITACHI_L200_DECELERATION_TIME_2_MODICON 4214U
-#define HITACHI_L200_DECELERATION_TIME_2_REFERENCE 404214U
 #define HITACHI_L200_DECELERATION_TIME_2_WORDS 2U
 #define HITACHI_L200_DECELERATION_TIME_2_RAW_MIN 1
 #define HITACHI_L200_DECELERATION_TIME_2_RAW_MAX 300000
 #define HITACHI_L200_DECELERATION_TIME_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_DECELERATION_TIME_2_RAW_MIN && raw <= HITACHI_L200_DECELERATION_TIME_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_deceleration_time_2_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_DECELERATION_TIME_2_RAW_MIN, HITACHI_L200_DECELERATION_TIME_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
-static inline double hitachi_l200_deceleration_time_2_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_check(uint32_t raw)
+{ return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_deceleration_time_2_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_deceleration_time_2_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_deceleration_time_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
+static inline double hitachi_l200_deceleration_time_2_decode(uint32_t raw) { return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_deceleration_time_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_deceleration_time_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
 /*
- * A293: Deceleration time 2 set 2
- * 0.01..3000 s, raw 1..300000, in steps of 0.01 s, from 100 s on 0.1 s; read and write.
- * Erratum a293_resolution (certain): printed: resolution 0.1 s; taken: resolution 0.01 s.
- * Erratum a092_steps (likely): printed: The note says the second decimal is not regarded when the value equals
- * 10000; taken: From raw 10000 (100.0 s) on only every tenth raw number is kept.
+ * A293 deceleration time 2 set 2: 0.01..3000 s; in steps of 0.01 s, from 100 s on 0.1 s; 0.01 s a count; rw, modicon
+ * 5402, reference 405402; erratum a293_resolution
  */
-#define HITACHI_L200_DECELERATION_TIME_2_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DECELERATION_TIME_2_SET_2_ADDRESS 0x1519U
-#define HITACHI_L200_DECELERATION_TIME_2_SET_2_CODE "A293"
-#define HITACHI_L200_DECELERATION_TIME_2_SET_2_MODICON 5402U
-#define HITACHI_L200_DECELERATION_TIME_2_SET_2_REFERENCE 405402U
 #define HITACHI_L200_DECELERATION_TIME_2_SET_2_WORDS 2U
 #define HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MIN 1
 #define HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MAX 300000
 #define HITACHI_L200_DECELERATION_TIME_2_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_set_2_check(uint32_t raw)
-{
-    return raw >= HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MIN && raw <= HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_set_2_encode_count(int64_t count, uint32_t *raw)
-{
-    if (count < 1 || count > 300000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int64_t hitachi_l200_deceleration_time_2_set_2_decode_count(uint32_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_time_2_set_2_encode(double value, uint32_t *raw)
-{
-    int64_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round_wide(hitachi_l200_times_wide(value, 100), HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MIN, HITACHI_L200_DECELERATION_TIME_2_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint32_t)whole;
-    }
-    return status;
-}
-
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_set_2_check(uint32_t raw)
+{ return fieldscribe_check_wide(raw, 1, 300000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_set_2_encode_count(int64_t count, uint32_t *raw)
+{ return fieldscribe_encode_u32(count, 1, 300000, raw); }
+static inline int64_t hitachi_l200_deceleration_time_2_set_2_decode_count(uint32_t raw) { return raw; }
+static inline void hitachi_l200_deceleration_time_2_set_2_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t hitachi_l200_deceleration_time_2_set_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_time_2_set_2_encode(double value, uint32_t *raw)
+{ return fieldscribe_store_u32(fieldscribe_rounded_wide(fieldscribe_times_wide(value, 100), 1, 300000), raw); }
 static inline double hitachi_l200_deceleration_time_2_set_2_decode(uint32_t raw)
-{
-    return (double)raw / 100;
-}
+{ return fieldscribe_ratio_wide(raw, 100); }
 #endif
 
-static inline void hitachi_l200_deceleration_time_2_set_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t hitachi_l200_deceleration_time_2_set_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
-/* Ramp 2 selection */
 enum {
     HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH = 0,
     HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1
 };
-
+static const char *const hitachi_l200_ramp_2_selection_names[] = {
+    "terminal_2ch", "frequency"
+};
 static inline const char *hitachi_l200_ramp_2_selection_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH:
-        return "terminal_2ch";
-    case HITACHI_L200_RAMP_2_SELECTION_FREQUENCY:
-        return "frequency";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_ramp_2_selection_names, raw); }
 
-/*
- * A094: Ramp 2 selection
- * 0, 1; read and write.
- * Erratum a094_reference (certain): printed: The label refers to A95 and A96; taken: A095 and A096; in the second
- * set A295 and A296.
- */
-#define HITACHI_L200_RAMP_2_SELECTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A094 ramp 2 selection: 0, 1; rw, modicon 4216, reference 404216 */
 #define HITACHI_L200_RAMP_2_SELECTION_ADDRESS 0x1077U
-#define HITACHI_L200_RAMP_2_SELECTION_CODE "A094"
-#define HITACHI_L200_RAMP_2_SELECTION_MODICON 4216U
-#define HITACHI_L200_RAMP_2_SELECTION_REFERENCE 404216U
-#define HITACHI_L200_RAMP_2_SELECTION_WORDS 1U
 #define HITACHI_L200_RAMP_2_SELECTION_RAW_MIN 0
 #define HITACHI_L200_RAMP_2_SELECTION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_ramp_2_selection_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_ramp_2_selection_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_ramp_2_selection_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_ramp_2_selection_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RAMP_2_SELECTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_ramp_2_selection_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RAMP_2_SELECTION_RAW_MIN || value > HITACHI_L200_RAMP_2_SELECTION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_ramp_2_selection_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A294: Ramp 2 selection set 2
- * 0, 1; read and write.
- * Erratum a094_reference (certain): printed: The label refers to A95 and A96; taken: A095 and A096; in the second
- * set A295 and A296.
- */
-#define HITACHI_L200_RAMP_2_SELECTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A294 ramp 2 selection set 2: 0, 1; rw, modicon 5404, reference 405404 */
 #define HITACHI_L200_RAMP_2_SELECTION_SET_2_ADDRESS 0x151BU
-#define HITACHI_L200_RAMP_2_SELECTION_SET_2_CODE "A294"
-#define HITACHI_L200_RAMP_2_SELECTION_SET_2_MODICON 5404U
-#define HITACHI_L200_RAMP_2_SELECTION_SET_2_REFERENCE 405404U
-#define HITACHI_L200_RAMP_2_SELECTION_SET_2_WORDS 1U
 #define HITACHI_L200_RAMP_2_SELECTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_RAMP_2_SELECTION_SET_2_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_ramp_2_selection_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_ramp_2_selection_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_ramp_2_selection_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_ramp_2_selection_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RAMP_2_SELECTION_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_ramp_2_selection_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RAMP_2_SELECTION_SET_2_RAW_MIN || value > HITACHI_L200_RAMP_2_SELECTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_ramp_2_selection_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A095: Acceleration change frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A095 acceleration change frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4218, reference 404218 */
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_ADDRESS 0x1079U
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_CODE "A095"
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_MODICON 4218U
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_REFERENCE 404218U
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_WORDS 1U
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_acceleration_change_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_RAW_MIN, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_acceleration_change_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_acceleration_change_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A295: Acceleration change frequency set 2
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A295 acceleration change frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5406, reference 405406 */
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS 0x151DU
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_CODE "A295"
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_MODICON 5406U
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_REFERENCE 405406U
-#define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_RAW_MIN 0
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX 4000
 #define HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_acceleration_change_frequency_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_acceleration_change_frequency_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_RAW_MIN, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_acceleration_change_frequency_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_acceleration_change_frequency_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_acceleration_change_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A096: Deceleration change frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A096 deceleration change frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4220, reference 404220 */
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_ADDRESS 0x107BU
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_CODE "A096"
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_MODICON 4220U
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_REFERENCE 404220U
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_WORDS 1U
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_deceleration_change_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_RAW_MIN, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_deceleration_change_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_deceleration_change_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A296: Deceleration change frequency set 2
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* A296 deceleration change frequency set 2: 0..400 Hz; 0.1 Hz a count; rw, modicon 5408, reference 405408 */
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS 0x151FU
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_CODE "A296"
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_MODICON 5408U
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_REFERENCE 405408U
-#define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_WORDS 1U
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_RAW_MIN 0
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX 4000
 #define HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_deceleration_change_frequency_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_deceleration_change_frequency_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_RAW_MIN, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_deceleration_change_frequency_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_deceleration_change_frequency_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_change_frequency_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Ramp curve */
 enum {
     HITACHI_L200_RAMP_CURVE_LINEAR = 0,
     HITACHI_L200_RAMP_CURVE_S_CURVE = 1
 };
-
+static const char *const hitachi_l200_ramp_curve_names[] = {
+    "linear", "s_curve"
+};
 static inline const char *hitachi_l200_ramp_curve_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RAMP_CURVE_LINEAR:
-        return "linear";
-    case HITACHI_L200_RAMP_CURVE_S_CURVE:
-        return "s_curve";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_ramp_curve_names, raw); }
 
-/*
- * A097: Acceleration curve
- * 0, 1; read and write.
- */
-#define HITACHI_L200_ACCELERATION_CURVE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A097 acceleration curve: 0, 1; rw, modicon 4221, reference 404221 */
 #define HITACHI_L200_ACCELERATION_CURVE_ADDRESS 0x107CU
-#define HITACHI_L200_ACCELERATION_CURVE_CODE "A097"
-#define HITACHI_L200_ACCELERATION_CURVE_MODICON 4221U
-#define HITACHI_L200_ACCELERATION_CURVE_REFERENCE 404221U
-#define HITACHI_L200_ACCELERATION_CURVE_WORDS 1U
 #define HITACHI_L200_ACCELERATION_CURVE_RAW_MIN 0
 #define HITACHI_L200_ACCELERATION_CURVE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_curve_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_acceleration_curve_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_acceleration_curve_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_acceleration_curve_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ACCELERATION_CURVE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_acceleration_curve_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_ACCELERATION_CURVE_RAW_MIN || value > HITACHI_L200_ACCELERATION_CURVE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_acceleration_curve_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A098: Deceleration curve
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DECELERATION_CURVE_SPACE HITACHI_L200_SPACE_HOLDING
+/* A098 deceleration curve: 0, 1; rw, modicon 4222, reference 404222 */
 #define HITACHI_L200_DECELERATION_CURVE_ADDRESS 0x107DU
-#define HITACHI_L200_DECELERATION_CURVE_CODE "A098"
-#define HITACHI_L200_DECELERATION_CURVE_MODICON 4222U
-#define HITACHI_L200_DECELERATION_CURVE_REFERENCE 404222U
-#define HITACHI_L200_DECELERATION_CURVE_WORDS 1U
 #define HITACHI_L200_DECELERATION_CURVE_RAW_MIN 0
 #define HITACHI_L200_DECELERATION_CURVE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_curve_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_deceleration_curve_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_deceleration_curve_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_deceleration_curve_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DECELERATION_CURVE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_deceleration_curve_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DECELERATION_CURVE_RAW_MIN || value > HITACHI_L200_DECELERATION_CURVE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_deceleration_curve_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A101: Input oi minimum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a101_below_above (certain): printed: The minimum frequency is said to be used above the minimum setpoint;
- * taken: Below the minimum setpoint, as for A011.
- */
-#define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A101 input oi minimum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4224, reference 404224 */
 #define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_ADDRESS 0x107FU
-#define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_CODE "A101"
-#define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_MODICON 4224U
-#define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_REFERENCE 404224U
-#define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_oi_minimum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_minimum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_oi_minimum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_oi_minimum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_input_oi_minimum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A102: Input oi maximum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A102 input oi maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4226, reference 404226 */
 #define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_ADDRESS 0x1081U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_CODE "A102"
-#define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_MODICON 4226U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_REFERENCE 404226U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_oi_maximum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_maximum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_oi_maximum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_oi_maximum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_input_oi_maximum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A103: Input oi minimum setpoint
- * 0..100 %, raw 0..100; read and write.
- * Erratum a103_minimum (certain): printed: The minimum setpoint is described as relating to the maximum setpoint;
- * taken: The minimum setpoint.
- */
-#define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A103 input oi minimum setpoint: 0..100 %; rw, modicon 4227, reference 404227 */
 #define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_ADDRESS 0x1082U
-#define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_CODE "A103"
-#define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_MODICON 4227U
-#define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_REFERENCE 404227U
-#define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_setpoint_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_minimum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_input_oi_minimum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_oi_minimum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_minimum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_minimum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A104: Input oi maximum setpoint
- * 0..100 %, raw 0..100; read and write.
- */
-#define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A104 input oi maximum setpoint: 0..100 %; rw, modicon 4228, reference 404228 */
 #define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_ADDRESS 0x1083U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_CODE "A104"
-#define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_MODICON 4228U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_REFERENCE 404228U
-#define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_setpoint_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_maximum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_input_oi_maximum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_oi_maximum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_maximum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_maximum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Input oi start condition */
 enum {
     HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1
 };
-
+static const char *const hitachi_l200_input_oi_start_condition_names[] = {
+    "minimum_frequency", "zero_hz"
+};
 static inline const char *hitachi_l200_input_oi_start_condition_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY:
-        return "minimum_frequency";
-    case HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ:
-        return "zero_hz";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_input_oi_start_condition_names, raw); }
 
-/*
- * A105: Input oi start condition
- * 0, 1; read and write.
- */
-#define HITACHI_L200_INPUT_OI_START_CONDITION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A105 input oi start condition: 0, 1; rw, modicon 4229, reference 404229 */
 #define HITACHI_L200_INPUT_OI_START_CONDITION_ADDRESS 0x1084U
-#define HITACHI_L200_INPUT_OI_START_CONDITION_CODE "A105"
-#define HITACHI_L200_INPUT_OI_START_CONDITION_MODICON 4229U
-#define HITACHI_L200_INPUT_OI_START_CONDITION_REFERENCE 404229U
-#define HITACHI_L200_INPUT_OI_START_CONDITION_WORDS 1U
 #define HITACHI_L200_INPUT_OI_START_CONDITION_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_START_CONDITION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_start_condition_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_start_condition_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_input_oi_start_condition_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_input_oi_start_condition_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_START_CONDITION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_start_condition_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INPUT_OI_START_CONDITION_RAW_MIN || value > HITACHI_L200_INPUT_OI_START_CONDITION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_start_condition_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Calculation input */
 enum {
     HITACHI_L200_CALCULATION_INPUT_OPERATOR_PANEL = 0,
     HITACHI_L200_CALCULATION_INPUT_KEYPAD_POTENTIOMETER = 1,
@@ -6755,1692 +2372,590 @@ enum {
     HITACHI_L200_CALCULATION_INPUT_TERMINAL_OI = 3,
     HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE = 4
 };
-
+static const char *const hitachi_l200_calculation_input_names[] = {
+    "operator_panel", "keypad_potentiometer", "terminal_o", "terminal_oi", "network_variable"
+};
 static inline const char *hitachi_l200_calculation_input_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_CALCULATION_INPUT_OPERATOR_PANEL:
-        return "operator_panel";
-    case HITACHI_L200_CALCULATION_INPUT_KEYPAD_POTENTIOMETER:
-        return "keypad_potentiometer";
-    case HITACHI_L200_CALCULATION_INPUT_TERMINAL_O:
-        return "terminal_o";
-    case HITACHI_L200_CALCULATION_INPUT_TERMINAL_OI:
-        return "terminal_oi";
-    case HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE:
-        return "network_variable";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_calculation_input_names, raw); }
 
-/*
- * A141: Calculation input a
- * 0..4; read and write.
- * Erratum a141_network_variable (unknown): printed: Code 4 names a network variable; no register is named for it;
- * taken: The label only.
- */
-#define HITACHI_L200_CALCULATION_INPUT_A_SPACE HITACHI_L200_SPACE_HOLDING
+/* A141 calculation input a: 0..4; rw, modicon 4238, reference 404238 */
 #define HITACHI_L200_CALCULATION_INPUT_A_ADDRESS 0x108DU
-#define HITACHI_L200_CALCULATION_INPUT_A_CODE "A141"
-#define HITACHI_L200_CALCULATION_INPUT_A_MODICON 4238U
-#define HITACHI_L200_CALCULATION_INPUT_A_REFERENCE 404238U
-#define HITACHI_L200_CALCULATION_INPUT_A_WORDS 1U
 #define HITACHI_L200_CALCULATION_INPUT_A_RAW_MIN 0
 #define HITACHI_L200_CALCULATION_INPUT_A_RAW_MAX 4
+FIELDSCRIBE_STATUS hitachi_l200_calculation_input_a_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 4)); }
+FIELDSCRIBE_STATUS hitachi_l200_calculation_input_a_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 4, raw)); }
+static inline int32_t hitachi_l200_calculation_input_a_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_calculation_input_a_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CALCULATION_INPUT_A_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_calculation_input_a_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CALCULATION_INPUT_A_RAW_MIN || value > HITACHI_L200_CALCULATION_INPUT_A_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_calculation_input_a_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A142: Calculation input b
- * 0..4; read and write.
- * Erratum a141_network_variable (unknown): printed: Code 4 names a network variable; no register is named for it;
- * taken: The label only.
- */
-#define HITACHI_L200_CALCULATION_INPUT_B_SPACE HITACHI_L200_SPACE_HOLDING
+/* A142 calculation input b: 0..4; rw, modicon 4239, reference 404239 */
 #define HITACHI_L200_CALCULATION_INPUT_B_ADDRESS 0x108EU
-#define HITACHI_L200_CALCULATION_INPUT_B_CODE "A142"
-#define HITACHI_L200_CALCULATION_INPUT_B_MODICON 4239U
-#define HITACHI_L200_CALCULATION_INPUT_B_REFERENCE 404239U
-#define HITACHI_L200_CALCULATION_INPUT_B_WORDS 1U
 #define HITACHI_L200_CALCULATION_INPUT_B_RAW_MIN 0
 #define HITACHI_L200_CALCULATION_INPUT_B_RAW_MAX 4
+FIELDSCRIBE_STATUS hitachi_l200_calculation_input_b_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 4)); }
+FIELDSCRIBE_STATUS hitachi_l200_calculation_input_b_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 4, raw)); }
+static inline int32_t hitachi_l200_calculation_input_b_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_calculation_input_b_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CALCULATION_INPUT_B_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_calculation_input_b_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CALCULATION_INPUT_B_RAW_MIN || value > HITACHI_L200_CALCULATION_INPUT_B_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_calculation_input_b_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Calculation operator */
 enum {
     HITACHI_L200_CALCULATION_OPERATOR_ADD = 0,
     HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT = 1,
     HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2
 };
-
+static const char *const hitachi_l200_calculation_operator_names[] = {
+    "add", "subtract", "multiply"
+};
 static inline const char *hitachi_l200_calculation_operator_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_CALCULATION_OPERATOR_ADD:
-        return "add";
-    case HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT:
-        return "subtract";
-    case HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY:
-        return "multiply";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_calculation_operator_names, raw); }
 
-/*
- * A143: Calculation operator
- * 0..2; read and write.
- * Erratum a143_wire_hex (certain): printed: wire 108Ah; taken: wire 108Fh.
- */
-#define HITACHI_L200_CALCULATION_OPERATOR_SPACE HITACHI_L200_SPACE_HOLDING
+/* A143 calculation operator: 0..2; rw, modicon 4240, reference 404240; erratum a143_wire_hex */
 #define HITACHI_L200_CALCULATION_OPERATOR_ADDRESS 0x108FU
-#define HITACHI_L200_CALCULATION_OPERATOR_CODE "A143"
-#define HITACHI_L200_CALCULATION_OPERATOR_MODICON 4240U
-#define HITACHI_L200_CALCULATION_OPERATOR_REFERENCE 404240U
-#define HITACHI_L200_CALCULATION_OPERATOR_WORDS 1U
 #define HITACHI_L200_CALCULATION_OPERATOR_RAW_MIN 0
 #define HITACHI_L200_CALCULATION_OPERATOR_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_calculation_operator_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_calculation_operator_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_calculation_operator_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_calculation_operator_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CALCULATION_OPERATOR_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_calculation_operator_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CALCULATION_OPERATOR_RAW_MIN || value > HITACHI_L200_CALCULATION_OPERATOR_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_calculation_operator_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A145: Frequency offset
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_FREQUENCY_OFFSET_SPACE HITACHI_L200_SPACE_HOLDING
+/* A145 frequency offset: 0..400 Hz; 0.1 Hz a count; rw, modicon 4241, reference 404241 */
 #define HITACHI_L200_FREQUENCY_OFFSET_ADDRESS 0x1090U
-#define HITACHI_L200_FREQUENCY_OFFSET_CODE "A145"
-#define HITACHI_L200_FREQUENCY_OFFSET_MODICON 4241U
-#define HITACHI_L200_FREQUENCY_OFFSET_REFERENCE 404241U
-#define HITACHI_L200_FREQUENCY_OFFSET_WORDS 1U
 #define HITACHI_L200_FREQUENCY_OFFSET_RAW_MIN 0
 #define HITACHI_L200_FREQUENCY_OFFSET_RAW_MAX 4000
 #define HITACHI_L200_FREQUENCY_OFFSET_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_frequency_offset_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FREQUENCY_OFFSET_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_frequency_offset_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_frequency_offset_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_frequency_offset_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FREQUENCY_OFFSET_RAW_MIN, HITACHI_L200_FREQUENCY_OFFSET_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_frequency_offset_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_frequency_offset_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_frequency_offset_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Frequency offset sign */
 enum {
     HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS = 0,
     HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1
 };
-
+static const char *const hitachi_l200_frequency_offset_sign_names[] = {
+    "plus", "minus"
+};
 static inline const char *hitachi_l200_frequency_offset_sign_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS:
-        return "plus";
-    case HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS:
-        return "minus";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_frequency_offset_sign_names, raw); }
 
-/*
- * A146: Frequency offset sign
- * 0, 1; read and write.
- */
-#define HITACHI_L200_FREQUENCY_OFFSET_SIGN_SPACE HITACHI_L200_SPACE_HOLDING
+/* A146 frequency offset sign: 0, 1; rw, modicon 4243, reference 404243 */
 #define HITACHI_L200_FREQUENCY_OFFSET_SIGN_ADDRESS 0x1092U
-#define HITACHI_L200_FREQUENCY_OFFSET_SIGN_CODE "A146"
-#define HITACHI_L200_FREQUENCY_OFFSET_SIGN_MODICON 4243U
-#define HITACHI_L200_FREQUENCY_OFFSET_SIGN_REFERENCE 404243U
-#define HITACHI_L200_FREQUENCY_OFFSET_SIGN_WORDS 1U
 #define HITACHI_L200_FREQUENCY_OFFSET_SIGN_RAW_MIN 0
 #define HITACHI_L200_FREQUENCY_OFFSET_SIGN_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_sign_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_offset_sign_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_frequency_offset_sign_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_frequency_offset_sign_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_FREQUENCY_OFFSET_SIGN_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_frequency_offset_sign_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_FREQUENCY_OFFSET_SIGN_RAW_MIN || value > HITACHI_L200_FREQUENCY_OFFSET_SIGN_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_frequency_offset_sign_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A151: Potentiometer minimum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum a101_below_above (certain): printed: The minimum frequency is said to be used above the minimum setpoint;
- * taken: Below the minimum setpoint, as for A011.
- */
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A151 potentiometer minimum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4245, reference 404245 */
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_ADDRESS 0x1094U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_CODE "A151"
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_MODICON 4245U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_REFERENCE 404245U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_minimum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_potentiometer_minimum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_potentiometer_minimum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_potentiometer_minimum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_potentiometer_minimum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_potentiometer_minimum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A152: Potentiometer maximum frequency
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* A152 potentiometer maximum frequency: 0..400 Hz; 0.1 Hz a count; rw, modicon 4247, reference 404247 */
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_ADDRESS 0x1096U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_CODE "A152"
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_MODICON 4247U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_REFERENCE 404247U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_WORDS 1U
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_RAW_MIN 0
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_RAW_MAX 4000
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_maximum_frequency_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_potentiometer_maximum_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_potentiometer_maximum_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_RAW_MIN, HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_potentiometer_maximum_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_potentiometer_maximum_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_potentiometer_maximum_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * A153: Potentiometer minimum setpoint
- * 0..100 %, raw 0..100; read and write.
- * Erratum a103_minimum (certain): printed: The minimum setpoint is described as relating to the maximum setpoint;
- * taken: The minimum setpoint.
- */
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A153 potentiometer minimum setpoint: 0..100 %; rw, modicon 4248, reference 404248 */
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_ADDRESS 0x1097U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_CODE "A153"
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_MODICON 4248U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_REFERENCE 404248U
-#define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_setpoint_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_minimum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_potentiometer_minimum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_potentiometer_minimum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_minimum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_potentiometer_minimum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * A154: Potentiometer maximum setpoint
- * 0..100 %, raw 0..100; read and write.
- */
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_SPACE HITACHI_L200_SPACE_HOLDING
+/* A154 potentiometer maximum setpoint: 0..100 %; rw, modicon 4249, reference 404249 */
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_ADDRESS 0x1098U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_CODE "A154"
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_MODICON 4249U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_REFERENCE 404249U
-#define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_WORDS 1U
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_RAW_MIN 0
 #define HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_RAW_MAX 100
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_setpoint_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_maximum_setpoint_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t hitachi_l200_potentiometer_maximum_setpoint_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_potentiometer_maximum_setpoint_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_potentiometer_maximum_setpoint_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_RAW_MIN || value > HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_potentiometer_maximum_setpoint_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Potentiometer start condition */
 enum {
     HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY = 0,
     HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1
 };
-
+static const char *const hitachi_l200_potentiometer_start_condition_names[] = {
+    "minimum_frequency", "zero_hz"
+};
 static inline const char *hitachi_l200_potentiometer_start_condition_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY:
-        return "minimum_frequency";
-    case HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ:
-        return "zero_hz";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_potentiometer_start_condition_names, raw); }
 
-/*
- * A155: Potentiometer start condition
- * 0, 1; read and write.
- * Erratum a155_reference (certain): printed: Code 0 refers to A101; taken: A151.
- */
-#define HITACHI_L200_POTENTIOMETER_START_CONDITION_SPACE HITACHI_L200_SPACE_HOLDING
+/* A155 potentiometer start condition: 0, 1; rw, modicon 4250, reference 404250 */
 #define HITACHI_L200_POTENTIOMETER_START_CONDITION_ADDRESS 0x1099U
-#define HITACHI_L200_POTENTIOMETER_START_CONDITION_CODE "A155"
-#define HITACHI_L200_POTENTIOMETER_START_CONDITION_MODICON 4250U
-#define HITACHI_L200_POTENTIOMETER_START_CONDITION_REFERENCE 404250U
-#define HITACHI_L200_POTENTIOMETER_START_CONDITION_WORDS 1U
 #define HITACHI_L200_POTENTIOMETER_START_CONDITION_RAW_MIN 0
 #define HITACHI_L200_POTENTIOMETER_START_CONDITION_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_start_condition_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_potentiometer_start_condition_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_potentiometer_start_condition_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_potentiometer_start_condition_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POTENTIOMETER_START_CONDITION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
+/* ---- fine tuning b (holding) ---- */
 
-static inline hitachi_l200_status hitachi_l200_potentiometer_start_condition_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_POTENTIOMETER_START_CONDITION_RAW_MIN || value > HITACHI_L200_POTENTIOMETER_START_CONDITION_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_potentiometer_start_condition_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* ---- Fine tuning b ---- */
-
-/* Restart mode */
 enum {
     HITACHI_L200_RESTART_MODE_TRIP = 0,
     HITACHI_L200_RESTART_MODE_START_AT_0_HZ = 1,
     HITACHI_L200_RESTART_MODE_SYNCHRONIZE = 2,
     HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP = 3
 };
-
+static const char *const hitachi_l200_restart_mode_names[] = {
+    "trip", "start_at_0_hz", "synchronize", "synchronize_and_stop"
+};
 static inline const char *hitachi_l200_restart_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RESTART_MODE_TRIP:
-        return "trip";
-    case HITACHI_L200_RESTART_MODE_START_AT_0_HZ:
-        return "start_at_0_hz";
-    case HITACHI_L200_RESTART_MODE_SYNCHRONIZE:
-        return "synchronize";
-    case HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP:
-        return "synchronize_and_stop";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_restart_mode_names, raw); }
 
-/*
- * b001: Restart mode
- * 0..3; read and write.
- */
-#define HITACHI_L200_RESTART_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b001 restart mode: 0..3; rw, modicon 4261, reference 404261 */
 #define HITACHI_L200_RESTART_MODE_ADDRESS 0x10A4U
-#define HITACHI_L200_RESTART_MODE_CODE "b001"
-#define HITACHI_L200_RESTART_MODE_MODICON 4261U
-#define HITACHI_L200_RESTART_MODE_REFERENCE 404261U
-#define HITACHI_L200_RESTART_MODE_WORDS 1U
 #define HITACHI_L200_RESTART_MODE_RAW_MIN 0
 #define HITACHI_L200_RESTART_MODE_RAW_MAX 3
+FIELDSCRIBE_STATUS hitachi_l200_restart_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 3)); }
+FIELDSCRIBE_STATUS hitachi_l200_restart_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 3, raw)); }
+static inline int32_t hitachi_l200_restart_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_restart_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RESTART_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_restart_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RESTART_MODE_RAW_MIN || value > HITACHI_L200_RESTART_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_restart_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b002: Allowed power failure time
- * 0.3..25 s, raw 3..250, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* b002 allowed power failure time: 0.3..25 s; 0.1 s a count; rw, modicon 4262, reference 404262 */
 #define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_ADDRESS 0x10A5U
-#define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_CODE "b002"
-#define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_MODICON 4262U
-#define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_REFERENCE 404262U
-#define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_WORDS 1U
 #define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MIN 3
 #define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MAX 250
 #define HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_allowed_power_failure_time_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MIN && raw <= HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_allowed_power_failure_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 3 || count > 250) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_allowed_power_failure_time_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_allowed_power_failure_time_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MIN, HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_allowed_power_failure_time_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 3, 250); }
+FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 3, 250, raw); }
+static inline int32_t hitachi_l200_allowed_power_failure_time_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_allowed_power_failure_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 3, 250, raw); }
+static inline fieldscribe_real hitachi_l200_allowed_power_failure_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * b003: Restart delay
- * 0.3..100 s, raw 3..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_RESTART_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* b003 restart delay: 0.3..100 s; 0.1 s a count; rw, modicon 4263, reference 404263 */
 #define HITACHI_L200_RESTART_DELAY_ADDRESS 0x10A6U
-#define HITACHI_L200_RESTART_DELAY_CODE "b003"
-#define HITACHI_L200_RESTART_DELAY_MODICON 4263U
-#define HITACHI_L200_RESTART_DELAY_REFERENCE 404263U
-#define HITACHI_L200_RESTART_DELAY_WORDS 1U
 #define HITACHI_L200_RESTART_DELAY_RAW_MIN 3
 #define HITACHI_L200_RESTART_DELAY_RAW_MAX 1000
 #define HITACHI_L200_RESTART_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_restart_delay_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_RESTART_DELAY_RAW_MIN && raw <= HITACHI_L200_RESTART_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_restart_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 3 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_restart_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_restart_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_RESTART_DELAY_RAW_MIN, HITACHI_L200_RESTART_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_restart_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_restart_delay_check(uint16_t raw) { return fieldscribe_check(raw, 3, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_restart_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 3, 1000, raw); }
+static inline int32_t hitachi_l200_restart_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_restart_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 3, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_restart_delay_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Power failure trip at standstill */
 enum {
     HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP = 0,
     HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1
 };
-
+static const char *const hitachi_l200_power_failure_trip_at_standstill_names[] = {
+    "no_trip", "trip"
+};
 static inline const char *hitachi_l200_power_failure_trip_at_standstill_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP:
-        return "no_trip";
-    case HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP:
-        return "trip";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_power_failure_trip_at_standstill_names, raw); }
 
-/*
- * b004: Power failure trip at standstill
- * 0, 1; read and write.
- */
-#define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_SPACE HITACHI_L200_SPACE_HOLDING
+/* b004 power failure trip at standstill: 0, 1; rw, modicon 4264, reference 404264 */
 #define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_ADDRESS 0x10A7U
-#define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_CODE "b004"
-#define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_MODICON 4264U
-#define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_REFERENCE 404264U
-#define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_WORDS 1U
 #define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_RAW_MIN 0
 #define HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_power_failure_trip_at_standstill_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_power_failure_trip_at_standstill_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_power_failure_trip_at_standstill_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_power_failure_trip_at_standstill_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_power_failure_trip_at_standstill_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_RAW_MIN || value > HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_power_failure_trip_at_standstill_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Power failure restarts */
 enum {
     HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16 = 0,
     HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1
 };
-
+static const char *const hitachi_l200_power_failure_restarts_names[] = {
+    "attempts_16", "unlimited"
+};
 static inline const char *hitachi_l200_power_failure_restarts_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16:
-        return "attempts_16";
-    case HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED:
-        return "unlimited";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_power_failure_restarts_names, raw); }
 
-/*
- * b005: Power failure restarts
- * 0, 1; read and write.
- * Erratum b005_title (likely): printed: The title names power failure and undervoltage only; the choices are 16
- * attempts or unlimited; taken: The number of restarts after a power failure or undervoltage.
- */
-#define HITACHI_L200_POWER_FAILURE_RESTARTS_SPACE HITACHI_L200_SPACE_HOLDING
+/* b005 power failure restarts: 0, 1; rw, modicon 4265, reference 404265 */
 #define HITACHI_L200_POWER_FAILURE_RESTARTS_ADDRESS 0x10A8U
-#define HITACHI_L200_POWER_FAILURE_RESTARTS_CODE "b005"
-#define HITACHI_L200_POWER_FAILURE_RESTARTS_MODICON 4265U
-#define HITACHI_L200_POWER_FAILURE_RESTARTS_REFERENCE 404265U
-#define HITACHI_L200_POWER_FAILURE_RESTARTS_WORDS 1U
 #define HITACHI_L200_POWER_FAILURE_RESTARTS_RAW_MIN 0
 #define HITACHI_L200_POWER_FAILURE_RESTARTS_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_power_failure_restarts_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_power_failure_restarts_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_power_failure_restarts_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_power_failure_restarts_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_POWER_FAILURE_RESTARTS_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_power_failure_restarts_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_POWER_FAILURE_RESTARTS_RAW_MIN || value > HITACHI_L200_POWER_FAILURE_RESTARTS_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_power_failure_restarts_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b012: Motor protection level
- * 20..120 %, raw 2000..12000, in steps of 0.01 %; read and write.
- */
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SPACE HITACHI_L200_SPACE_HOLDING
+/* b012 motor protection level: 20..120 %; 0.01 % a count; rw, modicon 4269, reference 404269 */
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_ADDRESS 0x10ACU
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_CODE "b012"
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_MODICON 4269U
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_REFERENCE 404269U
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_WORDS 1U
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MIN 2000
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MAX 12000
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MIN && raw <= HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 2000 || count > 12000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_protection_level_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MIN, HITACHI_L200_MOTOR_PROTECTION_LEVEL_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_motor_protection_level_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_check(uint16_t raw)
+{ return fieldscribe_check(raw, 2000, 12000); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 2000, 12000, raw); }
+static inline int32_t hitachi_l200_motor_protection_level_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 2000, 12000, raw); }
+static inline fieldscribe_real hitachi_l200_motor_protection_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * b212: Motor protection level set 2
- * 20..120 %, raw 2000..12000, in steps of 0.01 %; read and write.
- */
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b212 motor protection level set 2: 20..120 %; 0.01 % a count; rw, modicon 5414, reference 405414 */
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_ADDRESS 0x1525U
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_CODE "b212"
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_MODICON 5414U
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_REFERENCE 405414U
-#define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_WORDS 1U
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MIN 2000
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MAX 12000
 #define HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_set_2_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MIN && raw <= HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 2000 || count > 12000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_protection_level_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_motor_protection_level_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MIN, HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_motor_protection_level_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 2000, 12000); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 2000, 12000, raw); }
+static inline int32_t hitachi_l200_motor_protection_level_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 2000, 12000, raw); }
+static inline fieldscribe_real hitachi_l200_motor_protection_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/* Motor protection characteristic */
 enum {
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1 = 0,
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CONSTANT = 1,
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2 = 2
 };
-
+static const char *const hitachi_l200_motor_protection_characteristic_names[] = {
+    "quadratic_1", "constant", "quadratic_2"
+};
 static inline const char *hitachi_l200_motor_protection_characteristic_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1:
-        return "quadratic_1";
-    case HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CONSTANT:
-        return "constant";
-    case HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2:
-        return "quadratic_2";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_protection_characteristic_names, raw); }
 
-/*
- * b013: Motor protection characteristic
- * 0..2; read and write.
- * Erratum b013_choices (certain): printed: choices 2; taken: choices 3.
- * Erratum b013_rated_current_note (certain): printed: The note on a rated current of 10000 is marked at, and names,
- * b013 and b213; taken: It belongs to b012 and b212.
- */
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SPACE HITACHI_L200_SPACE_HOLDING
+/* b013 motor protection characteristic: 0..2; rw, modicon 4270, reference 404270; erratum b013_choices */
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_ADDRESS 0x10ADU
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CODE "b013"
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_MODICON 4270U
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_REFERENCE 404270U
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_WORDS 1U
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_RAW_MIN 0
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_characteristic_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_characteristic_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_motor_protection_characteristic_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_protection_characteristic_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_characteristic_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_RAW_MIN || value > HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_protection_characteristic_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b213: Motor protection characteristic set 2
- * 0..2; read and write.
- * Erratum b013_choices (certain): printed: choices 2; taken: choices 3.
- * Erratum b013_rated_current_note (certain): printed: The note on a rated current of 10000 is marked at, and names,
- * b013 and b213; taken: It belongs to b012 and b212.
- */
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b213 motor protection characteristic set 2: 0..2; rw, modicon 5415, reference 405415; erratum b013_choices */
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_ADDRESS 0x1526U
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_CODE "b213"
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_MODICON 5415U
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_REFERENCE 405415U
-#define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_WORDS 1U
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_RAW_MIN 0
 #define HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_characteristic_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_protection_characteristic_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_motor_protection_characteristic_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_protection_characteristic_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_protection_characteristic_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_RAW_MIN || value > HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_protection_characteristic_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Current limit mode */
 enum {
     HITACHI_L200_CURRENT_LIMIT_MODE_INACTIVE = 0,
     HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE = 1,
     HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2
 };
-
+static const char *const hitachi_l200_current_limit_mode_names[] = {
+    "inactive", "active", "active_at_constant_speed"
+};
 static inline const char *hitachi_l200_current_limit_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_CURRENT_LIMIT_MODE_INACTIVE:
-        return "inactive";
-    case HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE:
-        return "active";
-    case HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED:
-        return "active_at_constant_speed";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_current_limit_mode_names, raw); }
 
-/*
- * b021: Current limit mode
- * 0..2; read and write.
- */
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b021 current limit mode: 0..2; rw, modicon 4277, reference 404277 */
 #define HITACHI_L200_CURRENT_LIMIT_MODE_ADDRESS 0x10B4U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_CODE "b021"
-#define HITACHI_L200_CURRENT_LIMIT_MODE_MODICON 4277U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_REFERENCE 404277U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_MODE_RAW_MIN 0
 #define HITACHI_L200_CURRENT_LIMIT_MODE_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_current_limit_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_current_limit_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CURRENT_LIMIT_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CURRENT_LIMIT_MODE_RAW_MIN || value > HITACHI_L200_CURRENT_LIMIT_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b221: Current limit mode set 2
- * 0..2; read and write.
- */
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b221 current limit mode set 2: 0..2; rw, modicon 5416, reference 405416 */
 #define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_ADDRESS 0x1527U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_CODE "b221"
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_MODICON 5416U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_REFERENCE 405416U
-#define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_RAW_MIN 0
 #define HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_mode_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_mode_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_current_limit_mode_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_current_limit_mode_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_mode_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_RAW_MIN || value > HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_mode_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b022: Current limit level
- * 10..150 %, raw 1000..15000, in steps of 0.01 %; read and write.
- * Erratum b022_resolution (likely): printed: The description says 1 % of the rated current, the column for the step
- * 0.01 %; taken: The raw step is 0.01 %; the inverter may keep whole percents only.
- */
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SPACE HITACHI_L200_SPACE_HOLDING
+/* b022 current limit level: 10..150 %; 0.01 % a count; rw, modicon 4278, reference 404278 */
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_ADDRESS 0x10B5U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_CODE "b022"
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_MODICON 4278U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_REFERENCE 404278U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MIN 1000
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MAX 15000
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_current_limit_level_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MIN && raw <= HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_level_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1000 || count > 15000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_level_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_current_limit_level_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MIN, HITACHI_L200_CURRENT_LIMIT_LEVEL_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_current_limit_level_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_check(uint16_t raw) { return fieldscribe_check(raw, 1000, 15000); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1000, 15000, raw); }
+static inline int32_t hitachi_l200_current_limit_level_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 1000, 15000, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * b222: Current limit level set 2
- * 10..150 %, raw 1000..15000, in steps of 0.01 %; read and write.
- * Erratum b022_resolution (likely): printed: The description says 1 % of the rated current, the column for the step
- * 0.01 %; taken: The raw step is 0.01 %; the inverter may keep whole percents only.
- */
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b222 current limit level set 2: 10..150 %; 0.01 % a count; rw, modicon 5417, reference 405417 */
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_ADDRESS 0x1528U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_CODE "b222"
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_MODICON 5417U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_REFERENCE 405417U
-#define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MIN 1000
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MAX 15000
 #define HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_current_limit_level_set_2_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MIN && raw <= HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_level_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1000 || count > 15000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_level_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_current_limit_level_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MIN, HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_current_limit_level_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1000, 15000); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1000, 15000, raw); }
+static inline int32_t hitachi_l200_current_limit_level_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 1000, 15000, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * b023: Current limit time
- * 0.1..30 s, raw 1..300, in steps of 0.1 s; read and write.
- * Erratum b023_unit (certain): printed: The description gives the range without a unit; taken: s.
- */
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SPACE HITACHI_L200_SPACE_HOLDING
+/* b023 current limit time: 0.1..30 s; 0.1 s a count; rw, modicon 4279, reference 404279 */
 #define HITACHI_L200_CURRENT_LIMIT_TIME_ADDRESS 0x10B6U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_CODE "b023"
-#define HITACHI_L200_CURRENT_LIMIT_TIME_MODICON 4279U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_REFERENCE 404279U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MIN 1
 #define HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MAX 300
 #define HITACHI_L200_CURRENT_LIMIT_TIME_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_current_limit_time_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MIN && raw <= HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 300) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_time_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_current_limit_time_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MIN, HITACHI_L200_CURRENT_LIMIT_TIME_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_current_limit_time_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_check(uint16_t raw) { return fieldscribe_check(raw, 1, 300); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 300, raw); }
+static inline int32_t hitachi_l200_current_limit_time_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 300, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * b223: Current limit time set 2
- * 0.1..30 s, raw 1..300, in steps of 0.1 s; read and write.
- * Erratum b023_unit (certain): printed: The description gives the range without a unit; taken: s.
- */
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b223 current limit time set 2: 0.1..30 s; 0.1 s a count; rw, modicon 5418, reference 405418 */
 #define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_ADDRESS 0x1529U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_CODE "b223"
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_MODICON 5418U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_REFERENCE 405418U
-#define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MIN 1
 #define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MAX 300
 #define HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_current_limit_time_set_2_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MIN && raw <= HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_time_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 300) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_time_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_current_limit_time_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MIN, HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_current_limit_time_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_check(uint16_t raw) { return fieldscribe_check(raw, 1, 300); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 300, raw); }
+static inline int32_t hitachi_l200_current_limit_time_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_time_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 300, raw); }
+static inline fieldscribe_real hitachi_l200_current_limit_time_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Current limit source */
 enum {
     HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER = 0,
     HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1
 };
-
+static const char *const hitachi_l200_current_limit_source_names[] = {
+    "parameter", "terminal_o"
+};
 static inline const char *hitachi_l200_current_limit_source_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER:
-        return "parameter";
-    case HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O:
-        return "terminal_o";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_current_limit_source_names, raw); }
 
-/*
- * b028: Current limit source
- * 0, 1; read and write.
- */
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b028 current limit source: 0, 1; rw, modicon 4283, reference 404283 */
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_ADDRESS 0x10BAU
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_CODE "b028"
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_MODICON 4283U
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_REFERENCE 404283U
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_RAW_MIN 0
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_source_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_current_limit_source_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_current_limit_source_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CURRENT_LIMIT_SOURCE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CURRENT_LIMIT_SOURCE_RAW_MIN || value > HITACHI_L200_CURRENT_LIMIT_SOURCE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b228: Current limit source set 2
- * 0, 1; read and write.
- * Erratum b228_hex_mark (certain): printed: The second hex number is printed without its h; taken: 152Ah.
- */
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* b228 current limit source set 2: 0, 1; rw, modicon 5419, reference 405419 */
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_ADDRESS 0x152AU
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_CODE "b228"
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_MODICON 5419U
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_REFERENCE 405419U
-#define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_WORDS 1U
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_RAW_MIN 0
 #define HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_source_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_current_limit_source_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_current_limit_source_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_current_limit_source_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_current_limit_source_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_RAW_MIN || value > HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_current_limit_source_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Parameter lock */
 enum {
     HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS_AND_SETPOINT = 0,
     HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS = 1,
     HITACHI_L200_PARAMETER_LOCK_PARAMETERS_AND_SETPOINT = 2,
     HITACHI_L200_PARAMETER_LOCK_PARAMETERS = 3
 };
-
+static const char *const hitachi_l200_parameter_lock_names[] = {
+    "sft_parameters_and_setpoint", "sft_parameters", "parameters_and_setpoint", "parameters"
+};
 static inline const char *hitachi_l200_parameter_lock_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS_AND_SETPOINT:
-        return "sft_parameters_and_setpoint";
-    case HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS:
-        return "sft_parameters";
-    case HITACHI_L200_PARAMETER_LOCK_PARAMETERS_AND_SETPOINT:
-        return "parameters_and_setpoint";
-    case HITACHI_L200_PARAMETER_LOCK_PARAMETERS:
-        return "parameters";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_parameter_lock_names, raw); }
 
-/*
- * b031: Parameter lock
- * 0..3; read and write.
- */
-#define HITACHI_L200_PARAMETER_LOCK_SPACE HITACHI_L200_SPACE_HOLDING
+/* b031 parameter lock: 0..3; rw, modicon 4284, reference 404284 */
 #define HITACHI_L200_PARAMETER_LOCK_ADDRESS 0x10BBU
-#define HITACHI_L200_PARAMETER_LOCK_CODE "b031"
-#define HITACHI_L200_PARAMETER_LOCK_MODICON 4284U
-#define HITACHI_L200_PARAMETER_LOCK_REFERENCE 404284U
-#define HITACHI_L200_PARAMETER_LOCK_WORDS 1U
 #define HITACHI_L200_PARAMETER_LOCK_RAW_MIN 0
 #define HITACHI_L200_PARAMETER_LOCK_RAW_MAX 3
+FIELDSCRIBE_STATUS hitachi_l200_parameter_lock_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 3)); }
+FIELDSCRIBE_STATUS hitachi_l200_parameter_lock_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 3, raw)); }
+static inline int32_t hitachi_l200_parameter_lock_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_parameter_lock_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PARAMETER_LOCK_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_parameter_lock_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_PARAMETER_LOCK_RAW_MIN || value > HITACHI_L200_PARAMETER_LOCK_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_parameter_lock_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b080: Analog output gain
- * 0..255; read and write.
- */
-#define HITACHI_L200_ANALOG_OUTPUT_GAIN_SPACE HITACHI_L200_SPACE_HOLDING
+/* b080 analog output gain: 0..255; rw, modicon 4303, reference 404303 */
 #define HITACHI_L200_ANALOG_OUTPUT_GAIN_ADDRESS 0x10CEU
-#define HITACHI_L200_ANALOG_OUTPUT_GAIN_CODE "b080"
-#define HITACHI_L200_ANALOG_OUTPUT_GAIN_MODICON 4303U
-#define HITACHI_L200_ANALOG_OUTPUT_GAIN_REFERENCE 404303U
-#define HITACHI_L200_ANALOG_OUTPUT_GAIN_WORDS 1U
 #define HITACHI_L200_ANALOG_OUTPUT_GAIN_RAW_MIN 0
 #define HITACHI_L200_ANALOG_OUTPUT_GAIN_RAW_MAX 255
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_gain_check(uint16_t raw) { return fieldscribe_check(raw, 0, 255); }
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_gain_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 255, raw); }
+static inline int32_t hitachi_l200_analog_output_gain_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_analog_output_gain_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ANALOG_OUTPUT_GAIN_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_analog_output_gain_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_ANALOG_OUTPUT_GAIN_RAW_MIN || value > HITACHI_L200_ANALOG_OUTPUT_GAIN_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_analog_output_gain_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b082: Start frequency
- * 0.5..9.9 Hz, raw 5..99, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_START_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* b082 start frequency: 0.5..9.9 Hz; 0.1 Hz a count; rw, modicon 4305, reference 404305 */
 #define HITACHI_L200_START_FREQUENCY_ADDRESS 0x10D0U
-#define HITACHI_L200_START_FREQUENCY_CODE "b082"
-#define HITACHI_L200_START_FREQUENCY_MODICON 4305U
-#define HITACHI_L200_START_FREQUENCY_REFERENCE 404305U
-#define HITACHI_L200_START_FREQUENCY_WORDS 1U
 #define HITACHI_L200_START_FREQUENCY_RAW_MIN 5
 #define HITACHI_L200_START_FREQUENCY_RAW_MAX 99
 #define HITACHI_L200_START_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_start_frequency_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_START_FREQUENCY_RAW_MIN && raw <= HITACHI_L200_START_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_start_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 5 || count > 99) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_start_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_start_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_START_FREQUENCY_RAW_MIN, HITACHI_L200_START_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_start_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_start_frequency_check(uint16_t raw) { return fieldscribe_check(raw, 5, 99); }
+FIELDSCRIBE_STATUS hitachi_l200_start_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 5, 99, raw); }
+static inline int32_t hitachi_l200_start_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 5, 99, raw); }
+static inline fieldscribe_real hitachi_l200_start_frequency_decode(uint16_t raw) { return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * b083: Carrier frequency
- * 2..14 kHz, raw 20..140, in steps of 0.1 kHz; read and write.
- * Erratum b083_unit (certain): printed: resolution 0.1 Hz; taken: resolution 0.1 kHz.
- */
-#define HITACHI_L200_CARRIER_FREQUENCY_SPACE HITACHI_L200_SPACE_HOLDING
+/* b083 carrier frequency: 2..14 kHz; 0.1 kHz a count; rw, modicon 4306, reference 404306; erratum b083_unit */
 #define HITACHI_L200_CARRIER_FREQUENCY_ADDRESS 0x10D1U
-#define HITACHI_L200_CARRIER_FREQUENCY_CODE "b083"
-#define HITACHI_L200_CARRIER_FREQUENCY_MODICON 4306U
-#define HITACHI_L200_CARRIER_FREQUENCY_REFERENCE 404306U
-#define HITACHI_L200_CARRIER_FREQUENCY_WORDS 1U
 #define HITACHI_L200_CARRIER_FREQUENCY_RAW_MIN 20
 #define HITACHI_L200_CARRIER_FREQUENCY_RAW_MAX 140
 #define HITACHI_L200_CARRIER_FREQUENCY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_carrier_frequency_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_CARRIER_FREQUENCY_RAW_MIN && raw <= HITACHI_L200_CARRIER_FREQUENCY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_carrier_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 20 || count > 140) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_carrier_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_carrier_frequency_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_CARRIER_FREQUENCY_RAW_MIN, HITACHI_L200_CARRIER_FREQUENCY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_carrier_frequency_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_check(uint16_t raw) { return fieldscribe_check(raw, 20, 140); }
+FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 20, 140, raw); }
+static inline int32_t hitachi_l200_carrier_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_carrier_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 20, 140, raw); }
+static inline fieldscribe_real hitachi_l200_carrier_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Initialization mode */
 enum {
     HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS = 0,
     HITACHI_L200_INITIALIZATION_MODE_FACTORY_SETTINGS = 1,
     HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS = 2
 };
-
+static const char *const hitachi_l200_initialization_mode_names[] = {
+    "clear_trips", "factory_settings", "clear_trips_and_factory_settings"
+};
 static inline const char *hitachi_l200_initialization_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS:
-        return "clear_trips";
-    case HITACHI_L200_INITIALIZATION_MODE_FACTORY_SETTINGS:
-        return "factory_settings";
-    case HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS:
-        return "clear_trips_and_factory_settings";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_initialization_mode_names, raw); }
 
-/*
- * b084: Initialization mode
- * 0..2; read and write.
- */
-#define HITACHI_L200_INITIALIZATION_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b084 initialization mode: 0..2; rw, modicon 4307, reference 404307 */
 #define HITACHI_L200_INITIALIZATION_MODE_ADDRESS 0x10D2U
-#define HITACHI_L200_INITIALIZATION_MODE_CODE "b084"
-#define HITACHI_L200_INITIALIZATION_MODE_MODICON 4307U
-#define HITACHI_L200_INITIALIZATION_MODE_REFERENCE 404307U
-#define HITACHI_L200_INITIALIZATION_MODE_WORDS 1U
 #define HITACHI_L200_INITIALIZATION_MODE_RAW_MIN 0
 #define HITACHI_L200_INITIALIZATION_MODE_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_initialization_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_initialization_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_initialization_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_initialization_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INITIALIZATION_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
+/* b085 country code: 0..65535; none, modicon 4308, reference 404308; not generated: not reachable over the bus */
 
-static inline hitachi_l200_status hitachi_l200_initialization_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_INITIALIZATION_MODE_RAW_MIN || value > HITACHI_L200_INITIALIZATION_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_initialization_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b085: Country code
- * 0..65535; not reachable over the bus.
- * Erratum b085_no_range (unknown): printed: No codes and no range are printed; taken: Documented with its address
- * only.
- * Not generated (country_code): not reachable over the bus.
- */
-
-/*
- * b086: Frequency display factor
- * 0.1..99.9, raw 1..999, in steps of 0.1; read and write.
- */
-#define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_SPACE HITACHI_L200_SPACE_HOLDING
+/* b086 frequency display factor: 0.1..99.9; 0.1 a count; rw, modicon 4309, reference 404309 */
 #define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_ADDRESS 0x10D4U
-#define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_CODE "b086"
-#define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_MODICON 4309U
-#define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_REFERENCE 404309U
-#define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_WORDS 1U
 #define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MIN 1
 #define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MAX 999
 #define HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_frequency_display_factor_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MIN && raw <= HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_frequency_display_factor_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 999) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_frequency_display_factor_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_frequency_display_factor_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MIN, HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_frequency_display_factor_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_check(uint16_t raw) { return fieldscribe_check(raw, 1, 999); }
+FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 999, raw); }
+static inline int32_t hitachi_l200_frequency_display_factor_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_frequency_display_factor_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
+static inline fieldscribe_real hitachi_l200_frequency_display_factor_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* Stop key lock */
 enum {
     HITACHI_L200_STOP_KEY_LOCK_KEY_ACTIVE = 0,
     HITACHI_L200_STOP_KEY_LOCK_KEY_INACTIVE = 1
 };
-
+static const char *const hitachi_l200_stop_key_lock_names[] = {
+    "key_active", "key_inactive"
+};
 static inline const char *hitachi_l200_stop_key_lock_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_STOP_KEY_LOCK_KEY_ACTIVE:
-        return "key_active";
-    case HITACHI_L200_STOP_KEY_LOCK_KEY_INACTIVE:
-        return "key_inactive";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_stop_key_lock_names, raw); }
 
-/*
- * b087: Stop key lock
- * 0, 1; read and write.
- */
-#define HITACHI_L200_STOP_KEY_LOCK_SPACE HITACHI_L200_SPACE_HOLDING
+/* b087 stop key lock: 0, 1; rw, modicon 4310, reference 404310 */
 #define HITACHI_L200_STOP_KEY_LOCK_ADDRESS 0x10D5U
-#define HITACHI_L200_STOP_KEY_LOCK_CODE "b087"
-#define HITACHI_L200_STOP_KEY_LOCK_MODICON 4310U
-#define HITACHI_L200_STOP_KEY_LOCK_REFERENCE 404310U
-#define HITACHI_L200_STOP_KEY_LOCK_WORDS 1U
 #define HITACHI_L200_STOP_KEY_LOCK_RAW_MIN 0
 #define HITACHI_L200_STOP_KEY_LOCK_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_stop_key_lock_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_stop_key_lock_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_stop_key_lock_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_stop_key_lock_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_STOP_KEY_LOCK_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_stop_key_lock_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_STOP_KEY_LOCK_RAW_MIN || value > HITACHI_L200_STOP_KEY_LOCK_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_stop_key_lock_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Coast restart mode */
 enum {
     HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ = 0,
     HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1
 };
-
+static const char *const hitachi_l200_coast_restart_mode_names[] = {
+    "start_at_0_hz", "synchronize"
+};
 static inline const char *hitachi_l200_coast_restart_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ:
-        return "start_at_0_hz";
-    case HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE:
-        return "synchronize";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_coast_restart_mode_names, raw); }
 
-/*
- * b088: Coast restart mode
- * 0, 1; read and write.
- */
-#define HITACHI_L200_COAST_RESTART_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b088 coast restart mode: 0, 1; rw, modicon 4311, reference 404311 */
 #define HITACHI_L200_COAST_RESTART_MODE_ADDRESS 0x10D6U
-#define HITACHI_L200_COAST_RESTART_MODE_CODE "b088"
-#define HITACHI_L200_COAST_RESTART_MODE_MODICON 4311U
-#define HITACHI_L200_COAST_RESTART_MODE_REFERENCE 404311U
-#define HITACHI_L200_COAST_RESTART_MODE_WORDS 1U
 #define HITACHI_L200_COAST_RESTART_MODE_RAW_MIN 0
 #define HITACHI_L200_COAST_RESTART_MODE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_coast_restart_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_coast_restart_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_coast_restart_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_coast_restart_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_COAST_RESTART_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_coast_restart_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_COAST_RESTART_MODE_RAW_MIN || value > HITACHI_L200_COAST_RESTART_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_coast_restart_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Network display */
 enum {
     HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY = 1,
     HITACHI_L200_NETWORK_DISPLAY_MOTOR_CURRENT = 2,
@@ -8450,2233 +2965,812 @@ enum {
     HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS = 6,
     HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY = 7
 };
-
+static const fieldscribe_name hitachi_l200_network_display_names[] = {
+    {HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY, "output_frequency"},
+    {HITACHI_L200_NETWORK_DISPLAY_MOTOR_CURRENT, "motor_current"},
+    {HITACHI_L200_NETWORK_DISPLAY_ROTATION_DIRECTION, "rotation_direction"},
+    {HITACHI_L200_NETWORK_DISPLAY_PROCESS_VALUE, "process_value"},
+    {HITACHI_L200_NETWORK_DISPLAY_DIGITAL_INPUTS, "digital_inputs"},
+    {HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS, "digital_outputs"},
+    {HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY, "scaled_output_frequency"}
+};
 static inline const char *hitachi_l200_network_display_name(int32_t raw)
 {
-    switch (raw) {
-    case HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY:
-        return "output_frequency";
-    case HITACHI_L200_NETWORK_DISPLAY_MOTOR_CURRENT:
-        return "motor_current";
-    case HITACHI_L200_NETWORK_DISPLAY_ROTATION_DIRECTION:
-        return "rotation_direction";
-    case HITACHI_L200_NETWORK_DISPLAY_PROCESS_VALUE:
-        return "process_value";
-    case HITACHI_L200_NETWORK_DISPLAY_DIGITAL_INPUTS:
-        return "digital_inputs";
-    case HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS:
-        return "digital_outputs";
-    case HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY:
-        return "scaled_output_frequency";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(hitachi_l200_network_display_names,
+        FIELDSCRIBE_COUNT(hitachi_l200_network_display_names), raw);
 }
 
-/*
- * b089: Network display
- * 1..7; read and write.
- */
-#define HITACHI_L200_NETWORK_DISPLAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* b089 network display: 1..7; rw, modicon 4312, reference 404312 */
 #define HITACHI_L200_NETWORK_DISPLAY_ADDRESS 0x10D7U
-#define HITACHI_L200_NETWORK_DISPLAY_CODE "b089"
-#define HITACHI_L200_NETWORK_DISPLAY_MODICON 4312U
-#define HITACHI_L200_NETWORK_DISPLAY_REFERENCE 404312U
-#define HITACHI_L200_NETWORK_DISPLAY_WORDS 1U
 #define HITACHI_L200_NETWORK_DISPLAY_RAW_MIN 1
 #define HITACHI_L200_NETWORK_DISPLAY_RAW_MAX 7
+FIELDSCRIBE_STATUS hitachi_l200_network_display_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 7)); }
+FIELDSCRIBE_STATUS hitachi_l200_network_display_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 1, 7, raw)); }
+static inline int32_t hitachi_l200_network_display_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_network_display_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_NETWORK_DISPLAY_RAW_MIN && raw <= HITACHI_L200_NETWORK_DISPLAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_network_display_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_NETWORK_DISPLAY_RAW_MIN || value > HITACHI_L200_NETWORK_DISPLAY_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_network_display_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Stop mode */
 enum {
     HITACHI_L200_STOP_MODE_RAMP = 0,
     HITACHI_L200_STOP_MODE_COAST = 1
 };
-
+static const char *const hitachi_l200_stop_mode_names[] = {
+    "ramp", "coast"
+};
 static inline const char *hitachi_l200_stop_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_STOP_MODE_RAMP:
-        return "ramp";
-    case HITACHI_L200_STOP_MODE_COAST:
-        return "coast";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_stop_mode_names, raw); }
 
-/*
- * b091: Stop mode
- * 0, 1; read and write.
- */
-#define HITACHI_L200_STOP_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b091 stop mode: 0, 1; rw, modicon 4314, reference 404314 */
 #define HITACHI_L200_STOP_MODE_ADDRESS 0x10D9U
-#define HITACHI_L200_STOP_MODE_CODE "b091"
-#define HITACHI_L200_STOP_MODE_MODICON 4314U
-#define HITACHI_L200_STOP_MODE_REFERENCE 404314U
-#define HITACHI_L200_STOP_MODE_WORDS 1U
 #define HITACHI_L200_STOP_MODE_RAW_MIN 0
 #define HITACHI_L200_STOP_MODE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_stop_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_stop_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_stop_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_stop_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_STOP_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_stop_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_STOP_MODE_RAW_MIN || value > HITACHI_L200_STOP_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_stop_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b130: Overvoltage deceleration enable
- * 0, 1; read and write.
- */
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_SPACE HITACHI_L200_SPACE_HOLDING
+/* b130 overvoltage deceleration enable: 0, 1; rw, modicon 4341, reference 404341 */
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_ADDRESS 0x10F4U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_CODE "b130"
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_MODICON 4341U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_REFERENCE 404341U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_WORDS 1U
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_RAW_MIN 0
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_enable_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_enable_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_overvoltage_deceleration_enable_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_enable_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_enable_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_RAW_MIN || value > HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_overvoltage_deceleration_enable_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b131: Overvoltage deceleration level 200v
- * 330..390 V, raw 330..390; read and write.
- * Erratum b131_classes (likely): printed: Two ranges are printed and no voltage class is named; taken: 330..390 for
- * 200 V units, 660..780 for 400 V units.
- * Erratum b131_direction (likely): printed: The title of b130 speaks of a longer deceleration time, the text of b131
- * of ending the deceleration while the voltage is too high; taken: Both parameters belong to one function.
- */
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_SPACE HITACHI_L200_SPACE_HOLDING
+/* b131 overvoltage deceleration level 200v: 330..390 V; rw, modicon 4342, reference 404342 */
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_ADDRESS 0x10F5U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_CODE "b131"
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_MODICON 4342U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_REFERENCE 404342U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_WORDS 1U
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MIN 330
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MAX 390
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_level_200v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 330, 390); }
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_level_200v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 330, 390, raw); }
+static inline int32_t hitachi_l200_overvoltage_deceleration_level_200v_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_level_200v_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MIN && raw <= HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_level_200v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MIN || value > HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_overvoltage_deceleration_level_200v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * b131: Overvoltage deceleration level 400v
- * 660..780 V, raw 660..780; read and write.
- * Erratum b131_classes (likely): printed: Two ranges are printed and no voltage class is named; taken: 330..390 for
- * 200 V units, 660..780 for 400 V units.
- * Erratum b131_direction (likely): printed: The title of b130 speaks of a longer deceleration time, the text of b131
- * of ending the deceleration while the voltage is too high; taken: Both parameters belong to one function.
- */
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_SPACE HITACHI_L200_SPACE_HOLDING
+/* b131 overvoltage deceleration level 400v: 660..780 V; rw, modicon 4342, reference 404342 */
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_ADDRESS 0x10F5U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_CODE "b131"
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_MODICON 4342U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_REFERENCE 404342U
-#define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_WORDS 1U
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MIN 660
 #define HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MAX 780
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_level_400v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 660, 780); }
+FIELDSCRIBE_STATUS hitachi_l200_overvoltage_deceleration_level_400v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 660, 780, raw); }
+static inline int32_t hitachi_l200_overvoltage_deceleration_level_400v_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_level_400v_check(uint16_t raw)
-{
-    return raw >= HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MIN && raw <= HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
+/* b150 carrier reduction: 0, 1; none, modicon 4344, reference 404344; not generated: not reachable over the bus */
 
-static inline hitachi_l200_status hitachi_l200_overvoltage_deceleration_level_400v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MIN || value > HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
+/* b151 quick start: 0, 1; none, modicon 4345, reference 404345; not generated: not reachable over the bus */
 
-static inline int32_t hitachi_l200_overvoltage_deceleration_level_400v_decode(uint16_t raw)
-{
-    return raw;
-}
+/* ---- control c (holding) ---- */
 
 /*
- * b150: Carrier reduction
- * 0, 1; not reachable over the bus.
- * Erratum b150_range (certain): printed: A range is printed although the network cannot use the parameter; taken:
- * access: none; the range is documented.
- * Not generated (carrier_reduction): not reachable over the bus.
+ * C001 digital input 1 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 4355, reference
+ * 404355
  */
-
-/*
- * b151: Quick start
- * 0, 1; not reachable over the bus.
- * Erratum b151_access (likely): printed: The R/W column has a dash; unlike for b085 and b150, the title does not say
- * that the network cannot use it; taken: access: none.
- * Not generated (quick_start): not reachable over the bus.
- */
-
-/* ---- Control c ---- */
-
-/*
- * C001: Digital input 1 function
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_ADDRESS 0x1102U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_CODE "C001"
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_MODICON 4355U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_REFERENCE 404355U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_function_check(uint16_t raw)
+static const fieldscribe_range hitachi_l200_digital_input_1_function_ranges[] = {
+    {0, 9}, {11, 13}, {15, 16}, {18, 24}, {27, 29}, {31, 31}, {50, 53}, {255, 255}
+};
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_function_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_1_function_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_1_function_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_1_function_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_1_function_decode(uint16_t raw) { return raw; }
 
 /*
- * C201: Digital input 1 function set 2
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C201 digital input 1 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 5425,
+ * reference 405425
  */
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_ADDRESS 0x1530U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_CODE "C201"
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_MODICON 5425U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_REFERENCE 405425U
-#define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_function_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_function_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_1_function_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_1_function_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_1_function_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_1_function_set_2_decode(uint16_t raw) { return raw; }
 
 /*
- * C002: Digital input 2 function
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C002 digital input 2 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 4356, reference
+ * 404356
  */
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_ADDRESS 0x1103U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_CODE "C002"
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_MODICON 4356U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_REFERENCE 404356U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_function_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_function_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_2_function_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_2_function_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_2_function_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_2_function_decode(uint16_t raw) { return raw; }
 
 /*
- * C202: Digital input 2 function set 2
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C202 digital input 2 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 5426,
+ * reference 405426
  */
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_ADDRESS 0x1531U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_CODE "C202"
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_MODICON 5426U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_REFERENCE 405426U
-#define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_function_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_function_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_2_function_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_2_function_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_2_function_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_2_function_set_2_decode(uint16_t raw) { return raw; }
 
 /*
- * C003: Digital input 3 function
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C003 digital input 3 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 4357, reference
+ * 404357
  */
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_ADDRESS 0x1104U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_CODE "C003"
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_MODICON 4357U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_REFERENCE 404357U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_function_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_function_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_3_function_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_3_function_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_3_function_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_3_function_decode(uint16_t raw) { return raw; }
 
 /*
- * C203: Digital input 3 function set 2
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C203 digital input 3 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 5427,
+ * reference 405427
  */
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_ADDRESS 0x1532U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_CODE "C203"
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_MODICON 5427U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_REFERENCE 405427U
-#define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_function_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_function_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_3_function_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_3_function_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_3_function_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_3_function_set_2_decode(uint16_t raw) { return raw; }
 
 /*
- * C004: Digital input 4 function
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C004 digital input 4 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 4358, reference
+ * 404358
  */
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_ADDRESS 0x1105U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_CODE "C004"
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_MODICON 4358U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_REFERENCE 404358U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_function_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_function_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_4_function_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_4_function_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_4_function_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_4_function_decode(uint16_t raw) { return raw; }
 
 /*
- * C204: Digital input 4 function set 2
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C204 digital input 4 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 5428,
+ * reference 405428
  */
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_ADDRESS 0x1533U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_CODE "C204"
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_MODICON 5428U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_REFERENCE 405428U
-#define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_function_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_function_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_4_function_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_4_function_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_4_function_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_4_function_set_2_decode(uint16_t raw) { return raw; }
 
 /*
- * C005: Digital input 5 function
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C005 digital input 5 function: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 4359, reference
+ * 404359
  */
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_ADDRESS 0x1106U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_CODE "C005"
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_MODICON 4359U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_REFERENCE 404359U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_5_function_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_5_function_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_5_function_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_5_function_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t hitachi_l200_digital_input_5_function_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t hitachi_l200_digital_input_5_function_decode(uint16_t raw) { return raw; }
 
 /*
- * C205: Digital input 5 function set 2
- * 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; read and write.
- * Erratum c001_functions (unknown): printed: The functions of the numbers are in a chapter that is not part of this
- * text; taken: Numbers without names.
+ * C205 digital input 5 function set 2: 0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255; rw, modicon 5429,
+ * reference 405429
  */
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_ADDRESS 0x1534U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_CODE "C205"
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_MODICON 5429U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_REFERENCE 405429U
-#define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_digital_input_5_function_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_check(uint16_t raw)
 {
-    return raw <= 9U || (raw >= 11U && raw <= 13U) || (raw >= 15U && raw <= 16U) || (raw >= 18U && raw <= 24U) ||
-           (raw >= 27U && raw <= 29U) || raw == 31U || (raw >= 50U && raw <= 53U) || raw == 255U ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
+    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
 }
-
-static inline hitachi_l200_status hitachi_l200_digital_input_5_function_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_digital_input_5_function_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 255)
+        ? fieldscribe_keep_u16(hitachi_l200_digital_input_5_function_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
+static inline int32_t hitachi_l200_digital_input_5_function_set_2_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_digital_input_5_function_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Contact */
 enum {
     HITACHI_L200_CONTACT_NORMALLY_OPEN = 0,
     HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1
 };
-
+static const char *const hitachi_l200_contact_names[] = {
+    "normally_open", "normally_closed"
+};
 static inline const char *hitachi_l200_contact_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_CONTACT_NORMALLY_OPEN:
-        return "normally_open";
-    case HITACHI_L200_CONTACT_NORMALLY_CLOSED:
-        return "normally_closed";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_contact_names, raw); }
 
-/*
- * C011: Digital input 1 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C011 digital input 1 contact: 0, 1; rw, modicon 4363, reference 404363 */
 #define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_ADDRESS 0x110AU
-#define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_CODE "C011"
-#define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_MODICON 4363U
-#define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_REFERENCE 404363U
-#define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_input_1_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_1_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_INPUT_1_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_1_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_1_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_1_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_input_1_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C012: Digital input 2 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C012 digital input 2 contact: 0, 1; rw, modicon 4364, reference 404364 */
 #define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_ADDRESS 0x110BU
-#define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_CODE "C012"
-#define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_MODICON 4364U
-#define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_REFERENCE 404364U
-#define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_input_2_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_2_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_INPUT_2_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_2_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_2_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_2_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_input_2_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C013: Digital input 3 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C013 digital input 3 contact: 0, 1; rw, modicon 4365, reference 404365 */
 #define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_ADDRESS 0x110CU
-#define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_CODE "C013"
-#define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_MODICON 4365U
-#define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_REFERENCE 404365U
-#define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_input_3_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_3_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_INPUT_3_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_3_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_3_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_3_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_input_3_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C014: Digital input 4 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C014 digital input 4 contact: 0, 1; rw, modicon 4366, reference 404366 */
 #define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_ADDRESS 0x110DU
-#define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_CODE "C014"
-#define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_MODICON 4366U
-#define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_REFERENCE 404366U
-#define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_input_4_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_4_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_INPUT_4_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_4_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_4_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_4_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_input_4_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C015: Digital input 5 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C015 digital input 5 contact: 0, 1; rw, modicon 4367, reference 404367 */
 #define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_ADDRESS 0x110EU
-#define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_CODE "C015"
-#define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_MODICON 4367U
-#define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_REFERENCE 404367U
-#define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_input_5_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_input_5_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_INPUT_5_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_input_5_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_INPUT_5_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_INPUT_5_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_input_5_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C021: Digital output 11 function
- * 0..10; read and write.
- * Erratum c021_functions (unknown): printed: The functions of the numbers are in chapters that are not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C021 digital output 11 function: 0..10; rw, modicon 4372, reference 404372 */
 #define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_ADDRESS 0x1113U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_CODE "C021"
-#define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_MODICON 4372U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_REFERENCE 404372U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_RAW_MAX 10
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_function_check(uint16_t raw) { return fieldscribe_check(raw, 0, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_function_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 10, raw); }
+static inline int32_t hitachi_l200_digital_output_11_function_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_output_11_function_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_function_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_11_function_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C022: Digital output 12 function
- * 0..10; read and write.
- * Erratum c021_functions (unknown): printed: The functions of the numbers are in chapters that are not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C022 digital output 12 function: 0..10; rw, modicon 4373, reference 404373 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_ADDRESS 0x1114U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_CODE "C022"
-#define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_MODICON 4373U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_REFERENCE 404373U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_RAW_MAX 10
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_function_check(uint16_t raw) { return fieldscribe_check(raw, 0, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_function_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 10, raw); }
+static inline int32_t hitachi_l200_digital_output_12_function_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_output_12_function_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_function_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_RAW_MIN || value > HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_12_function_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C026: Relay output function
- * 0..10; read and write.
- * Erratum c021_functions (unknown): printed: The functions of the numbers are in chapters that are not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_RELAY_OUTPUT_FUNCTION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C026 relay output function: 0..10; rw, modicon 4377, reference 404377 */
 #define HITACHI_L200_RELAY_OUTPUT_FUNCTION_ADDRESS 0x1118U
-#define HITACHI_L200_RELAY_OUTPUT_FUNCTION_CODE "C026"
-#define HITACHI_L200_RELAY_OUTPUT_FUNCTION_MODICON 4377U
-#define HITACHI_L200_RELAY_OUTPUT_FUNCTION_REFERENCE 404377U
-#define HITACHI_L200_RELAY_OUTPUT_FUNCTION_WORDS 1U
 #define HITACHI_L200_RELAY_OUTPUT_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_RELAY_OUTPUT_FUNCTION_RAW_MAX 10
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_function_check(uint16_t raw) { return fieldscribe_check(raw, 0, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_function_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 10, raw); }
+static inline int32_t hitachi_l200_relay_output_function_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_relay_output_function_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RELAY_OUTPUT_FUNCTION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_relay_output_function_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RELAY_OUTPUT_FUNCTION_RAW_MIN || value > HITACHI_L200_RELAY_OUTPUT_FUNCTION_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_relay_output_function_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Analog output source */
 enum {
     HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY = 0,
     HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1
 };
-
+static const char *const hitachi_l200_analog_output_source_names[] = {
+    "output_frequency", "motor_current"
+};
 static inline const char *hitachi_l200_analog_output_source_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY:
-        return "output_frequency";
-    case HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT:
-        return "motor_current";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_analog_output_source_names, raw); }
 
-/*
- * C028: Analog output source
- * 0, 1; read and write.
- */
-#define HITACHI_L200_ANALOG_OUTPUT_SOURCE_SPACE HITACHI_L200_SPACE_HOLDING
+/* C028 analog output source: 0, 1; rw, modicon 4379, reference 404379 */
 #define HITACHI_L200_ANALOG_OUTPUT_SOURCE_ADDRESS 0x111AU
-#define HITACHI_L200_ANALOG_OUTPUT_SOURCE_CODE "C028"
-#define HITACHI_L200_ANALOG_OUTPUT_SOURCE_MODICON 4379U
-#define HITACHI_L200_ANALOG_OUTPUT_SOURCE_REFERENCE 404379U
-#define HITACHI_L200_ANALOG_OUTPUT_SOURCE_WORDS 1U
 #define HITACHI_L200_ANALOG_OUTPUT_SOURCE_RAW_MIN 0
 #define HITACHI_L200_ANALOG_OUTPUT_SOURCE_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_source_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_analog_output_source_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_analog_output_source_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ANALOG_OUTPUT_SOURCE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_analog_output_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_ANALOG_OUTPUT_SOURCE_RAW_MIN || value > HITACHI_L200_ANALOG_OUTPUT_SOURCE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_analog_output_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C031: Digital output 11 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C031 digital output 11 contact: 0, 1; rw, modicon 4381, reference 404381 */
 #define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_ADDRESS 0x111CU
-#define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_CODE "C031"
-#define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_MODICON 4381U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_REFERENCE 404381U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_output_11_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_output_11_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_11_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C032: Digital output 12 contact
- * 0, 1; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C032 digital output 12 contact: 0, 1; rw, modicon 4382, reference 404382 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_ADDRESS 0x111DU
-#define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_CODE "C032"
-#define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_MODICON 4382U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_REFERENCE 404382U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_digital_output_12_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_digital_output_12_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_RAW_MIN || value > HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_12_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C036: Relay output contact
- * 0, 1; read and write.
- * Erratum c036_decimals (certain): printed: modicon 4370; wire 4369; taken: modicon 4386; wire 4385.
- */
-#define HITACHI_L200_RELAY_OUTPUT_CONTACT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C036 relay output contact: 0, 1; rw, modicon 4386, reference 404386; erratum c036_decimals */
 #define HITACHI_L200_RELAY_OUTPUT_CONTACT_ADDRESS 0x1121U
-#define HITACHI_L200_RELAY_OUTPUT_CONTACT_CODE "C036"
-#define HITACHI_L200_RELAY_OUTPUT_CONTACT_MODICON 4386U
-#define HITACHI_L200_RELAY_OUTPUT_CONTACT_REFERENCE 404386U
-#define HITACHI_L200_RELAY_OUTPUT_CONTACT_WORDS 1U
 #define HITACHI_L200_RELAY_OUTPUT_CONTACT_RAW_MIN 0
 #define HITACHI_L200_RELAY_OUTPUT_CONTACT_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_contact_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_contact_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_relay_output_contact_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_relay_output_contact_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RELAY_OUTPUT_CONTACT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_relay_output_contact_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RELAY_OUTPUT_CONTACT_RAW_MIN || value > HITACHI_L200_RELAY_OUTPUT_CONTACT_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_relay_output_contact_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C041: Overload alarm level
- * 0..200 %, raw 0..20000, in steps of 0.01 %; read and write.
- */
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SPACE HITACHI_L200_SPACE_HOLDING
+/* C041 overload alarm level: 0..200 %; 0.01 % a count; rw, modicon 4388, reference 404388 */
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_ADDRESS 0x1123U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_CODE "C041"
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_MODICON 4388U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_REFERENCE 404388U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_WORDS 1U
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_RAW_MIN 0
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_RAW_MAX 20000
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_OVERLOAD_ALARM_LEVEL_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 20000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_overload_alarm_level_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_OVERLOAD_ALARM_LEVEL_RAW_MIN, HITACHI_L200_OVERLOAD_ALARM_LEVEL_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_overload_alarm_level_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_check(uint16_t raw) { return fieldscribe_check(raw, 0, 20000); }
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 20000, raw); }
+static inline int32_t hitachi_l200_overload_alarm_level_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 0, 20000, raw); }
+static inline fieldscribe_real hitachi_l200_overload_alarm_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * C241: Overload alarm level set 2
- * 0..200 %, raw 0..20000, in steps of 0.01 %; read and write.
- * Erratum c041_note_second_set (likely): printed: The note on a rated current of 10000 names C041 and not C241;
- * taken: It holds for C241 too.
- */
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* C241 overload alarm level set 2: 0..200 %; 0.01 % a count; rw, modicon 5433, reference 405433 */
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_ADDRESS 0x1538U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_CODE "C241"
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_MODICON 5433U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_REFERENCE 405433U
-#define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_WORDS 1U
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_RAW_MIN 0
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_RAW_MAX 20000
 #define HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_DECIMALS 2
-
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_set_2_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 20000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_overload_alarm_level_set_2_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_overload_alarm_level_set_2_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 100), HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_RAW_MIN, HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_overload_alarm_level_set_2_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 100;
-}
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 20000); }
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 20000, raw); }
+static inline int32_t hitachi_l200_overload_alarm_level_set_2_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_overload_alarm_level_set_2_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 100, 0, 20000, raw); }
+static inline fieldscribe_real hitachi_l200_overload_alarm_level_set_2_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * C042: Arrival frequency acceleration
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- * Erratum c042_note_mark (certain): printed: The mark of the note on the rated current stands at the range of C042
- * too; taken: The note belongs to C041 and C241.
- */
-#define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C042 arrival frequency acceleration: 0..400 Hz; 0.1 Hz a count; rw, modicon 4390, reference 404390 */
 #define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_ADDRESS 0x1125U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_CODE "C042"
-#define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_MODICON 4390U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_REFERENCE 404390U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_WORDS 1U
 #define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_RAW_MIN 0
 #define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_RAW_MAX 4000
 #define HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_acceleration_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_acceleration_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_arrival_frequency_acceleration_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_acceleration_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_RAW_MIN, HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_arrival_frequency_acceleration_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_arrival_frequency_acceleration_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_acceleration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_arrival_frequency_acceleration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C043: Arrival frequency deceleration
- * 0..400 Hz, raw 0..4000, in steps of 0.1 Hz; read and write.
- */
-#define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C043 arrival frequency deceleration: 0..400 Hz; 0.1 Hz a count; rw, modicon 4392, reference 404392 */
 #define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_ADDRESS 0x1127U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_CODE "C043"
-#define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_MODICON 4392U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_REFERENCE 404392U
-#define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_WORDS 1U
 #define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_RAW_MIN 0
 #define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_RAW_MAX 4000
 #define HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_deceleration_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_deceleration_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 4000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_arrival_frequency_deceleration_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_arrival_frequency_deceleration_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_RAW_MIN, HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_arrival_frequency_deceleration_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4000); }
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 4000, raw); }
+static inline int32_t hitachi_l200_arrival_frequency_deceleration_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_arrival_frequency_deceleration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 4000, raw); }
+static inline fieldscribe_real hitachi_l200_arrival_frequency_deceleration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C044: Pid deviation level
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_PID_DEVIATION_LEVEL_SPACE HITACHI_L200_SPACE_HOLDING
+/* C044 pid deviation level: 0..100 %; 0.1 % a count; rw, modicon 4393, reference 404393 */
 #define HITACHI_L200_PID_DEVIATION_LEVEL_ADDRESS 0x1128U
-#define HITACHI_L200_PID_DEVIATION_LEVEL_CODE "C044"
-#define HITACHI_L200_PID_DEVIATION_LEVEL_MODICON 4393U
-#define HITACHI_L200_PID_DEVIATION_LEVEL_REFERENCE 404393U
-#define HITACHI_L200_PID_DEVIATION_LEVEL_WORDS 1U
 #define HITACHI_L200_PID_DEVIATION_LEVEL_RAW_MIN 0
 #define HITACHI_L200_PID_DEVIATION_LEVEL_RAW_MAX 1000
 #define HITACHI_L200_PID_DEVIATION_LEVEL_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_deviation_level_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_DEVIATION_LEVEL_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_deviation_level_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_deviation_level_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_deviation_level_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_DEVIATION_LEVEL_RAW_MIN, HITACHI_L200_PID_DEVIATION_LEVEL_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_deviation_level_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_pid_deviation_level_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_deviation_level_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_deviation_level_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C052: Pid process value upper limit
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C052 pid process value upper limit: 0..100 %; 0.1 % a count; rw, modicon 4398, reference 404398 */
 #define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_ADDRESS 0x112DU
-#define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_CODE "C052"
-#define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_MODICON 4398U
-#define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_REFERENCE 404398U
-#define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_WORDS 1U
 #define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_RAW_MIN 0
 #define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_RAW_MAX 1000
 #define HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_process_value_upper_limit_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_process_value_upper_limit_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_process_value_upper_limit_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_process_value_upper_limit_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_RAW_MIN, HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_process_value_upper_limit_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_pid_process_value_upper_limit_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_upper_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_process_value_upper_limit_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C053: Pid process value lower limit
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_SPACE HITACHI_L200_SPACE_HOLDING
+/* C053 pid process value lower limit: 0..100 %; 0.1 % a count; rw, modicon 4399, reference 404399 */
 #define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_ADDRESS 0x112EU
-#define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_CODE "C053"
-#define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_MODICON 4399U
-#define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_REFERENCE 404399U
-#define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_WORDS 1U
 #define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_RAW_MIN 0
 #define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_RAW_MAX 1000
 #define HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_pid_process_value_lower_limit_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_pid_process_value_lower_limit_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_pid_process_value_lower_limit_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_pid_process_value_lower_limit_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_RAW_MIN, HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_pid_process_value_lower_limit_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_pid_process_value_lower_limit_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_pid_process_value_lower_limit_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_pid_process_value_lower_limit_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
+/* C071 baud rate: 4..6; none, modicon 4408, reference 404408; not generated: not reachable over the bus */
+
+/* C072 unit address: 1..32; none, modicon 4409, reference 404409; not generated: not reachable over the bus */
+
+/* C074 parity: 0..2; none, modicon 4411, reference 404411; not generated: not reachable over the bus */
+
+/* C075 stop bits: 1, 2; none, modicon 4412, reference 404412; not generated: not reachable over the bus */
+
 /*
- * C071: Baud rate
- * 4..6; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (baud_rate): not reachable over the bus.
+ * C076 communication error action: 0..4; none, modicon 4413, reference 404413; not generated: not reachable over the
+ * bus
  */
 
 /*
- * C072: Unit address
- * 1..32; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (unit_address): not reachable over the bus.
+ * C077 communication timeout: 0..65535; none, modicon 4414, reference 404414; not generated: not reachable over the bus
  */
 
-/*
- * C074: Parity
- * 0..2; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c074_parity_words (certain): printed: The first table prints the parities in English, the settings table
- * in German; taken: 0 none, 1 even, 2 odd.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (parity): not reachable over the bus.
- */
+/* C078 response delay: raw 0..1000; none, modicon 4415, reference 404415; not generated: not reachable over the bus */
 
-/*
- * C075: Stop bits
- * 1, 2; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (stop_bits): not reachable over the bus.
- */
-
-/*
- * C076: Communication error action
- * 0..4; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c076_titles (likely): printed: The two tables give C076, and C077, other titles; taken: The titles of the
- * group list, and for C077 a timeout, as the front table says.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (communication_error_action): not reachable over the bus.
- */
-
-/*
- * C077: Communication timeout
- * 0..65535; not reachable over the bus.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c076_titles (likely): printed: The two tables give C076, and C077, other titles; taken: The titles of the
- * group list, and for C077 a timeout, as the front table says.
- * Erratum c077_raw_code (unknown): printed: 0.00 to 99.99 s without a raw range or a step; taken: No range and no
- * scale.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (communication_timeout): not reachable over the bus.
- */
-
-/*
- * C078: Response delay
- * raw 0..1000; not reachable over the bus.
- * Erratum c071_raw_codes (likely): printed: The group list prints no ranges for C071 to C078; the table at the front
- * prints codes as the keypad shows them; taken: The codes and limits of the front table.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c078_received_fault (certain): printed: The wait is said to follow a received fault; taken: It follows a
- * received request.
- * Erratum c071_effect (unknown): printed: A change of these parameters is said to work at once, and also only after
- * the switch OPE/485 is set and the inverter switched on; taken: Neither is taken as a fact.
- * Not generated (response_delay): not reachable over the bus.
- */
-
-/*
- * C081: Input o calibration
- * 0..200 %, raw 0..2000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_INPUT_O_CALIBRATION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C081 input o calibration: 0..200 %; 0.1 % a count; rw, modicon 4417, reference 404417 */
 #define HITACHI_L200_INPUT_O_CALIBRATION_ADDRESS 0x1140U
-#define HITACHI_L200_INPUT_O_CALIBRATION_CODE "C081"
-#define HITACHI_L200_INPUT_O_CALIBRATION_MODICON 4417U
-#define HITACHI_L200_INPUT_O_CALIBRATION_REFERENCE 404417U
-#define HITACHI_L200_INPUT_O_CALIBRATION_WORDS 1U
 #define HITACHI_L200_INPUT_O_CALIBRATION_RAW_MIN 0
 #define HITACHI_L200_INPUT_O_CALIBRATION_RAW_MAX 2000
 #define HITACHI_L200_INPUT_O_CALIBRATION_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_o_calibration_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_O_CALIBRATION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_o_calibration_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 2000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_o_calibration_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_o_calibration_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_O_CALIBRATION_RAW_MIN, HITACHI_L200_INPUT_O_CALIBRATION_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_o_calibration_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_check(uint16_t raw) { return fieldscribe_check(raw, 0, 2000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 2000, raw); }
+static inline int32_t hitachi_l200_input_o_calibration_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_o_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_input_o_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C082: Input oi calibration
- * 0..200 %, raw 0..2000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_INPUT_OI_CALIBRATION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C082 input oi calibration: 0..200 %; 0.1 % a count; rw, modicon 4418, reference 404418 */
 #define HITACHI_L200_INPUT_OI_CALIBRATION_ADDRESS 0x1141U
-#define HITACHI_L200_INPUT_OI_CALIBRATION_CODE "C082"
-#define HITACHI_L200_INPUT_OI_CALIBRATION_MODICON 4418U
-#define HITACHI_L200_INPUT_OI_CALIBRATION_REFERENCE 404418U
-#define HITACHI_L200_INPUT_OI_CALIBRATION_WORDS 1U
 #define HITACHI_L200_INPUT_OI_CALIBRATION_RAW_MIN 0
 #define HITACHI_L200_INPUT_OI_CALIBRATION_RAW_MAX 2000
 #define HITACHI_L200_INPUT_OI_CALIBRATION_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_input_oi_calibration_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_INPUT_OI_CALIBRATION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_input_oi_calibration_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 2000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_input_oi_calibration_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_input_oi_calibration_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_INPUT_OI_CALIBRATION_RAW_MIN, HITACHI_L200_INPUT_OI_CALIBRATION_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_input_oi_calibration_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_check(uint16_t raw) { return fieldscribe_check(raw, 0, 2000); }
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 2000, raw); }
+static inline int32_t hitachi_l200_input_oi_calibration_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_input_oi_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_input_oi_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C085: Thermistor input calibration
- * 0..200 %, raw 0..2000, in steps of 0.1 %; read and write.
- */
-#define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_SPACE HITACHI_L200_SPACE_HOLDING
+/* C085 thermistor input calibration: 0..200 %; 0.1 % a count; rw, modicon 4420, reference 404420 */
 #define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_ADDRESS 0x1143U
-#define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_CODE "C085"
-#define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_MODICON 4420U
-#define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_REFERENCE 404420U
-#define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_WORDS 1U
 #define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_RAW_MIN 0
 #define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_RAW_MAX 2000
 #define HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_thermistor_input_calibration_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_thermistor_input_calibration_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 2000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_thermistor_input_calibration_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_thermistor_input_calibration_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_RAW_MIN, HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_thermistor_input_calibration_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 2000); }
+FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 2000, raw); }
+static inline int32_t hitachi_l200_thermistor_input_calibration_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_thermistor_input_calibration_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 2000, raw); }
+static inline fieldscribe_real hitachi_l200_thermistor_input_calibration_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C086: Analog output offset
- * 0..10 V, raw 0..100, in steps of 0.1 V; read and write.
- */
-#define HITACHI_L200_ANALOG_OUTPUT_OFFSET_SPACE HITACHI_L200_SPACE_HOLDING
+/* C086 analog output offset: 0..10 V; 0.1 V a count; rw, modicon 4421, reference 404421 */
 #define HITACHI_L200_ANALOG_OUTPUT_OFFSET_ADDRESS 0x1144U
-#define HITACHI_L200_ANALOG_OUTPUT_OFFSET_CODE "C086"
-#define HITACHI_L200_ANALOG_OUTPUT_OFFSET_MODICON 4421U
-#define HITACHI_L200_ANALOG_OUTPUT_OFFSET_REFERENCE 404421U
-#define HITACHI_L200_ANALOG_OUTPUT_OFFSET_WORDS 1U
 #define HITACHI_L200_ANALOG_OUTPUT_OFFSET_RAW_MIN 0
 #define HITACHI_L200_ANALOG_OUTPUT_OFFSET_RAW_MAX 100
 #define HITACHI_L200_ANALOG_OUTPUT_OFFSET_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_analog_output_offset_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_ANALOG_OUTPUT_OFFSET_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_analog_output_offset_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 100) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_analog_output_offset_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_analog_output_offset_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_ANALOG_OUTPUT_OFFSET_RAW_MIN, HITACHI_L200_ANALOG_OUTPUT_OFFSET_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_analog_output_offset_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_check(uint16_t raw) { return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 100, raw); }
+static inline int32_t hitachi_l200_analog_output_offset_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_analog_output_offset_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 100, raw); }
+static inline fieldscribe_real hitachi_l200_analog_output_offset_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C091: Debug mode
- * 0, 1; not reachable over the bus.
- * Erratum c071_access (likely): printed: The R/W column has a dash, yet addresses are printed; the note only says
- * that these settings cannot be changed over ModBus; taken: access: none.
- * Erratum c091_codes (likely): printed: The codes 00 and 01 are named, while the range has a dash; taken: The two
- * codes are documented.
- * Not generated (debug_mode): not reachable over the bus.
- */
+/* C091 debug mode: 0, 1; none, modicon 4424, reference 404424; not generated: not reachable over the bus */
 
-/* Motor potentiometer memory */
 enum {
     HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD = 0,
     HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1
 };
-
+static const char *const hitachi_l200_motor_potentiometer_memory_names[] = {
+    "discard", "keep"
+};
 static inline const char *hitachi_l200_motor_potentiometer_memory_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD:
-        return "discard";
-    case HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP:
-        return "keep";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_potentiometer_memory_names, raw); }
 
-/*
- * C101: Motor potentiometer memory
- * 0, 1; read and write.
- */
-#define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C101 motor potentiometer memory: 0, 1; rw, modicon 4425, reference 404425 */
 #define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_ADDRESS 0x1148U
-#define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_CODE "C101"
-#define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_MODICON 4425U
-#define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_REFERENCE 404425U
-#define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_WORDS 1U
 #define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_RAW_MIN 0
 #define HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_RAW_MAX 1
+FIELDSCRIBE_STATUS hitachi_l200_motor_potentiometer_memory_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_potentiometer_memory_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t hitachi_l200_motor_potentiometer_memory_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_potentiometer_memory_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_potentiometer_memory_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_RAW_MIN || value > HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_potentiometer_memory_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Reset mode */
 enum {
     HITACHI_L200_RESET_MODE_RISING_EDGE = 0,
     HITACHI_L200_RESET_MODE_FALLING_EDGE = 1,
     HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2
 };
-
+static const char *const hitachi_l200_reset_mode_names[] = {
+    "rising_edge", "falling_edge", "rising_edge_when_tripped"
+};
 static inline const char *hitachi_l200_reset_mode_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_RESET_MODE_RISING_EDGE:
-        return "rising_edge";
-    case HITACHI_L200_RESET_MODE_FALLING_EDGE:
-        return "falling_edge";
-    case HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED:
-        return "rising_edge_when_tripped";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_reset_mode_names, raw); }
 
-/*
- * C102: Reset mode
- * 0..2; read and write.
- */
-#define HITACHI_L200_RESET_MODE_SPACE HITACHI_L200_SPACE_HOLDING
+/* C102 reset mode: 0..2; rw, modicon 4426, reference 404426 */
 #define HITACHI_L200_RESET_MODE_ADDRESS 0x1149U
-#define HITACHI_L200_RESET_MODE_CODE "C102"
-#define HITACHI_L200_RESET_MODE_MODICON 4426U
-#define HITACHI_L200_RESET_MODE_REFERENCE 404426U
-#define HITACHI_L200_RESET_MODE_WORDS 1U
 #define HITACHI_L200_RESET_MODE_RAW_MIN 0
 #define HITACHI_L200_RESET_MODE_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_reset_mode_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_reset_mode_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_reset_mode_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_reset_mode_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RESET_MODE_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_reset_mode_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_RESET_MODE_RAW_MIN || value > HITACHI_L200_RESET_MODE_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_reset_mode_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C141: Logic input a
- * 0..10; read and write.
- * Erratum c021_functions (unknown): printed: The functions of the numbers are in chapters that are not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_LOGIC_INPUT_A_SPACE HITACHI_L200_SPACE_HOLDING
+/* C141 logic input a: 0..10; rw, modicon 4432, reference 404432 */
 #define HITACHI_L200_LOGIC_INPUT_A_ADDRESS 0x114FU
-#define HITACHI_L200_LOGIC_INPUT_A_CODE "C141"
-#define HITACHI_L200_LOGIC_INPUT_A_MODICON 4432U
-#define HITACHI_L200_LOGIC_INPUT_A_REFERENCE 404432U
-#define HITACHI_L200_LOGIC_INPUT_A_WORDS 1U
 #define HITACHI_L200_LOGIC_INPUT_A_RAW_MIN 0
 #define HITACHI_L200_LOGIC_INPUT_A_RAW_MAX 10
+FIELDSCRIBE_STATUS hitachi_l200_logic_input_a_check(uint16_t raw) { return fieldscribe_check(raw, 0, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_logic_input_a_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 10, raw); }
+static inline int32_t hitachi_l200_logic_input_a_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_logic_input_a_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_LOGIC_INPUT_A_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_logic_input_a_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_LOGIC_INPUT_A_RAW_MIN || value > HITACHI_L200_LOGIC_INPUT_A_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_logic_input_a_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C142: Logic input b
- * 0..10; read and write.
- * Erratum c021_functions (unknown): printed: The functions of the numbers are in chapters that are not part of this
- * text; taken: Numbers without names.
- */
-#define HITACHI_L200_LOGIC_INPUT_B_SPACE HITACHI_L200_SPACE_HOLDING
+/* C142 logic input b: 0..10; rw, modicon 4433, reference 404433 */
 #define HITACHI_L200_LOGIC_INPUT_B_ADDRESS 0x1150U
-#define HITACHI_L200_LOGIC_INPUT_B_CODE "C142"
-#define HITACHI_L200_LOGIC_INPUT_B_MODICON 4433U
-#define HITACHI_L200_LOGIC_INPUT_B_REFERENCE 404433U
-#define HITACHI_L200_LOGIC_INPUT_B_WORDS 1U
 #define HITACHI_L200_LOGIC_INPUT_B_RAW_MIN 0
 #define HITACHI_L200_LOGIC_INPUT_B_RAW_MAX 10
+FIELDSCRIBE_STATUS hitachi_l200_logic_input_b_check(uint16_t raw) { return fieldscribe_check(raw, 0, 10); }
+FIELDSCRIBE_STATUS hitachi_l200_logic_input_b_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 10, raw); }
+static inline int32_t hitachi_l200_logic_input_b_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_logic_input_b_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_LOGIC_INPUT_B_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_logic_input_b_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_LOGIC_INPUT_B_RAW_MIN || value > HITACHI_L200_LOGIC_INPUT_B_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_logic_input_b_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Logic operator */
 enum {
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_AND = 0,
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR = 1,
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2
 };
-
+static const char *const hitachi_l200_logic_operator_names[] = {
+    "logic_and", "logic_or", "logic_xor"
+};
 static inline const char *hitachi_l200_logic_operator_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_LOGIC_OPERATOR_LOGIC_AND:
-        return "logic_and";
-    case HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR:
-        return "logic_or";
-    case HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR:
-        return "logic_xor";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_logic_operator_names, raw); }
 
-/*
- * C143: Logic operator
- * 0..2; read and write.
- */
-#define HITACHI_L200_LOGIC_OPERATOR_SPACE HITACHI_L200_SPACE_HOLDING
+/* C143 logic operator: 0..2; rw, modicon 4434, reference 404434 */
 #define HITACHI_L200_LOGIC_OPERATOR_ADDRESS 0x1151U
-#define HITACHI_L200_LOGIC_OPERATOR_CODE "C143"
-#define HITACHI_L200_LOGIC_OPERATOR_MODICON 4434U
-#define HITACHI_L200_LOGIC_OPERATOR_REFERENCE 404434U
-#define HITACHI_L200_LOGIC_OPERATOR_WORDS 1U
 #define HITACHI_L200_LOGIC_OPERATOR_RAW_MIN 0
 #define HITACHI_L200_LOGIC_OPERATOR_RAW_MAX 2
+FIELDSCRIBE_STATUS hitachi_l200_logic_operator_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS hitachi_l200_logic_operator_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 2, raw)); }
+static inline int32_t hitachi_l200_logic_operator_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_logic_operator_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_LOGIC_OPERATOR_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_logic_operator_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_LOGIC_OPERATOR_RAW_MIN || value > HITACHI_L200_LOGIC_OPERATOR_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_logic_operator_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * C144: Digital output 11 on delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C144 digital output 11 on delay: 0..100 s; 0.1 s a count; rw, modicon 4435, reference 404435 */
 #define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_ADDRESS 0x1152U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_CODE "C144"
-#define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_MODICON 4435U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_REFERENCE 404435U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_RAW_MAX 1000
 #define HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_on_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_on_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_11_on_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_digital_output_11_on_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_RAW_MIN, HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_digital_output_11_on_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_digital_output_11_on_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_11_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C145: Digital output 11 off delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C145 digital output 11 off delay: 0..100 s; 0.1 s a count; rw, modicon 4436, reference 404436 */
 #define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_ADDRESS 0x1153U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_CODE "C145"
-#define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_MODICON 4436U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_REFERENCE 404436U
-#define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_RAW_MAX 1000
 #define HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_off_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_11_off_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_11_off_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_digital_output_11_off_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_RAW_MIN, HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_digital_output_11_off_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_digital_output_11_off_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_11_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_11_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C146: Digital output 12 on delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C146 digital output 12 on delay: 0..100 s; 0.1 s a count; rw, modicon 4437, reference 404437 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_ADDRESS 0x1154U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_CODE "C146"
-#define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_MODICON 4437U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_REFERENCE 404437U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_RAW_MAX 1000
 #define HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_on_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_on_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_12_on_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_digital_output_12_on_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_RAW_MIN, HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_digital_output_12_on_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_digital_output_12_on_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_12_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C147: Digital output 12 off delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C147 digital output 12 off delay: 0..100 s; 0.1 s a count; rw, modicon 4438, reference 404438 */
 #define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_ADDRESS 0x1155U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_CODE "C147"
-#define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_MODICON 4438U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_REFERENCE 404438U
-#define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_WORDS 1U
 #define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_RAW_MAX 1000
 #define HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_off_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_digital_output_12_off_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_digital_output_12_off_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_digital_output_12_off_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_RAW_MIN, HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_digital_output_12_off_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_digital_output_12_off_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_digital_output_12_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_digital_output_12_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C148: Relay output on delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C148 relay output on delay: 0..100 s; 0.1 s a count; rw, modicon 4439, reference 404439 */
 #define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_ADDRESS 0x1156U
-#define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_CODE "C148"
-#define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_MODICON 4439U
-#define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_REFERENCE 404439U
-#define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_WORDS 1U
 #define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_RAW_MIN 0
 #define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_RAW_MAX 1000
 #define HITACHI_L200_RELAY_OUTPUT_ON_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_relay_output_on_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RELAY_OUTPUT_ON_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_relay_output_on_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_relay_output_on_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_relay_output_on_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_RELAY_OUTPUT_ON_DELAY_RAW_MIN, HITACHI_L200_RELAY_OUTPUT_ON_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_relay_output_on_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_relay_output_on_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_on_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_relay_output_on_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * C149: Relay output off delay
- * 0..100 s, raw 0..1000, in steps of 0.1 s; read and write.
- */
-#define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_SPACE HITACHI_L200_SPACE_HOLDING
+/* C149 relay output off delay: 0..100 s; 0.1 s a count; rw, modicon 4440, reference 404440 */
 #define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_ADDRESS 0x1157U
-#define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_CODE "C149"
-#define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_MODICON 4440U
-#define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_REFERENCE 404440U
-#define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_WORDS 1U
 #define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_RAW_MIN 0
 #define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_RAW_MAX 1000
 #define HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_DECIMALS 1
-
-static inline hitachi_l200_status hitachi_l200_relay_output_off_delay_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_relay_output_off_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_relay_output_off_delay_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline hitachi_l200_status hitachi_l200_relay_output_off_delay_encode(hitachi_l200_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const hitachi_l200_status status = hitachi_l200_round(hitachi_l200_times(value, 10), HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_RAW_MIN, HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_RAW_MAX, &whole);
-    if (status == HITACHI_L200_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline hitachi_l200_real hitachi_l200_relay_output_off_delay_decode(uint16_t raw)
-{
-    return (hitachi_l200_real)raw / 10;
-}
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_check(uint16_t raw) { return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t hitachi_l200_relay_output_off_delay_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS hitachi_l200_relay_output_off_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real hitachi_l200_relay_output_off_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/* ---- Motor h ---- */
+/* ---- motor h (holding) ---- */
 
-/* Motor power */
 enum {
     HITACHI_L200_MOTOR_POWER_KW_0_20 = 0, /* 0.20 kW */
     HITACHI_L200_MOTOR_POWER_KW_0_37 = 1, /* 0.37 kW */
@@ -10692,268 +3786,101 @@ enum {
     HITACHI_L200_MOTOR_POWER_KW_5_5 = 11, /* 5.5 kW */
     HITACHI_L200_MOTOR_POWER_KW_7_5 = 12 /* 7.5 kW */
 };
-
+static const char *const hitachi_l200_motor_power_names[] = {
+    "kw_0_20", "kw_0_37", "kw_0_40", "kw_0_55", "kw_0_75", "kw_1_10", "kw_1_50", "kw_2_2", "kw_3_0", "kw_3_7", "kw_4_0",
+    "kw_5_5", "kw_7_5"
+};
 static inline const char *hitachi_l200_motor_power_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_MOTOR_POWER_KW_0_20:
-        return "kw_0_20";
-    case HITACHI_L200_MOTOR_POWER_KW_0_37:
-        return "kw_0_37";
-    case HITACHI_L200_MOTOR_POWER_KW_0_40:
-        return "kw_0_40";
-    case HITACHI_L200_MOTOR_POWER_KW_0_55:
-        return "kw_0_55";
-    case HITACHI_L200_MOTOR_POWER_KW_0_75:
-        return "kw_0_75";
-    case HITACHI_L200_MOTOR_POWER_KW_1_10:
-        return "kw_1_10";
-    case HITACHI_L200_MOTOR_POWER_KW_1_50:
-        return "kw_1_50";
-    case HITACHI_L200_MOTOR_POWER_KW_2_2:
-        return "kw_2_2";
-    case HITACHI_L200_MOTOR_POWER_KW_3_0:
-        return "kw_3_0";
-    case HITACHI_L200_MOTOR_POWER_KW_3_7:
-        return "kw_3_7";
-    case HITACHI_L200_MOTOR_POWER_KW_4_0:
-        return "kw_4_0";
-    case HITACHI_L200_MOTOR_POWER_KW_5_5:
-        return "kw_5_5";
-    case HITACHI_L200_MOTOR_POWER_KW_7_5:
-        return "kw_7_5";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(hitachi_l200_motor_power_names, raw); }
 
-/*
- * H003: Motor power
- * 0..12; read and write.
- */
-#define HITACHI_L200_MOTOR_POWER_SPACE HITACHI_L200_SPACE_HOLDING
+/* H003 motor power: 0..12; rw, modicon 4453, reference 404453 */
 #define HITACHI_L200_MOTOR_POWER_ADDRESS 0x1164U
-#define HITACHI_L200_MOTOR_POWER_CODE "H003"
-#define HITACHI_L200_MOTOR_POWER_MODICON 4453U
-#define HITACHI_L200_MOTOR_POWER_REFERENCE 404453U
-#define HITACHI_L200_MOTOR_POWER_WORDS 1U
 #define HITACHI_L200_MOTOR_POWER_RAW_MIN 0
 #define HITACHI_L200_MOTOR_POWER_RAW_MAX 12
+FIELDSCRIBE_STATUS hitachi_l200_motor_power_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 12)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_power_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 12, raw)); }
+static inline int32_t hitachi_l200_motor_power_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_power_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_POWER_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_power_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_POWER_RAW_MIN || value > HITACHI_L200_MOTOR_POWER_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_power_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * H203: Motor power set 2
- * 0..12; read and write.
- */
-#define HITACHI_L200_MOTOR_POWER_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* H203 motor power set 2: 0..12; rw, modicon 5440, reference 405440 */
 #define HITACHI_L200_MOTOR_POWER_SET_2_ADDRESS 0x153FU
-#define HITACHI_L200_MOTOR_POWER_SET_2_CODE "H203"
-#define HITACHI_L200_MOTOR_POWER_SET_2_MODICON 5440U
-#define HITACHI_L200_MOTOR_POWER_SET_2_REFERENCE 405440U
-#define HITACHI_L200_MOTOR_POWER_SET_2_WORDS 1U
 #define HITACHI_L200_MOTOR_POWER_SET_2_RAW_MIN 0
 #define HITACHI_L200_MOTOR_POWER_SET_2_RAW_MAX 12
+FIELDSCRIBE_STATUS hitachi_l200_motor_power_set_2_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 12)); }
+FIELDSCRIBE_STATUS hitachi_l200_motor_power_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 12, raw)); }
+static inline int32_t hitachi_l200_motor_power_set_2_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_motor_power_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_MOTOR_POWER_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
-}
-
-static inline hitachi_l200_status hitachi_l200_motor_power_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_MOTOR_POWER_SET_2_RAW_MIN || value > HITACHI_L200_MOTOR_POWER_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_motor_power_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Motor poles */
 enum {
     HITACHI_L200_MOTOR_POLES_POLES_2 = 2,
     HITACHI_L200_MOTOR_POLES_POLES_4 = 4,
     HITACHI_L200_MOTOR_POLES_POLES_6 = 6,
     HITACHI_L200_MOTOR_POLES_POLES_8 = 8
 };
-
+static const fieldscribe_name hitachi_l200_motor_poles_names[] = {
+    {HITACHI_L200_MOTOR_POLES_POLES_2, "poles_2"}, {HITACHI_L200_MOTOR_POLES_POLES_4, "poles_4"},
+    {HITACHI_L200_MOTOR_POLES_POLES_6, "poles_6"}, {HITACHI_L200_MOTOR_POLES_POLES_8, "poles_8"}
+};
 static inline const char *hitachi_l200_motor_poles_name(int32_t raw)
-{
-    switch (raw) {
-    case HITACHI_L200_MOTOR_POLES_POLES_2:
-        return "poles_2";
-    case HITACHI_L200_MOTOR_POLES_POLES_4:
-        return "poles_4";
-    case HITACHI_L200_MOTOR_POLES_POLES_6:
-        return "poles_6";
-    case HITACHI_L200_MOTOR_POLES_POLES_8:
-        return "poles_8";
-    default:
-        return NULL;
-    }
-}
+{ return fieldscribe_name_of(hitachi_l200_motor_poles_names, FIELDSCRIBE_COUNT(hitachi_l200_motor_poles_names), raw); }
 
-/*
- * H004: Motor poles
- * 2, 4, 6, 8; read and write.
- * Erratum h004_step (certain): printed: The step is one pole, while only 2, 4, 6 and 8 are allowed; taken: The four
- * numbers of the list.
- */
-#define HITACHI_L200_MOTOR_POLES_SPACE HITACHI_L200_SPACE_HOLDING
+/* H004 motor poles: 2, 4, 6, 8; rw, modicon 4454, reference 404454 */
 #define HITACHI_L200_MOTOR_POLES_ADDRESS 0x1165U
-#define HITACHI_L200_MOTOR_POLES_CODE "H004"
-#define HITACHI_L200_MOTOR_POLES_MODICON 4454U
-#define HITACHI_L200_MOTOR_POLES_REFERENCE 404454U
-#define HITACHI_L200_MOTOR_POLES_WORDS 1U
 #define HITACHI_L200_MOTOR_POLES_RAW_MIN 2
 #define HITACHI_L200_MOTOR_POLES_RAW_MAX 8
-
-static inline hitachi_l200_status hitachi_l200_motor_poles_check(uint16_t raw)
+static const fieldscribe_range hitachi_l200_motor_poles_ranges[] = {
+    {2, 2}, {4, 4}, {6, 6}, {8, 8}
+};
+FIELDSCRIBE_STATUS hitachi_l200_motor_poles_check(uint16_t raw)
 {
-    return raw == 2U || raw == 4U || raw == 6U || raw == 8U ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
+    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_motor_poles_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_motor_poles_ranges)));
 }
-
-static inline hitachi_l200_status hitachi_l200_motor_poles_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_poles_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MOTOR_POLES_RAW_MIN || value > HITACHI_L200_MOTOR_POLES_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_motor_poles_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 2, 8)
+        ? fieldscribe_keep_u16(hitachi_l200_motor_poles_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
+static inline int32_t hitachi_l200_motor_poles_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_motor_poles_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * H204: Motor poles set 2
- * 2, 4, 6, 8; read and write.
- * Erratum h004_step (certain): printed: The step is one pole, while only 2, 4, 6 and 8 are allowed; taken: The four
- * numbers of the list.
- */
-#define HITACHI_L200_MOTOR_POLES_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* H204 motor poles set 2: 2, 4, 6, 8; rw, modicon 5441, reference 405441 */
 #define HITACHI_L200_MOTOR_POLES_SET_2_ADDRESS 0x1540U
-#define HITACHI_L200_MOTOR_POLES_SET_2_CODE "H204"
-#define HITACHI_L200_MOTOR_POLES_SET_2_MODICON 5441U
-#define HITACHI_L200_MOTOR_POLES_SET_2_REFERENCE 405441U
-#define HITACHI_L200_MOTOR_POLES_SET_2_WORDS 1U
 #define HITACHI_L200_MOTOR_POLES_SET_2_RAW_MIN 2
 #define HITACHI_L200_MOTOR_POLES_SET_2_RAW_MAX 8
-
-static inline hitachi_l200_status hitachi_l200_motor_poles_set_2_check(uint16_t raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_check(uint16_t raw)
 {
-    return raw == 2U || raw == 4U || raw == 6U || raw == 8U ? HITACHI_L200_OK : HITACHI_L200_UNKNOWN_VALUE;
+    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_motor_poles_ranges,
+        FIELDSCRIBE_COUNT(hitachi_l200_motor_poles_ranges)));
 }
-
-static inline hitachi_l200_status hitachi_l200_motor_poles_set_2_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_encode(int32_t value, uint16_t *raw)
 {
-    if (value < HITACHI_L200_MOTOR_POLES_SET_2_RAW_MIN || value > HITACHI_L200_MOTOR_POLES_SET_2_RAW_MAX) {
-        return HITACHI_L200_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const hitachi_l200_status status = hitachi_l200_motor_poles_set_2_check(number);
-    if (status == HITACHI_L200_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 2, 8)
+        ? fieldscribe_keep_u16(hitachi_l200_motor_poles_set_2_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
+static inline int32_t hitachi_l200_motor_poles_set_2_decode(uint16_t raw) { return raw; }
 
-static inline int32_t hitachi_l200_motor_poles_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * H006: Stabilization constant
- * 0..255; read and write.
- */
-#define HITACHI_L200_STABILIZATION_CONSTANT_SPACE HITACHI_L200_SPACE_HOLDING
+/* H006 stabilization constant: 0..255; rw, modicon 4456, reference 404456 */
 #define HITACHI_L200_STABILIZATION_CONSTANT_ADDRESS 0x1167U
-#define HITACHI_L200_STABILIZATION_CONSTANT_CODE "H006"
-#define HITACHI_L200_STABILIZATION_CONSTANT_MODICON 4456U
-#define HITACHI_L200_STABILIZATION_CONSTANT_REFERENCE 404456U
-#define HITACHI_L200_STABILIZATION_CONSTANT_WORDS 1U
 #define HITACHI_L200_STABILIZATION_CONSTANT_RAW_MIN 0
 #define HITACHI_L200_STABILIZATION_CONSTANT_RAW_MAX 255
+FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_check(uint16_t raw) { return fieldscribe_check(raw, 0, 255); }
+FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 255, raw); }
+static inline int32_t hitachi_l200_stabilization_constant_decode(uint16_t raw) { return raw; }
 
-static inline hitachi_l200_status hitachi_l200_stabilization_constant_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_STABILIZATION_CONSTANT_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_stabilization_constant_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_STABILIZATION_CONSTANT_RAW_MIN || value > HITACHI_L200_STABILIZATION_CONSTANT_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_stabilization_constant_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * H206: Stabilization constant set 2
- * 0..255; read and write.
- */
-#define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_SPACE HITACHI_L200_SPACE_HOLDING
+/* H206 stabilization constant set 2: 0..255; rw, modicon 5443, reference 405443 */
 #define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_ADDRESS 0x1542U
-#define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_CODE "H206"
-#define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_MODICON 5443U
-#define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_REFERENCE 405443U
-#define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_WORDS 1U
 #define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_RAW_MIN 0
 #define HITACHI_L200_STABILIZATION_CONSTANT_SET_2_RAW_MAX 255
-
-static inline hitachi_l200_status hitachi_l200_stabilization_constant_set_2_check(uint16_t raw)
-{
-    return raw <= HITACHI_L200_STABILIZATION_CONSTANT_SET_2_RAW_MAX ? HITACHI_L200_OK : HITACHI_L200_OUT_OF_RANGE;
-}
-
-static inline hitachi_l200_status hitachi_l200_stabilization_constant_set_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < HITACHI_L200_STABILIZATION_CONSTANT_SET_2_RAW_MIN || value > HITACHI_L200_STABILIZATION_CONSTANT_SET_2_RAW_MAX) {
-        return HITACHI_L200_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return HITACHI_L200_OK;
-}
-
-static inline int32_t hitachi_l200_stabilization_constant_set_2_decode(uint16_t raw)
-{
-    return raw;
-}
+FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 255); }
+FIELDSCRIBE_STATUS hitachi_l200_stabilization_constant_set_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 255, raw); }
+static inline int32_t hitachi_l200_stabilization_constant_set_2_decode(uint16_t raw) { return raw; }
 
 #ifdef __cplusplus
 }

@@ -5,8 +5,8 @@
  *
  * Hitachi L200: Modbus requests.
  *
- * A request is a small struct that refers to the words to write; fieldscribe_modbus_build makes the frame of it in a
- * buffer of the caller, fieldscribe_modbus_parse reads the answer.
+ * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
+ * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  */
 #ifndef HITACHI_L200_MODBUS_H
 #define HITACHI_L200_MODBUS_H
@@ -14,7 +14,7 @@
 #include "hitachi_l200.h"
 #include "fieldscribe_modbus.h"
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 1
+#if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -57,19 +57,19 @@ enum {
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
 #define HITACHI_L200_COILS_BLOCKS_COUNT 2U
-static const fieldscribe_modbus_block hitachi_l200_coils_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_coils_blocks[] = {
     {0x01U, 0x0000U, 11U},
     {0x01U, 0x000DU, 18U}
 };
 
 #define HITACHI_L200_STATUS_BLOCKS_COUNT 2U
-static const fieldscribe_modbus_block hitachi_l200_status_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_status_blocks[] = {
     {0x03U, 0x0001U, 2U},
     {0x03U, 0x0004U, 1U}
 };
 
 #define HITACHI_L200_MONITOR_D_BLOCKS_COUNT 14U
-static const fieldscribe_modbus_block hitachi_l200_monitor_d_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_monitor_d_blocks[] = {
     {0x03U, 0x0010U, 2U},
     {0x03U, 0x0013U, 1U},
     {0x03U, 0x0015U, 4U},
@@ -87,14 +87,14 @@ static const fieldscribe_modbus_block hitachi_l200_monitor_d_blocks[] = {
 };
 
 #define HITACHI_L200_BASIC_F_BLOCKS_COUNT 3U
-static const fieldscribe_modbus_block hitachi_l200_basic_f_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_basic_f_blocks[] = {
     {0x03U, 0x1013U, 4U},
     {0x03U, 0x1017U, 1U},
     {0x03U, 0x1500U, 4U}
 };
 
 #define HITACHI_L200_STANDARD_A_BLOCKS_COUNT 48U
-static const fieldscribe_modbus_block hitachi_l200_standard_a_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_standard_a_blocks[] = {
     {0x03U, 0x1018U, 4U},
     {0x03U, 0x101CU, 1U},
     {0x03U, 0x101FU, 1U},
@@ -146,7 +146,7 @@ static const fieldscribe_modbus_block hitachi_l200_standard_a_blocks[] = {
 };
 
 #define HITACHI_L200_FINE_TUNING_B_BLOCKS_COUNT 12U
-static const fieldscribe_modbus_block hitachi_l200_fine_tuning_b_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_fine_tuning_b_blocks[] = {
     {0x03U, 0x10A4U, 4U},
     {0x03U, 0x10A8U, 1U},
     {0x03U, 0x10ACU, 2U},
@@ -162,7 +162,7 @@ static const fieldscribe_modbus_block hitachi_l200_fine_tuning_b_blocks[] = {
 };
 
 #define HITACHI_L200_CONTROL_C_BLOCKS_COUNT 22U
-static const fieldscribe_modbus_block hitachi_l200_control_c_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_control_c_blocks[] = {
     {0x03U, 0x1102U, 4U},
     {0x03U, 0x1106U, 1U},
     {0x03U, 0x110AU, 4U},
@@ -188,7 +188,7 @@ static const fieldscribe_modbus_block hitachi_l200_control_c_blocks[] = {
 };
 
 #define HITACHI_L200_MOTOR_H_BLOCKS_COUNT 4U
-static const fieldscribe_modbus_block hitachi_l200_motor_h_blocks[] = {
+static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
     {0x03U, 0x1164U, 2U},
     {0x03U, 0x1167U, 1U},
     {0x03U, 0x153FU, 2U},
@@ -200,2352 +200,472 @@ static const fieldscribe_modbus_block hitachi_l200_motor_h_blocks[] = {
 /* Enter: any value does; the memory stands 100000 writes. */
 #define HITACHI_L200_COMMAND_ENTER_ADDRESS 0x0900U
 #define HITACHI_L200_COMMAND_ENTER_VALUE 1U
-
-static inline fieldscribe_modbus_request hitachi_l200_command_enter_request(uint8_t unit, uint16_t words[1])
-{
-    words[0] = HITACHI_L200_COMMAND_ENTER_VALUE;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_COMMAND_ENTER_ADDRESS, 1U, words);
-}
-
-/* ---- Requests of the points ---- */
-
-static inline fieldscribe_modbus_request hitachi_l200_run_command_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_RUN_COMMAND_ADDRESS, HITACHI_L200_RUN_COMMAND_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_command_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_RUN_COMMAND_ADDRESS, HITACHI_L200_RUN_COMMAND_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_direction_command_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIRECTION_COMMAND_ADDRESS, HITACHI_L200_DIRECTION_COMMAND_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_direction_command_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIRECTION_COMMAND_ADDRESS, HITACHI_L200_DIRECTION_COMMAND_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_external_trip_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_EXTERNAL_TRIP_ADDRESS, HITACHI_L200_EXTERNAL_TRIP_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_external_trip_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_EXTERNAL_TRIP_ADDRESS, HITACHI_L200_EXTERNAL_TRIP_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_reset_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_TRIP_RESET_ADDRESS, HITACHI_L200_TRIP_RESET_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_reset_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_TRIP_RESET_ADDRESS, HITACHI_L200_TRIP_RESET_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIGITAL_INPUT_1_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIGITAL_INPUT_1_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIGITAL_INPUT_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIGITAL_INPUT_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIGITAL_INPUT_3_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIGITAL_INPUT_3_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIGITAL_INPUT_4_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIGITAL_INPUT_4_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIGITAL_INPUT_5_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_write_request(uint8_t unit, bool raw, uint16_t words[1])
-{
-    words[0] = raw ? 1U : 0U;
-    return fieldscribe_modbus_write(unit, 0x05U, HITACHI_L200_DIGITAL_INPUT_5_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_running_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_RUNNING_ADDRESS, HITACHI_L200_RUNNING_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_direction_status_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DIRECTION_STATUS_ADDRESS, HITACHI_L200_DIRECTION_STATUS_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_ready_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_READY_ADDRESS, HITACHI_L200_READY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_alarm_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_ALARM_ADDRESS, HITACHI_L200_ALARM_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_deviation_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_PID_DEVIATION_ADDRESS, HITACHI_L200_PID_DEVIATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overload_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_OVERLOAD_ADDRESS, HITACHI_L200_OVERLOAD_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_arrival_in_acceleration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_ADDRESS, HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_arrival_at_constant_speed_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_ADDRESS, HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_RUN_MODE_ADDRESS, HITACHI_L200_RUN_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_data_write_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_DATA_WRITE_ADDRESS, HITACHI_L200_DATA_WRITE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_crc_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_CRC_ERROR_ADDRESS, HITACHI_L200_CRC_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overrun_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_OVERRUN_ERROR_ADDRESS, HITACHI_L200_OVERRUN_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_framing_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_FRAMING_ERROR_ADDRESS, HITACHI_L200_FRAMING_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_parity_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_PARITY_ERROR_ADDRESS, HITACHI_L200_PARITY_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_checksum_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x01U, HITACHI_L200_CHECKSUM_ERROR_ADDRESS, HITACHI_L200_CHECKSUM_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_frequency_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_ADDRESS, HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_frequency_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_ADDRESS, HITACHI_L200_NETWORK_FREQUENCY_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_inverter_status_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INVERTER_STATUS_ADDRESS, HITACHI_L200_INVERTER_STATUS_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_inverter_status_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INVERTER_STATUS_ADDRESS, HITACHI_L200_INVERTER_STATUS_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_process_value_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_NETWORK_PROCESS_VALUE_ADDRESS, HITACHI_L200_NETWORK_PROCESS_VALUE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_process_value_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_NETWORK_PROCESS_VALUE_ADDRESS, HITACHI_L200_NETWORK_PROCESS_VALUE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OUTPUT_FREQUENCY_ADDRESS, HITACHI_L200_OUTPUT_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_current_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_CURRENT_ADDRESS, HITACHI_L200_MOTOR_CURRENT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_rotation_direction_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ROTATION_DIRECTION_ADDRESS, HITACHI_L200_ROTATION_DIRECTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_scaled_process_value_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_SCALED_PROCESS_VALUE_ADDRESS, HITACHI_L200_SCALED_PROCESS_VALUE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_inputs_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUTS_ADDRESS, HITACHI_L200_DIGITAL_INPUTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_outputs_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUTS_ADDRESS, HITACHI_L200_DIGITAL_OUTPUTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_voltage_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OUTPUT_VOLTAGE_ADDRESS, HITACHI_L200_OUTPUT_VOLTAGE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RUN_TIME_ADDRESS, HITACHI_L200_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_power_on_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POWER_ON_TIME_ADDRESS, HITACHI_L200_POWER_ON_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_count_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_COUNT_ADDRESS, HITACHI_L200_TRIP_COUNT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_ERROR_ADDRESS, HITACHI_L200_TRIP_1_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_output_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_ADDRESS, HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_motor_current_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_MOTOR_CURRENT_ADDRESS, HITACHI_L200_TRIP_1_MOTOR_CURRENT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_dc_bus_voltage_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_ADDRESS, HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_RUN_TIME_ADDRESS, HITACHI_L200_TRIP_1_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_1_power_on_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_1_POWER_ON_TIME_ADDRESS, HITACHI_L200_TRIP_1_POWER_ON_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_ERROR_ADDRESS, HITACHI_L200_TRIP_2_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_output_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_ADDRESS, HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_motor_current_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_MOTOR_CURRENT_ADDRESS, HITACHI_L200_TRIP_2_MOTOR_CURRENT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_dc_bus_voltage_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_ADDRESS, HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_RUN_TIME_ADDRESS, HITACHI_L200_TRIP_2_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_2_power_on_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_2_POWER_ON_TIME_ADDRESS, HITACHI_L200_TRIP_2_POWER_ON_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_error_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_ERROR_ADDRESS, HITACHI_L200_TRIP_3_ERROR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_output_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_ADDRESS, HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_motor_current_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_MOTOR_CURRENT_ADDRESS, HITACHI_L200_TRIP_3_MOTOR_CURRENT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_dc_bus_voltage_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_ADDRESS, HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_RUN_TIME_ADDRESS, HITACHI_L200_TRIP_3_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_trip_3_power_on_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_TRIP_3_POWER_ON_TIME_ADDRESS, HITACHI_L200_TRIP_3_POWER_ON_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_TIME_ADDRESS, HITACHI_L200_ACCELERATION_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_acceleration_time_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_ACCELERATION_TIME_ADDRESS, HITACHI_L200_ACCELERATION_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_TIME_SET_2_ADDRESS, HITACHI_L200_ACCELERATION_TIME_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_set_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_acceleration_time_set_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_ACCELERATION_TIME_SET_2_ADDRESS, HITACHI_L200_ACCELERATION_TIME_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_TIME_ADDRESS, HITACHI_L200_DECELERATION_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_deceleration_time_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_DECELERATION_TIME_ADDRESS, HITACHI_L200_DECELERATION_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_TIME_SET_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_set_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_deceleration_time_set_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_DECELERATION_TIME_SET_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_direction_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_DIRECTION_ADDRESS, HITACHI_L200_MOTOR_DIRECTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_direction_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_DIRECTION_ADDRESS, HITACHI_L200_MOTOR_DIRECTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_source_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FREQUENCY_SOURCE_ADDRESS, HITACHI_L200_FREQUENCY_SOURCE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_source_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FREQUENCY_SOURCE_ADDRESS, HITACHI_L200_FREQUENCY_SOURCE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_source_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FREQUENCY_SOURCE_SET_2_ADDRESS, HITACHI_L200_FREQUENCY_SOURCE_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_source_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FREQUENCY_SOURCE_SET_2_ADDRESS, HITACHI_L200_FREQUENCY_SOURCE_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_source_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RUN_SOURCE_ADDRESS, HITACHI_L200_RUN_SOURCE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_source_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RUN_SOURCE_ADDRESS, HITACHI_L200_RUN_SOURCE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_source_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RUN_SOURCE_SET_2_ADDRESS, HITACHI_L200_RUN_SOURCE_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_run_source_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RUN_SOURCE_SET_2_ADDRESS, HITACHI_L200_RUN_SOURCE_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_rated_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_RATED_FREQUENCY_ADDRESS, HITACHI_L200_MOTOR_RATED_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_rated_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_RATED_FREQUENCY_ADDRESS, HITACHI_L200_MOTOR_RATED_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_rated_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_rated_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_maximum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_MAXIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_maximum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_MAXIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_maximum_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_maximum_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MAXIMUM_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_at_terminal_selection_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_AT_TERMINAL_SELECTION_ADDRESS, HITACHI_L200_AT_TERMINAL_SELECTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_at_terminal_selection_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_AT_TERMINAL_SELECTION_ADDRESS, HITACHI_L200_AT_TERMINAL_SELECTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_minimum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_minimum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_maximum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_maximum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_minimum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_minimum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_O_MINIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_maximum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_maximum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_start_condition_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_START_CONDITION_ADDRESS, HITACHI_L200_INPUT_O_START_CONDITION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_start_condition_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_START_CONDITION_ADDRESS, HITACHI_L200_INPUT_O_START_CONDITION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_input_filter_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ANALOG_INPUT_FILTER_ADDRESS, HITACHI_L200_ANALOG_INPUT_FILTER_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_input_filter_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ANALOG_INPUT_FILTER_ADDRESS, HITACHI_L200_ANALOG_INPUT_FILTER_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_base_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_BASE_FREQUENCY_ADDRESS, HITACHI_L200_BASE_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_base_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_BASE_FREQUENCY_ADDRESS, HITACHI_L200_BASE_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_base_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_BASE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_BASE_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_base_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_BASE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_BASE_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_1_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_1_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_1_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_1_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_2_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_2_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_3_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_3_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_3_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_3_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_3_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_3_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_4_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_4_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_4_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_4_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_4_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_4_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_5_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_5_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_5_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_5_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_5_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_5_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_6_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_6_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_6_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_6_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_6_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_6_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_7_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_7_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_7_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_7_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_7_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_7_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_8_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_8_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_8_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_8_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_8_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_8_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_9_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_9_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_9_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_9_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_9_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_9_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_10_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_10_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_10_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_10_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_10_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_10_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_11_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_11_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_11_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_11_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_11_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_11_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_12_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_12_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_12_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_12_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_12_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_12_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_13_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_13_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_13_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_13_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_13_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_13_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_14_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_14_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_14_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_14_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_14_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_14_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_15_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FIXED_FREQUENCY_15_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_15_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_fixed_frequency_15_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FIXED_FREQUENCY_15_ADDRESS, HITACHI_L200_FIXED_FREQUENCY_15_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jog_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JOG_FREQUENCY_ADDRESS, HITACHI_L200_JOG_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jog_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JOG_FREQUENCY_ADDRESS, HITACHI_L200_JOG_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jog_stop_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JOG_STOP_MODE_ADDRESS, HITACHI_L200_JOG_STOP_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jog_stop_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JOG_STOP_MODE_ADDRESS, HITACHI_L200_JOG_STOP_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_boost_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_BOOST_MODE_ADDRESS, HITACHI_L200_BOOST_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_boost_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_BOOST_MODE_ADDRESS, HITACHI_L200_BOOST_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_boost_mode_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_BOOST_MODE_SET_2_ADDRESS, HITACHI_L200_BOOST_MODE_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_boost_mode_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_BOOST_MODE_SET_2_ADDRESS, HITACHI_L200_BOOST_MODE_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MANUAL_BOOST_ADDRESS, HITACHI_L200_MANUAL_BOOST_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MANUAL_BOOST_ADDRESS, HITACHI_L200_MANUAL_BOOST_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MANUAL_BOOST_SET_2_ADDRESS, HITACHI_L200_MANUAL_BOOST_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MANUAL_BOOST_SET_2_ADDRESS, HITACHI_L200_MANUAL_BOOST_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MANUAL_BOOST_FREQUENCY_ADDRESS, HITACHI_L200_MANUAL_BOOST_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MANUAL_BOOST_FREQUENCY_ADDRESS, HITACHI_L200_MANUAL_BOOST_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_manual_boost_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_vf_characteristic_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_VF_CHARACTERISTIC_ADDRESS, HITACHI_L200_VF_CHARACTERISTIC_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_vf_characteristic_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_VF_CHARACTERISTIC_ADDRESS, HITACHI_L200_VF_CHARACTERISTIC_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_vf_characteristic_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_VF_CHARACTERISTIC_SET_2_ADDRESS, HITACHI_L200_VF_CHARACTERISTIC_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_vf_characteristic_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_VF_CHARACTERISTIC_SET_2_ADDRESS, HITACHI_L200_VF_CHARACTERISTIC_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_voltage_setting_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_ADDRESS, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_voltage_setting_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_ADDRESS, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_voltage_setting_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_ADDRESS, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_output_voltage_setting_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_ADDRESS, HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_enable_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_ENABLE_ADDRESS, HITACHI_L200_DC_BRAKE_ENABLE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_enable_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_ENABLE_ADDRESS, HITACHI_L200_DC_BRAKE_ENABLE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_FREQUENCY_ADDRESS, HITACHI_L200_DC_BRAKE_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_FREQUENCY_ADDRESS, HITACHI_L200_DC_BRAKE_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_DELAY_ADDRESS, HITACHI_L200_DC_BRAKE_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_DELAY_ADDRESS, HITACHI_L200_DC_BRAKE_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_torque_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_TORQUE_ADDRESS, HITACHI_L200_DC_BRAKE_TORQUE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_torque_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_TORQUE_ADDRESS, HITACHI_L200_DC_BRAKE_TORQUE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_TIME_ADDRESS, HITACHI_L200_DC_BRAKE_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_time_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_TIME_ADDRESS, HITACHI_L200_DC_BRAKE_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_trigger_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DC_BRAKE_TRIGGER_ADDRESS, HITACHI_L200_DC_BRAKE_TRIGGER_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_dc_brake_trigger_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DC_BRAKE_TRIGGER_ADDRESS, HITACHI_L200_DC_BRAKE_TRIGGER_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_upper_frequency_limit_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_UPPER_FREQUENCY_LIMIT_ADDRESS, HITACHI_L200_UPPER_FREQUENCY_LIMIT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_upper_frequency_limit_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_UPPER_FREQUENCY_LIMIT_ADDRESS, HITACHI_L200_UPPER_FREQUENCY_LIMIT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_upper_frequency_limit_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_ADDRESS, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_upper_frequency_limit_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_ADDRESS, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_lower_frequency_limit_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_LOWER_FREQUENCY_LIMIT_ADDRESS, HITACHI_L200_LOWER_FREQUENCY_LIMIT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_lower_frequency_limit_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_LOWER_FREQUENCY_LIMIT_ADDRESS, HITACHI_L200_LOWER_FREQUENCY_LIMIT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_lower_frequency_limit_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_ADDRESS, HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_lower_frequency_limit_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_ADDRESS, HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_1_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_1_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_1_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_1_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_1_width_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_1_width_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_1_WIDTH_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_2_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_2_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_2_width_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_2_width_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_2_WIDTH_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_3_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_3_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_3_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_3_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_3_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_3_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_3_width_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_jump_frequency_3_width_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_ADDRESS, HITACHI_L200_JUMP_FREQUENCY_3_WIDTH_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_enable_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_ENABLE_ADDRESS, HITACHI_L200_PID_ENABLE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_enable_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_ENABLE_ADDRESS, HITACHI_L200_PID_ENABLE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_proportional_gain_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_PROPORTIONAL_GAIN_ADDRESS, HITACHI_L200_PID_PROPORTIONAL_GAIN_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_proportional_gain_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_PROPORTIONAL_GAIN_ADDRESS, HITACHI_L200_PID_PROPORTIONAL_GAIN_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_integral_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_INTEGRAL_TIME_ADDRESS, HITACHI_L200_PID_INTEGRAL_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_integral_time_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_INTEGRAL_TIME_ADDRESS, HITACHI_L200_PID_INTEGRAL_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_derivative_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_DERIVATIVE_TIME_ADDRESS, HITACHI_L200_PID_DERIVATIVE_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_derivative_time_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_DERIVATIVE_TIME_ADDRESS, HITACHI_L200_PID_DERIVATIVE_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_display_factor_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_DISPLAY_FACTOR_ADDRESS, HITACHI_L200_PID_DISPLAY_FACTOR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_display_factor_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_DISPLAY_FACTOR_ADDRESS, HITACHI_L200_PID_DISPLAY_FACTOR_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_source_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_PROCESS_VALUE_SOURCE_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_SOURCE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_source_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_PROCESS_VALUE_SOURCE_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_SOURCE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_inversion_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_INVERSION_ADDRESS, HITACHI_L200_PID_INVERSION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_inversion_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_INVERSION_ADDRESS, HITACHI_L200_PID_INVERSION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_output_limit_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_OUTPUT_LIMIT_ADDRESS, HITACHI_L200_PID_OUTPUT_LIMIT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_output_limit_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_OUTPUT_LIMIT_ADDRESS, HITACHI_L200_PID_OUTPUT_LIMIT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_avr_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_AVR_MODE_ADDRESS, HITACHI_L200_AVR_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_avr_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_AVR_MODE_ADDRESS, HITACHI_L200_AVR_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_voltage_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_VOLTAGE_ADDRESS, HITACHI_L200_MOTOR_VOLTAGE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_voltage_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_VOLTAGE_ADDRESS, HITACHI_L200_MOTOR_VOLTAGE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_TIME_2_ADDRESS, HITACHI_L200_ACCELERATION_TIME_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_time_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_acceleration_time_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_ACCELERATION_TIME_2_ADDRESS, HITACHI_L200_ACCELERATION_TIME_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_TIME_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_deceleration_time_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_DECELERATION_TIME_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_2_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_TIME_2_SET_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_2_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_time_2_set_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    hitachi_l200_deceleration_time_2_set_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, HITACHI_L200_DECELERATION_TIME_2_SET_2_ADDRESS, HITACHI_L200_DECELERATION_TIME_2_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_ramp_2_selection_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RAMP_2_SELECTION_ADDRESS, HITACHI_L200_RAMP_2_SELECTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_ramp_2_selection_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RAMP_2_SELECTION_ADDRESS, HITACHI_L200_RAMP_2_SELECTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_ramp_2_selection_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RAMP_2_SELECTION_SET_2_ADDRESS, HITACHI_L200_RAMP_2_SELECTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_ramp_2_selection_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RAMP_2_SELECTION_SET_2_ADDRESS, HITACHI_L200_RAMP_2_SELECTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_change_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_ADDRESS, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_change_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_ADDRESS, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_change_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_change_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_change_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_ADDRESS, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_change_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_ADDRESS, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_change_frequency_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_change_frequency_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_ADDRESS, HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_curve_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ACCELERATION_CURVE_ADDRESS, HITACHI_L200_ACCELERATION_CURVE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_acceleration_curve_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ACCELERATION_CURVE_ADDRESS, HITACHI_L200_ACCELERATION_CURVE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_curve_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DECELERATION_CURVE_ADDRESS, HITACHI_L200_DECELERATION_CURVE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_deceleration_curve_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DECELERATION_CURVE_ADDRESS, HITACHI_L200_DECELERATION_CURVE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_minimum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_minimum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_maximum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_maximum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_minimum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_minimum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_maximum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_maximum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_start_condition_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_START_CONDITION_ADDRESS, HITACHI_L200_INPUT_OI_START_CONDITION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_start_condition_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_START_CONDITION_ADDRESS, HITACHI_L200_INPUT_OI_START_CONDITION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_input_a_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CALCULATION_INPUT_A_ADDRESS, HITACHI_L200_CALCULATION_INPUT_A_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_input_a_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CALCULATION_INPUT_A_ADDRESS, HITACHI_L200_CALCULATION_INPUT_A_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_input_b_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CALCULATION_INPUT_B_ADDRESS, HITACHI_L200_CALCULATION_INPUT_B_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_input_b_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CALCULATION_INPUT_B_ADDRESS, HITACHI_L200_CALCULATION_INPUT_B_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_operator_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CALCULATION_OPERATOR_ADDRESS, HITACHI_L200_CALCULATION_OPERATOR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_calculation_operator_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CALCULATION_OPERATOR_ADDRESS, HITACHI_L200_CALCULATION_OPERATOR_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_offset_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FREQUENCY_OFFSET_ADDRESS, HITACHI_L200_FREQUENCY_OFFSET_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_offset_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FREQUENCY_OFFSET_ADDRESS, HITACHI_L200_FREQUENCY_OFFSET_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_offset_sign_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FREQUENCY_OFFSET_SIGN_ADDRESS, HITACHI_L200_FREQUENCY_OFFSET_SIGN_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_offset_sign_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FREQUENCY_OFFSET_SIGN_ADDRESS, HITACHI_L200_FREQUENCY_OFFSET_SIGN_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_minimum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_minimum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_ADDRESS, HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_maximum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_maximum_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_ADDRESS, HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_minimum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_minimum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_ADDRESS, HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_maximum_setpoint_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_maximum_setpoint_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_ADDRESS, HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_start_condition_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POTENTIOMETER_START_CONDITION_ADDRESS, HITACHI_L200_POTENTIOMETER_START_CONDITION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_potentiometer_start_condition_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POTENTIOMETER_START_CONDITION_ADDRESS, HITACHI_L200_POTENTIOMETER_START_CONDITION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_restart_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RESTART_MODE_ADDRESS, HITACHI_L200_RESTART_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_restart_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RESTART_MODE_ADDRESS, HITACHI_L200_RESTART_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_allowed_power_failure_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_ADDRESS, HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_allowed_power_failure_time_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_ADDRESS, HITACHI_L200_ALLOWED_POWER_FAILURE_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_restart_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RESTART_DELAY_ADDRESS, HITACHI_L200_RESTART_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_restart_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RESTART_DELAY_ADDRESS, HITACHI_L200_RESTART_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_power_failure_trip_at_standstill_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_ADDRESS, HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_power_failure_trip_at_standstill_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_ADDRESS, HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_power_failure_restarts_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_POWER_FAILURE_RESTARTS_ADDRESS, HITACHI_L200_POWER_FAILURE_RESTARTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_power_failure_restarts_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_POWER_FAILURE_RESTARTS_ADDRESS, HITACHI_L200_POWER_FAILURE_RESTARTS_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_level_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_PROTECTION_LEVEL_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_LEVEL_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_level_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_PROTECTION_LEVEL_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_LEVEL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_level_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_level_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_characteristic_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_characteristic_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_characteristic_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_protection_characteristic_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_ADDRESS, HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_MODE_ADDRESS, HITACHI_L200_CURRENT_LIMIT_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_MODE_ADDRESS, HITACHI_L200_CURRENT_LIMIT_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_mode_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_mode_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_MODE_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_level_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_LEVEL_ADDRESS, HITACHI_L200_CURRENT_LIMIT_LEVEL_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_level_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_LEVEL_ADDRESS, HITACHI_L200_CURRENT_LIMIT_LEVEL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_level_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_level_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_TIME_ADDRESS, HITACHI_L200_CURRENT_LIMIT_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_time_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_TIME_ADDRESS, HITACHI_L200_CURRENT_LIMIT_TIME_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_time_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_time_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_TIME_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_source_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_SOURCE_ADDRESS, HITACHI_L200_CURRENT_LIMIT_SOURCE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_source_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_SOURCE_ADDRESS, HITACHI_L200_CURRENT_LIMIT_SOURCE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_source_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_current_limit_source_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_ADDRESS, HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_parameter_lock_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PARAMETER_LOCK_ADDRESS, HITACHI_L200_PARAMETER_LOCK_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_parameter_lock_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PARAMETER_LOCK_ADDRESS, HITACHI_L200_PARAMETER_LOCK_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_gain_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ANALOG_OUTPUT_GAIN_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_GAIN_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_gain_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ANALOG_OUTPUT_GAIN_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_GAIN_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_start_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_START_FREQUENCY_ADDRESS, HITACHI_L200_START_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_start_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_START_FREQUENCY_ADDRESS, HITACHI_L200_START_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_carrier_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_CARRIER_FREQUENCY_ADDRESS, HITACHI_L200_CARRIER_FREQUENCY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_carrier_frequency_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_CARRIER_FREQUENCY_ADDRESS, HITACHI_L200_CARRIER_FREQUENCY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_initialization_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INITIALIZATION_MODE_ADDRESS, HITACHI_L200_INITIALIZATION_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_initialization_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INITIALIZATION_MODE_ADDRESS, HITACHI_L200_INITIALIZATION_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_display_factor_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_ADDRESS, HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_frequency_display_factor_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_ADDRESS, HITACHI_L200_FREQUENCY_DISPLAY_FACTOR_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stop_key_lock_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_STOP_KEY_LOCK_ADDRESS, HITACHI_L200_STOP_KEY_LOCK_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stop_key_lock_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_STOP_KEY_LOCK_ADDRESS, HITACHI_L200_STOP_KEY_LOCK_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_coast_restart_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_COAST_RESTART_MODE_ADDRESS, HITACHI_L200_COAST_RESTART_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_coast_restart_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_COAST_RESTART_MODE_ADDRESS, HITACHI_L200_COAST_RESTART_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_display_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_NETWORK_DISPLAY_ADDRESS, HITACHI_L200_NETWORK_DISPLAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_network_display_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_NETWORK_DISPLAY_ADDRESS, HITACHI_L200_NETWORK_DISPLAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stop_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_STOP_MODE_ADDRESS, HITACHI_L200_STOP_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stop_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_STOP_MODE_ADDRESS, HITACHI_L200_STOP_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_enable_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_enable_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_level_200v_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_level_200v_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_level_400v_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overvoltage_deceleration_level_400v_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_ADDRESS, HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_function_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_function_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_function_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_function_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_function_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_function_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_function_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_function_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_function_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_function_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_1_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_1_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_1_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_1_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_2_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_2_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_2_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_2_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_3_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_3_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_3_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_3_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_4_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_4_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_4_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_4_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_INPUT_5_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_input_5_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_INPUT_5_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_INPUT_5_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_function_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RELAY_OUTPUT_FUNCTION_ADDRESS, HITACHI_L200_RELAY_OUTPUT_FUNCTION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_function_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RELAY_OUTPUT_FUNCTION_ADDRESS, HITACHI_L200_RELAY_OUTPUT_FUNCTION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_source_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ANALOG_OUTPUT_SOURCE_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_SOURCE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_source_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ANALOG_OUTPUT_SOURCE_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_SOURCE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_contact_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RELAY_OUTPUT_CONTACT_ADDRESS, HITACHI_L200_RELAY_OUTPUT_CONTACT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_contact_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RELAY_OUTPUT_CONTACT_ADDRESS, HITACHI_L200_RELAY_OUTPUT_CONTACT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overload_alarm_level_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OVERLOAD_ALARM_LEVEL_ADDRESS, HITACHI_L200_OVERLOAD_ALARM_LEVEL_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overload_alarm_level_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OVERLOAD_ALARM_LEVEL_ADDRESS, HITACHI_L200_OVERLOAD_ALARM_LEVEL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overload_alarm_level_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_ADDRESS, HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_overload_alarm_level_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_ADDRESS, HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_arrival_frequency_acceleration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_ADDRESS, HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_arrival_frequency_acceleration_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_ADDRESS, HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_arrival_frequency_deceleration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_ADDRESS, HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_arrival_frequency_deceleration_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_ADDRESS, HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_deviation_level_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_DEVIATION_LEVEL_ADDRESS, HITACHI_L200_PID_DEVIATION_LEVEL_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_deviation_level_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_DEVIATION_LEVEL_ADDRESS, HITACHI_L200_PID_DEVIATION_LEVEL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_upper_limit_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_upper_limit_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_lower_limit_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_pid_process_value_lower_limit_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_ADDRESS, HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_calibration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_O_CALIBRATION_ADDRESS, HITACHI_L200_INPUT_O_CALIBRATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_o_calibration_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_O_CALIBRATION_ADDRESS, HITACHI_L200_INPUT_O_CALIBRATION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_calibration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_INPUT_OI_CALIBRATION_ADDRESS, HITACHI_L200_INPUT_OI_CALIBRATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_input_oi_calibration_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_INPUT_OI_CALIBRATION_ADDRESS, HITACHI_L200_INPUT_OI_CALIBRATION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_thermistor_input_calibration_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_ADDRESS, HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_thermistor_input_calibration_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_ADDRESS, HITACHI_L200_THERMISTOR_INPUT_CALIBRATION_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_offset_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_ANALOG_OUTPUT_OFFSET_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_OFFSET_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_analog_output_offset_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_ANALOG_OUTPUT_OFFSET_ADDRESS, HITACHI_L200_ANALOG_OUTPUT_OFFSET_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_potentiometer_memory_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_ADDRESS, HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_potentiometer_memory_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_ADDRESS, HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_reset_mode_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RESET_MODE_ADDRESS, HITACHI_L200_RESET_MODE_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_reset_mode_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RESET_MODE_ADDRESS, HITACHI_L200_RESET_MODE_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_input_a_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_LOGIC_INPUT_A_ADDRESS, HITACHI_L200_LOGIC_INPUT_A_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_input_a_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_LOGIC_INPUT_A_ADDRESS, HITACHI_L200_LOGIC_INPUT_A_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_input_b_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_LOGIC_INPUT_B_ADDRESS, HITACHI_L200_LOGIC_INPUT_B_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_input_b_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_LOGIC_INPUT_B_ADDRESS, HITACHI_L200_LOGIC_INPUT_B_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_operator_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_LOGIC_OPERATOR_ADDRESS, HITACHI_L200_LOGIC_OPERATOR_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_logic_operator_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_LOGIC_OPERATOR_ADDRESS, HITACHI_L200_LOGIC_OPERATOR_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_on_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_on_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_off_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_11_off_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_on_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_on_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_off_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_digital_output_12_off_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_ADDRESS, HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_on_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RELAY_OUTPUT_ON_DELAY_ADDRESS, HITACHI_L200_RELAY_OUTPUT_ON_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_on_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RELAY_OUTPUT_ON_DELAY_ADDRESS, HITACHI_L200_RELAY_OUTPUT_ON_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_off_delay_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_ADDRESS, HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_relay_output_off_delay_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_ADDRESS, HITACHI_L200_RELAY_OUTPUT_OFF_DELAY_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_power_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_POWER_ADDRESS, HITACHI_L200_MOTOR_POWER_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_power_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_POWER_ADDRESS, HITACHI_L200_MOTOR_POWER_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_power_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_POWER_SET_2_ADDRESS, HITACHI_L200_MOTOR_POWER_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_power_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_POWER_SET_2_ADDRESS, HITACHI_L200_MOTOR_POWER_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_poles_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_POLES_ADDRESS, HITACHI_L200_MOTOR_POLES_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_poles_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_POLES_ADDRESS, HITACHI_L200_MOTOR_POLES_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_poles_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_MOTOR_POLES_SET_2_ADDRESS, HITACHI_L200_MOTOR_POLES_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_motor_poles_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_MOTOR_POLES_SET_2_ADDRESS, HITACHI_L200_MOTOR_POLES_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stabilization_constant_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_STABILIZATION_CONSTANT_ADDRESS, HITACHI_L200_STABILIZATION_CONSTANT_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stabilization_constant_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_STABILIZATION_CONSTANT_ADDRESS, HITACHI_L200_STABILIZATION_CONSTANT_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stabilization_constant_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, HITACHI_L200_STABILIZATION_CONSTANT_SET_2_ADDRESS, HITACHI_L200_STABILIZATION_CONSTANT_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request hitachi_l200_stabilization_constant_set_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, HITACHI_L200_STABILIZATION_CONSTANT_SET_2_ADDRESS, HITACHI_L200_STABILIZATION_CONSTANT_SET_2_WORDS, words);
-}
+static const fieldscribe_modbus_command hitachi_l200_command_enter =
+    {{0x06U, HITACHI_L200_COMMAND_ENTER_ADDRESS, 1U}, HITACHI_L200_COMMAND_ENTER_VALUE};
+
+/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+
+static const fieldscribe_layout hitachi_l200_layout_bit =
+    {FIELDSCRIBE_BIT, 1U, 0x00U, false, 0U, 0x0001U, 0x0000U, 0x0000U};
+static const fieldscribe_layout hitachi_l200_layout_u16 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
+static const fieldscribe_layout hitachi_l200_layout_u32_order_01 =
+    {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
+
+/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
+
+static const fieldscribe_modbus_rw hitachi_l200_run_command_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0000U, 1U}, {0x05U, 0x0000U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_direction_command_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0001U, 1U}, {0x05U, 0x0001U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_external_trip_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0002U, 1U}, {0x05U, 0x0002U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_trip_reset_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0003U, 1U}, {0x05U, 0x0003U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0006U, 1U}, {0x05U, 0x0006U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0007U, 1U}, {0x05U, 0x0007U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0008U, 1U}, {0x05U, 0x0008U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0009U, 1U}, {0x05U, 0x0009U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x000AU, 1U}, {0x05U, 0x000AU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_running_frame = {&hitachi_l200_layout_bit, {0x01U, 0x000DU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_direction_status_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x000EU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_ready_frame = {&hitachi_l200_layout_bit, {0x01U, 0x000FU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_alarm_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0013U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_pid_deviation_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0014U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_overload_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0015U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_in_acceleration_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0016U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_at_constant_speed_frame =
+    {&hitachi_l200_layout_bit, {0x01U, 0x0017U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_run_mode_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0018U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_data_write_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0019U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_crc_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001AU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_overrun_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001BU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_framing_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001CU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_parity_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001DU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_checksum_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_network_frequency_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0001U, 1U}, {0x06U, 0x0001U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_inverter_status_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0002U, 1U}, {0x06U, 0x0002U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_network_process_value_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0004U, 1U}, {0x06U, 0x0004U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_output_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1001U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_motor_current_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1002U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_rotation_direction_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1003U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_scaled_process_value_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1004U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1006U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_digital_outputs_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1007U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_output_voltage_frame = {&hitachi_l200_layout_u16, {0x03U, 0x100BU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_run_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x100DU, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_power_on_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x100FU, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0010U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0011U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_output_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0013U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_motor_current_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0015U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_dc_bus_voltage_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0016U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_run_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0017U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_power_on_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0019U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x001BU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_output_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x001DU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_motor_current_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x001FU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_dc_bus_voltage_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0020U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_run_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0021U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_power_on_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0023U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0025U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_output_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0027U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_motor_current_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x0029U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_dc_bus_voltage_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x002AU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_run_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x002BU, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_power_on_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x002DU, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1013U, 2U}, {0x10U, 0x1013U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_set_2_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1500U, 2U}, {0x10U, 0x1500U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1015U, 2U}, {0x10U, 0x1015U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_set_2_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1502U, 2U}, {0x10U, 0x1502U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_direction_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1017U, 1U}, {0x06U, 0x1017U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_frequency_source_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1018U, 1U}, {0x06U, 0x1018U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_frequency_source_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1509U, 1U}, {0x06U, 0x1509U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_run_source_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1019U, 1U}, {0x06U, 0x1019U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_run_source_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x150AU, 1U}, {0x06U, 0x150AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x101AU, 1U}, {0x06U, 0x101AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x150BU, 1U}, {0x06U, 0x150BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x101BU, 1U}, {0x06U, 0x101BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x150CU, 1U}, {0x06U, 0x150CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_at_terminal_selection_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x101CU, 1U}, {0x06U, 0x101CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x101FU, 1U}, {0x06U, 0x101FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1021U, 1U}, {0x06U, 0x1021U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1022U, 1U}, {0x06U, 0x1022U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1023U, 1U}, {0x06U, 0x1023U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_start_condition_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1024U, 1U}, {0x06U, 0x1024U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_analog_input_filter_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1025U, 1U}, {0x06U, 0x1025U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_base_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1028U, 1U}, {0x06U, 0x1028U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_base_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x150EU, 1U}, {0x06U, 0x150EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_1_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x102AU, 1U}, {0x06U, 0x102AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x102CU, 1U}, {0x06U, 0x102CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_3_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x102EU, 1U}, {0x06U, 0x102EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_4_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1030U, 1U}, {0x06U, 0x1030U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_5_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1032U, 1U}, {0x06U, 0x1032U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_6_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1034U, 1U}, {0x06U, 0x1034U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_7_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1036U, 1U}, {0x06U, 0x1036U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_8_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1038U, 1U}, {0x06U, 0x1038U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_9_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x103AU, 1U}, {0x06U, 0x103AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_10_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x103CU, 1U}, {0x06U, 0x103CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_11_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x103EU, 1U}, {0x06U, 0x103EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_12_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1040U, 1U}, {0x06U, 0x1040U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_13_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1042U, 1U}, {0x06U, 0x1042U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_14_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1044U, 1U}, {0x06U, 0x1044U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_15_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1046U, 1U}, {0x06U, 0x1046U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jog_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1047U, 1U}, {0x06U, 0x1047U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jog_stop_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1048U, 1U}, {0x06U, 0x1048U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_boost_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1049U, 1U}, {0x06U, 0x1049U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_boost_mode_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x150FU, 1U}, {0x06U, 0x150FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x104AU, 1U}, {0x06U, 0x104AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_manual_boost_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1510U, 1U}, {0x06U, 0x1510U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x104BU, 1U}, {0x06U, 0x104BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1511U, 1U}, {0x06U, 0x1511U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x104CU, 1U}, {0x06U, 0x104CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1512U, 1U}, {0x06U, 0x1512U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x104DU, 1U}, {0x06U, 0x104DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1513U, 1U}, {0x06U, 0x1513U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_enable_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1050U, 1U}, {0x06U, 0x1050U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1051U, 1U}, {0x06U, 0x1051U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1052U, 1U}, {0x06U, 0x1052U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_torque_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1053U, 1U}, {0x06U, 0x1053U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_time_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1054U, 1U}, {0x06U, 0x1054U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_dc_brake_trigger_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1055U, 1U}, {0x06U, 0x1055U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1059U, 1U}, {0x06U, 0x1059U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1516U, 1U}, {0x06U, 0x1516U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x105AU, 1U}, {0x06U, 0x105AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1517U, 1U}, {0x06U, 0x1517U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x105CU, 1U}, {0x06U, 0x105CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_width_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x105DU, 1U}, {0x06U, 0x105DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x105FU, 1U}, {0x06U, 0x105FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_width_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1060U, 1U}, {0x06U, 0x1060U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1062U, 1U}, {0x06U, 0x1062U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_width_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1063U, 1U}, {0x06U, 0x1063U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_enable_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1067U, 1U}, {0x06U, 0x1067U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_proportional_gain_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1068U, 1U}, {0x06U, 0x1068U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_integral_time_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1069U, 1U}, {0x06U, 0x1069U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_derivative_time_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106AU, 1U}, {0x06U, 0x106AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_display_factor_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106BU, 1U}, {0x06U, 0x106BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_source_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106CU, 1U}, {0x06U, 0x106CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_inversion_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106DU, 1U}, {0x06U, 0x106DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_output_limit_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106EU, 1U}, {0x06U, 0x106EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_avr_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x106FU, 1U}, {0x06U, 0x106FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_voltage_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1070U, 1U}, {0x06U, 0x1070U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_2_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1073U, 2U}, {0x10U, 0x1073U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1075U, 2U}, {0x10U, 0x1075U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_set_2_frame =
+    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1519U, 2U}, {0x10U, 0x1519U, 2U}};
+static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1077U, 1U}, {0x06U, 0x1077U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x151BU, 1U}, {0x06U, 0x151BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1079U, 1U}, {0x06U, 0x1079U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x151DU, 1U}, {0x06U, 0x151DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x107BU, 1U}, {0x06U, 0x107BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x151FU, 1U}, {0x06U, 0x151FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_acceleration_curve_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x107CU, 1U}, {0x06U, 0x107CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_deceleration_curve_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x107DU, 1U}, {0x06U, 0x107DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x107FU, 1U}, {0x06U, 0x107FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1081U, 1U}, {0x06U, 0x1081U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1082U, 1U}, {0x06U, 0x1082U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1083U, 1U}, {0x06U, 0x1083U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_start_condition_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1084U, 1U}, {0x06U, 0x1084U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_calculation_input_a_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x108DU, 1U}, {0x06U, 0x108DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_calculation_input_b_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x108EU, 1U}, {0x06U, 0x108EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_calculation_operator_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x108FU, 1U}, {0x06U, 0x108FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1090U, 1U}, {0x06U, 0x1090U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_sign_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1092U, 1U}, {0x06U, 0x1092U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1094U, 1U}, {0x06U, 0x1094U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1096U, 1U}, {0x06U, 0x1096U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1097U, 1U}, {0x06U, 0x1097U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_setpoint_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1098U, 1U}, {0x06U, 0x1098U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_potentiometer_start_condition_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1099U, 1U}, {0x06U, 0x1099U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_restart_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10A4U, 1U}, {0x06U, 0x10A4U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_allowed_power_failure_time_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10A5U, 1U}, {0x06U, 0x10A5U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_restart_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10A6U, 1U}, {0x06U, 0x10A6U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_power_failure_trip_at_standstill_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10A7U, 1U}, {0x06U, 0x10A7U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_power_failure_restarts_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10A8U, 1U}, {0x06U, 0x10A8U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10ACU, 1U}, {0x06U, 0x10ACU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1525U, 1U}, {0x06U, 0x1525U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10ADU, 1U}, {0x06U, 0x10ADU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1526U, 1U}, {0x06U, 0x1526U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10B4U, 1U}, {0x06U, 0x10B4U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1527U, 1U}, {0x06U, 0x1527U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10B5U, 1U}, {0x06U, 0x10B5U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1528U, 1U}, {0x06U, 0x1528U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10B6U, 1U}, {0x06U, 0x10B6U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1529U, 1U}, {0x06U, 0x1529U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10BAU, 1U}, {0x06U, 0x10BAU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x152AU, 1U}, {0x06U, 0x152AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_parameter_lock_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10BBU, 1U}, {0x06U, 0x10BBU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_analog_output_gain_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10CEU, 1U}, {0x06U, 0x10CEU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_start_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D0U, 1U}, {0x06U, 0x10D0U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_carrier_frequency_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D1U, 1U}, {0x06U, 0x10D1U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_initialization_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D2U, 1U}, {0x06U, 0x10D2U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_frequency_display_factor_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D4U, 1U}, {0x06U, 0x10D4U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_stop_key_lock_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D5U, 1U}, {0x06U, 0x10D5U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_coast_restart_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D6U, 1U}, {0x06U, 0x10D6U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_network_display_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D7U, 1U}, {0x06U, 0x10D7U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_stop_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10D9U, 1U}, {0x06U, 0x10D9U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_enable_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10F4U, 1U}, {0x06U, 0x10F4U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_200v_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10F5U, 1U}, {0x06U, 0x10F5U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_400v_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x10F5U, 1U}, {0x06U, 0x10F5U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1102U, 1U}, {0x06U, 0x1102U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1530U, 1U}, {0x06U, 0x1530U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1103U, 1U}, {0x06U, 0x1103U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1531U, 1U}, {0x06U, 0x1531U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1104U, 1U}, {0x06U, 0x1104U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1532U, 1U}, {0x06U, 0x1532U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1105U, 1U}, {0x06U, 0x1105U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1533U, 1U}, {0x06U, 0x1533U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1106U, 1U}, {0x06U, 0x1106U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1534U, 1U}, {0x06U, 0x1534U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x110AU, 1U}, {0x06U, 0x110AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x110BU, 1U}, {0x06U, 0x110BU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x110CU, 1U}, {0x06U, 0x110CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x110DU, 1U}, {0x06U, 0x110DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x110EU, 1U}, {0x06U, 0x110EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1113U, 1U}, {0x06U, 0x1113U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1114U, 1U}, {0x06U, 0x1114U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_relay_output_function_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1118U, 1U}, {0x06U, 0x1118U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_analog_output_source_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x111AU, 1U}, {0x06U, 0x111AU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x111CU, 1U}, {0x06U, 0x111CU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x111DU, 1U}, {0x06U, 0x111DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_relay_output_contact_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1121U, 1U}, {0x06U, 0x1121U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1123U, 1U}, {0x06U, 0x1123U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1538U, 1U}, {0x06U, 0x1538U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_acceleration_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1125U, 1U}, {0x06U, 0x1125U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_deceleration_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1127U, 1U}, {0x06U, 0x1127U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_deviation_level_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1128U, 1U}, {0x06U, 0x1128U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_upper_limit_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x112DU, 1U}, {0x06U, 0x112DU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_lower_limit_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x112EU, 1U}, {0x06U, 0x112EU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_o_calibration_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1140U, 1U}, {0x06U, 0x1140U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_input_oi_calibration_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1141U, 1U}, {0x06U, 0x1141U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_thermistor_input_calibration_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1143U, 1U}, {0x06U, 0x1143U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_analog_output_offset_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1144U, 1U}, {0x06U, 0x1144U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_potentiometer_memory_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1148U, 1U}, {0x06U, 0x1148U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_reset_mode_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1149U, 1U}, {0x06U, 0x1149U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_logic_input_a_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x114FU, 1U}, {0x06U, 0x114FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_logic_input_b_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1150U, 1U}, {0x06U, 0x1150U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_logic_operator_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1151U, 1U}, {0x06U, 0x1151U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_on_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1152U, 1U}, {0x06U, 0x1152U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_off_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1153U, 1U}, {0x06U, 0x1153U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_on_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1154U, 1U}, {0x06U, 0x1154U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_off_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1155U, 1U}, {0x06U, 0x1155U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_relay_output_on_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1156U, 1U}, {0x06U, 0x1156U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_relay_output_off_delay_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1157U, 1U}, {0x06U, 0x1157U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_power_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1164U, 1U}, {0x06U, 0x1164U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_power_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x153FU, 1U}, {0x06U, 0x153FU, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_poles_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1165U, 1U}, {0x06U, 0x1165U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_motor_poles_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1540U, 1U}, {0x06U, 0x1540U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1167U, 1U}, {0x06U, 0x1167U, 1U}};
+static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_set_2_frame =
+    {&hitachi_l200_layout_u16, {0x03U, 0x1542U, 1U}, {0x06U, 0x1542U, 1U}};
 
 #ifdef __cplusplus
 }

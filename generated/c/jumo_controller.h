@@ -8,31 +8,15 @@
  * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
  * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
  * and writes its result only when it returns JUMO_CONTROLLER_OK. Decoding takes whatever the device may send.
- *
- * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
- * FIELDSCRIBE_FLOAT32 makes jumo_controller_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: the results are exact to the bit without them.
+ * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
  */
 #ifndef JUMO_CONTROLLER_H
 #define JUMO_CONTROLLER_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "fieldscribe.h"
 
-#if !defined(FIELDSCRIBE_NO_FLOAT) && \
-    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
-#endif
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-#include <float.h>
-#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || (DBL_MANT_DIG != 53 && !defined(FIELDSCRIBE_FLOAT32))
-#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_FLOAT32 or FIELDSCRIBE_NO_FLOAT."
-#endif
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 /* 16 is about half floats alone */
-#error "The arithmetic here has excess precision (x87): compile with -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
-#endif
+#if FIELDSCRIBE_INTERFACE != 1
+#error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 
 #define JUMO_CONTROLLER_DESCRIPTION_VERSION "1.0.0"
@@ -42,132 +26,37 @@
 extern "C" {
 #endif
 
-/* What conversions answer. */
-typedef enum jumo_controller_status {
-    JUMO_CONTROLLER_OK = 0,
-    JUMO_CONTROLLER_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
-    JUMO_CONTROLLER_NOT_A_NUMBER,  /* the value is NaN */
-    JUMO_CONTROLLER_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    JUMO_CONTROLLER_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    JUMO_CONTROLLER_NO_CASE,       /* no scale for what the other point holds */
-    JUMO_CONTROLLER_OVERFLOW,      /* the result does not fit */
-    JUMO_CONTROLLER_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
-} jumo_controller_status;
-
-/* Where an address counts. */
-enum {
-    JUMO_CONTROLLER_SPACE_HOLDING = 0
-};
-
-/* Bit patterns in the order of their numbers: those of negative numbers count down from 0. */
-static inline int32_t jumo_controller_f32_order(uint32_t bits)
-{
-    const int32_t size = (int32_t)(bits & 0x7FFFFFFFU);
-    return bits > 0x7FFFFFFFU ? -size : size;
-}
-
+typedef fieldscribe_status jumo_controller_status;
 #if !defined(FIELDSCRIBE_NO_FLOAT)
-#if defined(FIELDSCRIBE_FLOAT32)
-typedef float jumo_controller_real;
-#else
-typedef double jumo_controller_real;
+typedef fieldscribe_real jumo_controller_real;
 #endif
+#define JUMO_CONTROLLER_OK FIELDSCRIBE_OK
+#define JUMO_CONTROLLER_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
+#define JUMO_CONTROLLER_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
+#define JUMO_CONTROLLER_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
+#define JUMO_CONTROLLER_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
+#define JUMO_CONTROLLER_NO_CASE FIELDSCRIBE_NO_CASE
+#define JUMO_CONTROLLER_OVERFLOW FIELDSCRIBE_OVERFLOW
+#define JUMO_CONTROLLER_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* A pattern is neither a conversion nor an alias: its bytes are copied. */
-static inline void jumo_controller_copy(void *to, const void *from, size_t size)
-{
-#if defined(__GNUC__)
-    __builtin_memcpy(to, from, size);
-#else
-    size_t at;
-    for (at = 0U; at < size; ++at) {
-        ((unsigned char *)to)[at] = ((const unsigned char *)from)[at];
-    }
-#endif
-}
 
-/* The number with that IEEE 754 bit pattern. */
-static inline jumo_controller_real jumo_controller_f32_of_bits(uint32_t bits)
-{
-    float number = 0;
-    jumo_controller_copy(&number, &bits, sizeof number);
-    return (jumo_controller_real)number;
-}
+/* ---- process data (holding) ---- */
 
-/* The bit pattern of the nearest float, ties to even. */
-static inline jumo_controller_status jumo_controller_bits_of_f32(jumo_controller_real number, uint32_t *bits)
-{
-    float narrow;
-    uint32_t pattern = 0U;
-#if defined(FIELDSCRIBE_FLOAT32)
-    const float over = 3.4028234663852886e+38F; /* the largest float */
-    const bool fits = number >= -over && number <= over;
-#else
-    const double over = 3.4028235677973366e+38; /* from here on a double rounds to infinity */
-    const bool fits = number > -over && number < over;
-#endif
-    if (!fits) {
-        return number < 0 || number >= 0 ? JUMO_CONTROLLER_OUT_OF_RANGE : JUMO_CONTROLLER_NOT_A_NUMBER;
-    }
-    narrow = (float)number;
-    jumo_controller_copy(&pattern, &narrow, sizeof pattern);
-    *bits = pattern;
-    return JUMO_CONTROLLER_OK;
-}
-#endif
-
-/* ---- Process data ---- */
-
-/*
- * Program status
- * 0..65535; read only.
- */
-#define JUMO_CONTROLLER_PROGRAM_STATUS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* program status: 0..65535; r */
 #define JUMO_CONTROLLER_PROGRAM_STATUS_ADDRESS 0x001FU
-#define JUMO_CONTROLLER_PROGRAM_STATUS_WORDS 1U
-#define JUMO_CONTROLLER_PROGRAM_STATUS_RAW_MIN 0
-#define JUMO_CONTROLLER_PROGRAM_STATUS_RAW_MAX 65535
 #define JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_HOLD_MASK 0x0002U
 #define JUMO_CONTROLLER_PROGRAM_STATUS_BASIC_POSITION_MASK 0x0004U
 #define JUMO_CONTROLLER_PROGRAM_STATUS_AUTOMATIC_MODE_MASK 0x0020U
 #define JUMO_CONTROLLER_PROGRAM_STATUS_PROGRAM_END_SIGNAL_MASK 0x0040U
 #define JUMO_CONTROLLER_PROGRAM_STATUS_TOLERANCE_BAND_SIGNAL_MASK 0x0080U
+static inline int32_t jumo_controller_program_status_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_program_status_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Controller status
- * 0..65535; read only.
- * Erratum controller_status_bits (unknown): printed: Manual mode is bit 4 with the mask 1000h, self-optimisation is
- * bit 7 with the mask 8000h; taken: No flags; the word is reachable raw.
- */
-#define JUMO_CONTROLLER_CONTROLLER_STATUS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* controller status: 0..65535; r */
 #define JUMO_CONTROLLER_CONTROLLER_STATUS_ADDRESS 0x0020U
-#define JUMO_CONTROLLER_CONTROLLER_STATUS_WORDS 1U
-#define JUMO_CONTROLLER_CONTROLLER_STATUS_RAW_MIN 0
-#define JUMO_CONTROLLER_CONTROLLER_STATUS_RAW_MAX 65535
+static inline int32_t jumo_controller_controller_status_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_controller_status_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Binary outputs
- * 0..65535; read only.
- * Erratum switching_states (likely): printed: Two lines with the meaning of 0 and 1 stand below the table, away from
- * any row; taken: Off and on for the outputs, open and closed for the inputs.
- * Erratum binary_outputs_mask_6 (certain): printed: The mask of output 6 lacks its equals sign, and every second row
- * writes the name without umlaut; taken: As in the other rows.
- */
-#define JUMO_CONTROLLER_BINARY_OUTPUTS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* binary outputs: 0..65535; r */
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_ADDRESS 0x0021U
-#define JUMO_CONTROLLER_BINARY_OUTPUTS_WORDS 1U
-#define JUMO_CONTROLLER_BINARY_OUTPUTS_RAW_MIN 0
-#define JUMO_CONTROLLER_BINARY_OUTPUTS_RAW_MAX 65535
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_1_MASK 0x0001U
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_2_MASK 0x0002U
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_3_MASK 0x0004U
@@ -178,27 +67,10 @@ static inline int32_t jumo_controller_controller_status_decode(uint16_t raw)
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_8_MASK 0x0080U
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_9_MASK 0x0100U
 #define JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_10_MASK 0x0200U
+static inline int32_t jumo_controller_binary_outputs_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_binary_outputs_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Binary inputs
- * 0..65535; read only.
- * Erratum binary_inputs_count (likely): printed: The heading says inputs 1 to 6; taken: Eight inputs.
- * Erratum binary_input_8_bit (likely): printed: bit 5; taken: bit 6.
- * Erratum binary_input_7_bit (likely): printed: bit 5; taken: bit 7.
- * Erratum binary_inputs_order (likely): printed: Input 6 stands before input 5, and 8 before 7; taken: As printed.
- * Erratum switching_states (likely): printed: Two lines with the meaning of 0 and 1 stand below the table, away from
- * any row; taken: Off and on for the outputs, open and closed for the inputs.
- */
-#define JUMO_CONTROLLER_BINARY_INPUTS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* binary inputs: 0..65535; r; errata binary_input_8_bit, binary_input_7_bit */
 #define JUMO_CONTROLLER_BINARY_INPUTS_ADDRESS 0x0023U
-#define JUMO_CONTROLLER_BINARY_INPUTS_WORDS 1U
-#define JUMO_CONTROLLER_BINARY_INPUTS_RAW_MIN 0
-#define JUMO_CONTROLLER_BINARY_INPUTS_RAW_MAX 65535
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_1_MASK 0x0001U
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_2_MASK 0x0002U
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_3_MASK 0x0004U
@@ -207,76 +79,30 @@ static inline int32_t jumo_controller_binary_outputs_decode(uint16_t raw)
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_5_MASK 0x0020U
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_8_MASK 0x0040U
 #define JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_7_MASK 0x0080U
+static inline int32_t jumo_controller_binary_inputs_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_binary_inputs_decode(uint16_t raw)
-{
-    return raw;
-}
+/* limit comparators: 0..65535; r; not generated: the manual prints no address */
 
-/*
- * Limit comparators
- * 0..65535; read only.
- * Erratum limit_comparators_address (unknown): printed: The four bits follow those of the binary inputs; the row
- * with address and name is missing; taken: A word of its own without an address.
- * Not generated (limit_comparators): the manual prints no address.
- */
-
-/*
- * Control contacts
- * 0..65535; read only.
- */
-#define JUMO_CONTROLLER_CONTROL_CONTACTS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* control contacts: 0..65535; r */
 #define JUMO_CONTROLLER_CONTROL_CONTACTS_ADDRESS 0x0025U
-#define JUMO_CONTROLLER_CONTROL_CONTACTS_WORDS 1U
-#define JUMO_CONTROLLER_CONTROL_CONTACTS_RAW_MIN 0
-#define JUMO_CONTROLLER_CONTROL_CONTACTS_RAW_MAX 65535
 #define JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_1_MASK 0x0001U
 #define JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_2_MASK 0x0002U
 #define JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_3_MASK 0x0004U
 #define JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_4_MASK 0x0008U
+static inline int32_t jumo_controller_control_contacts_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_control_contacts_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Binary signals
- * 0..65535; read only.
- * Erratum binary_signals_bits (unknown): printed: Limit comparators 1 to 4 are the bits 8, 9, 10 and 11 with the
- * masks 0040h, 0080h, 0100h and 0200h, the logic formulas 1 and 2 the bits 12 and 13 with the masks 0400h and 0800h;
- * taken: No flags for these six; the word is reachable raw.
- * Erratum timers_of_binary_signals (unknown): printed: The binary signals and the timer commands know timers 1 and
- * 2, the run times timers 1 to 4; taken: As printed.
- */
-#define JUMO_CONTROLLER_BINARY_SIGNALS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* binary signals: 0..65535; r */
 #define JUMO_CONTROLLER_BINARY_SIGNALS_ADDRESS 0x0026U
-#define JUMO_CONTROLLER_BINARY_SIGNALS_WORDS 1U
-#define JUMO_CONTROLLER_BINARY_SIGNALS_RAW_MIN 0
-#define JUMO_CONTROLLER_BINARY_SIGNALS_RAW_MAX 65535
 #define JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_1_MASK 0x0001U
 #define JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_2_MASK 0x0002U
 #define JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_3_MASK 0x0004U
 #define JUMO_CONTROLLER_BINARY_SIGNALS_CONTROL_CONTACT_4_MASK 0x0008U
 #define JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_1_MASK 0x0010U
 #define JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_2_MASK 0x0020U
+static inline int32_t jumo_controller_binary_signals_decode(uint16_t raw) { return raw; }
 
-static inline int32_t jumo_controller_binary_signals_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Binary output control
- * 0..65535; read and write.
- * Erratum binary_output_control_constant (likely): printed: Output 1 is bit 0 with the mask 8001h, output 10 is bit
- * 9 with the mask 8200h; why the highest bit is set is not said; taken: Bits 0 to 9, and bit 15 always written as 1.
- * Erratum binary_output_control_rows (certain): printed: The rows of the outputs 2 to 9 are replaced by dots; taken:
- * Bits 1 to 8.
- */
-#define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* binary output control: 0..65535; rw */
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_ADDRESS 0x0027U
-#define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_WORDS 1U
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_RAW_MIN 0
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_RAW_MAX 65535
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_MASK 0x8000U
@@ -291,549 +117,194 @@ static inline int32_t jumo_controller_binary_signals_decode(uint16_t raw)
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_8_MASK 0x0080U
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_9_MASK 0x0100U
 #define JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_10_MASK 0x0200U
-
-static inline jumo_controller_status jumo_controller_binary_output_control_check(uint16_t raw)
+FIELDSCRIBE_STATUS jumo_controller_binary_output_control_check(uint16_t raw)
+{ return (((uint32_t)raw & 0x8000U) == 0x8000U) ? (FIELDSCRIBE_OK) : FIELDSCRIBE_OUT_OF_RANGE; }
+FIELDSCRIBE_STATUS jumo_controller_binary_output_control_encode(int32_t value, uint16_t *raw)
 {
-    return ((uint32_t)raw & JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_MASK) == JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_BITS ? JUMO_CONTROLLER_OK : JUMO_CONTROLLER_OUT_OF_RANGE;
+    return fieldscribe_within(value, 0, 65535)
+        ? fieldscribe_keep_u16(jumo_controller_binary_output_control_check(fieldscribe_fix((uint16_t)value, 0x8000U,
+        0x8000U)), fieldscribe_fix((uint16_t)value, 0x8000U, 0x8000U), raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
+static inline int32_t jumo_controller_binary_output_control_decode(uint16_t raw) { return raw; }
 
-static inline jumo_controller_status jumo_controller_binary_output_control_encode(int32_t value, uint16_t *raw)
-{
-    if (value < 0 || value > 65535) {
-        return JUMO_CONTROLLER_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)(((uint32_t)value & ~(uint32_t)JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_MASK) | JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_BITS);
-    const jumo_controller_status status = jumo_controller_binary_output_control_check(number);
-    if (status == JUMO_CONTROLLER_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t jumo_controller_binary_output_control_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Program run time
- * 0..4294967295 s, raw 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- */
-#define JUMO_CONTROLLER_PROGRAM_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* program run time: 0..4294967295 s; r */
 #define JUMO_CONTROLLER_PROGRAM_RUN_TIME_ADDRESS 0x005BU
 #define JUMO_CONTROLLER_PROGRAM_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_PROGRAM_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_PROGRAM_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_program_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_program_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_program_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_program_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Program remaining time
- * 0..4294967295 s, raw 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- */
-#define JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* program remaining time: 0..4294967295 s; r */
 #define JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_ADDRESS 0x005DU
 #define JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_WORDS 2U
-#define JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_program_remaining_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_program_remaining_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_program_remaining_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_program_remaining_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Section run time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_SECTION_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* section run time: 0..4294967295; r */
 #define JUMO_CONTROLLER_SECTION_RUN_TIME_ADDRESS 0x0061U
 #define JUMO_CONTROLLER_SECTION_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_SECTION_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_SECTION_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_section_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_section_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_section_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_section_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Section remaining time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_SECTION_REMAINING_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* section remaining time: 0..4294967295; r */
 #define JUMO_CONTROLLER_SECTION_REMAINING_TIME_ADDRESS 0x0063U
 #define JUMO_CONTROLLER_SECTION_REMAINING_TIME_WORDS 2U
-#define JUMO_CONTROLLER_SECTION_REMAINING_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_SECTION_REMAINING_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_section_remaining_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_section_remaining_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_section_remaining_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_section_remaining_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Timer 1 run time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_TIMER_1_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* timer 1 run time: 0..4294967295; r */
 #define JUMO_CONTROLLER_TIMER_1_RUN_TIME_ADDRESS 0x0067U
 #define JUMO_CONTROLLER_TIMER_1_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_TIMER_1_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_TIMER_1_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_timer_1_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_timer_1_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_timer_1_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_timer_1_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Timer 2 run time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_TIMER_2_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* timer 2 run time: 0..4294967295; r */
 #define JUMO_CONTROLLER_TIMER_2_RUN_TIME_ADDRESS 0x0069U
 #define JUMO_CONTROLLER_TIMER_2_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_TIMER_2_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_TIMER_2_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_timer_2_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_timer_2_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_timer_2_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_timer_2_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Timer 3 run time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_TIMER_3_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* timer 3 run time: 0..4294967295; r */
 #define JUMO_CONTROLLER_TIMER_3_RUN_TIME_ADDRESS 0x006BU
 #define JUMO_CONTROLLER_TIMER_3_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_TIMER_3_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_TIMER_3_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_timer_3_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_timer_3_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_timer_3_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_timer_3_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Timer 4 run time
- * 0..4294967295; read only.
- * Erratum long_sign (unknown): printed: Whether a long has a sign is not said; taken: u32.
- * Erratum section_and_timer_units (unknown): printed: No unit; the two program times are in seconds; taken: The bare
- * number.
- */
-#define JUMO_CONTROLLER_TIMER_4_RUN_TIME_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* timer 4 run time: 0..4294967295; r */
 #define JUMO_CONTROLLER_TIMER_4_RUN_TIME_ADDRESS 0x006DU
 #define JUMO_CONTROLLER_TIMER_4_RUN_TIME_WORDS 2U
-#define JUMO_CONTROLLER_TIMER_4_RUN_TIME_RAW_MIN 0
-#define JUMO_CONTROLLER_TIMER_4_RUN_TIME_RAW_MAX 4294967295
-
-static inline int64_t jumo_controller_timer_4_run_time_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t jumo_controller_timer_4_run_time_decode(uint32_t raw) { return raw; }
 static inline void jumo_controller_timer_4_run_time_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t jumo_controller_timer_4_run_time_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/* ---- Examples ---- */
+/* ---- examples (holding) ---- */
 
-/*
- * Setpoint 1
- * any number; read and write.
- * Erratum setpoint_access (likely): printed: The example reads the setpoints; that they are changed over the bus is
- * said in general; taken: access: rw.
- * Erratum examples_keeps (likely): printed: The warnings say these parameters, and about 10000 writes; the tables
- * are missing; taken: keeps: yes.
- */
-#define JUMO_CONTROLLER_SETPOINT_1_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* setpoint 1: any number; rw */
 #define JUMO_CONTROLLER_SETPOINT_1_ADDRESS 0x3100U
 #define JUMO_CONTROLLER_SETPOINT_1_WORDS 2U
-
-static inline jumo_controller_status jumo_controller_setpoint_1_check(uint32_t raw)
+FIELDSCRIBE_STATUS jumo_controller_setpoint_1_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
+static inline void jumo_controller_setpoint_1_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
+static inline uint32_t jumo_controller_setpoint_1_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[1], words[0]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS jumo_controller_setpoint_1_encode(fieldscribe_real value, uint32_t *raw)
 {
-    const int32_t order = jumo_controller_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return JUMO_CONTROLLER_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? JUMO_CONTROLLER_OK : JUMO_CONTROLLER_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_setpoint_1_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline jumo_controller_status jumo_controller_setpoint_1_encode(jumo_controller_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    jumo_controller_status status = jumo_controller_bits_of_f32(value, &pattern);
-    if (status == JUMO_CONTROLLER_OK) {
-        status = jumo_controller_setpoint_1_check(pattern);
-    }
-    if (status == JUMO_CONTROLLER_OK) {
-        *raw = pattern;
-    }
-    return status;
-}
-
-static inline jumo_controller_real jumo_controller_setpoint_1_decode(uint32_t raw)
-{
-    return jumo_controller_f32_of_bits(raw);
-}
+static inline fieldscribe_real jumo_controller_setpoint_1_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-static inline void jumo_controller_setpoint_1_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits & 0xFFFFU);
-    words[1] = (uint16_t)(bits >> 16);
-}
-
-static inline uint32_t jumo_controller_setpoint_1_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[1] << 16) | words[0];
-}
-
-/*
- * Setpoint 2
- * any number; read and write.
- * Erratum setpoint_2_address (certain): printed: The second setpoint has no address of its own; taken: 3102h.
- * Erratum setpoint_access (likely): printed: The example reads the setpoints; that they are changed over the bus is
- * said in general; taken: access: rw.
- * Erratum examples_keeps (likely): printed: The warnings say these parameters, and about 10000 writes; the tables
- * are missing; taken: keeps: yes.
- */
-#define JUMO_CONTROLLER_SETPOINT_2_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* setpoint 2: any number; rw */
 #define JUMO_CONTROLLER_SETPOINT_2_ADDRESS 0x3102U
 #define JUMO_CONTROLLER_SETPOINT_2_WORDS 2U
-
-static inline jumo_controller_status jumo_controller_setpoint_2_check(uint32_t raw)
-{
-    const int32_t order = jumo_controller_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return JUMO_CONTROLLER_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? JUMO_CONTROLLER_OK : JUMO_CONTROLLER_OUT_OF_RANGE;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline jumo_controller_status jumo_controller_setpoint_2_encode(jumo_controller_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    jumo_controller_status status = jumo_controller_bits_of_f32(value, &pattern);
-    if (status == JUMO_CONTROLLER_OK) {
-        status = jumo_controller_setpoint_2_check(pattern);
-    }
-    if (status == JUMO_CONTROLLER_OK) {
-        *raw = pattern;
-    }
-    return status;
-}
-
-static inline jumo_controller_real jumo_controller_setpoint_2_decode(uint32_t raw)
-{
-    return jumo_controller_f32_of_bits(raw);
-}
-#endif
-
+FIELDSCRIBE_STATUS jumo_controller_setpoint_2_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
 static inline void jumo_controller_setpoint_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits & 0xFFFFU);
-    words[1] = (uint16_t)(bits >> 16);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_setpoint_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[1], words[0]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS jumo_controller_setpoint_2_encode(fieldscribe_real value, uint32_t *raw)
 {
-    return ((uint32_t)words[1] << 16) | words[0];
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_setpoint_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
-
-/*
- * Pb1: Proportional band 1 set 2
- * any number; read and write.
- * Erratum pb1_access (likely): printed: The example writes the proportional band; reading is not shown; taken:
- * access: rw.
- * Erratum examples_keeps (likely): printed: The warnings say these parameters, and about 10000 writes; the tables
- * are missing; taken: keeps: yes.
- */
-#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_SPACE JUMO_CONTROLLER_SPACE_HOLDING
-#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_ADDRESS 0x3014U
-#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_CODE "Pb1"
-#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_WORDS 2U
-
-static inline jumo_controller_status jumo_controller_proportional_band_1_set_2_check(uint32_t raw)
-{
-    const int32_t order = jumo_controller_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return JUMO_CONTROLLER_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? JUMO_CONTROLLER_OK : JUMO_CONTROLLER_OUT_OF_RANGE;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline jumo_controller_status jumo_controller_proportional_band_1_set_2_encode(jumo_controller_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    jumo_controller_status status = jumo_controller_bits_of_f32(value, &pattern);
-    if (status == JUMO_CONTROLLER_OK) {
-        status = jumo_controller_proportional_band_1_set_2_check(pattern);
-    }
-    if (status == JUMO_CONTROLLER_OK) {
-        *raw = pattern;
-    }
-    return status;
-}
-
-static inline jumo_controller_real jumo_controller_proportional_band_1_set_2_decode(uint32_t raw)
-{
-    return jumo_controller_f32_of_bits(raw);
-}
+static inline fieldscribe_real jumo_controller_setpoint_2_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 #endif
 
+/* Pb1 proportional band 1 set 2: any number; rw */
+#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_ADDRESS 0x3014U
+#define JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_WORDS 2U
+FIELDSCRIBE_STATUS jumo_controller_proportional_band_1_set_2_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
 static inline void jumo_controller_proportional_band_1_set_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits & 0xFFFFU);
-    words[1] = (uint16_t)(bits >> 16);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
 static inline uint32_t jumo_controller_proportional_band_1_set_2_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[1], words[0]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS jumo_controller_proportional_band_1_set_2_encode(fieldscribe_real value, uint32_t *raw)
 {
-    return ((uint32_t)words[1] << 16) | words[0];
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_proportional_band_1_set_2_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
+static inline fieldscribe_real jumo_controller_proportional_band_1_set_2_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
+#endif
 
-/*
- * Value 0077
- * any number; write only.
- * Erratum value_0077_meaning (likely): printed: A value is written in two parts; neither its meaning nor its type is
- * printed; taken: f32.
- */
-#define JUMO_CONTROLLER_VALUE_0077_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* value 0077: any number; w */
 #define JUMO_CONTROLLER_VALUE_0077_ADDRESS 0x0077U
 #define JUMO_CONTROLLER_VALUE_0077_WORDS 2U
-
-static inline jumo_controller_status jumo_controller_value_0077_check(uint32_t raw)
+FIELDSCRIBE_STATUS jumo_controller_value_0077_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
+static inline void jumo_controller_value_0077_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
+static inline uint32_t jumo_controller_value_0077_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[1], words[0]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS jumo_controller_value_0077_encode(fieldscribe_real value, uint32_t *raw)
 {
-    const int32_t order = jumo_controller_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return JUMO_CONTROLLER_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? JUMO_CONTROLLER_OK : JUMO_CONTROLLER_OUT_OF_RANGE;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline jumo_controller_status jumo_controller_value_0077_encode(jumo_controller_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    jumo_controller_status status = jumo_controller_bits_of_f32(value, &pattern);
-    if (status == JUMO_CONTROLLER_OK) {
-        status = jumo_controller_value_0077_check(pattern);
-    }
-    if (status == JUMO_CONTROLLER_OK) {
-        *raw = pattern;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        jumo_controller_value_0077_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
 #endif
 
-static inline void jumo_controller_value_0077_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits & 0xFFFFU);
-    words[1] = (uint16_t)(bits >> 16);
-}
-
-static inline uint32_t jumo_controller_value_0077_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[1] << 16) | words[0];
-}
-
-/*
- * Value 00ce
- * any number; read only.
- * Erratum value_00ce_meaning (likely): printed: Two words are read; neither their meaning nor their type is printed;
- * taken: f32.
- */
-#define JUMO_CONTROLLER_VALUE_00CE_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* value 00ce: any number; r */
 #define JUMO_CONTROLLER_VALUE_00CE_ADDRESS 0x00CEU
 #define JUMO_CONTROLLER_VALUE_00CE_WORDS 2U
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline jumo_controller_real jumo_controller_value_00ce_decode(uint32_t raw)
-{
-    return jumo_controller_f32_of_bits(raw);
-}
+static inline void jumo_controller_value_00ce_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[1], &words[0]); }
+static inline uint32_t jumo_controller_value_00ce_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[1], words[0]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real jumo_controller_value_00ce_decode(uint32_t raw) { return fieldscribe_f32_of_bits(raw); }
 #endif
 
-static inline void jumo_controller_value_00ce_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits & 0xFFFFU);
-    words[1] = (uint16_t)(bits >> 16);
-}
+/* ---- command words (holding) ---- */
 
-static inline uint32_t jumo_controller_value_00ce_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[1] << 16) | words[0];
-}
-
-/* ---- Command words ---- */
-
-/*
- * Program controller commands
- * 0..65535; read and write.
- */
-#define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* program controller commands: 0..65535; rw */
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ADDRESS 0x006FU
-#define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_WORDS 1U
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_RAW_MIN 0
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_RAW_MAX 65535
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_HOLD_PROGRAM_MASK 0x0002U
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ABORT_PROGRAM_MASK 0x0004U
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_START_PROGRAM_MASK 0x0008U
 #define JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_CHANGE_SECTION_MASK 0x0100U
+FIELDSCRIBE_STATUS jumo_controller_program_controller_commands_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS jumo_controller_program_controller_commands_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t jumo_controller_program_controller_commands_decode(uint16_t raw) { return raw; }
 
-static inline jumo_controller_status jumo_controller_program_controller_commands_check(uint16_t raw)
-{
-    (void)raw;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline jumo_controller_status jumo_controller_program_controller_commands_encode(int32_t value, uint16_t *raw)
-{
-    if (value < JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_RAW_MIN || value > JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_RAW_MAX) {
-        return JUMO_CONTROLLER_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline int32_t jumo_controller_program_controller_commands_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Controller commands
- * 0..65535; read and write.
- * Erratum controller_commands_mask (certain): printed: The mask of bit 2 is printed as 0004, without the mark of a
- * hexadecimal number; taken: 0004h.
- */
-#define JUMO_CONTROLLER_CONTROLLER_COMMANDS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* controller commands: 0..65535; rw */
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_ADDRESS 0x0070U
-#define JUMO_CONTROLLER_CONTROLLER_COMMANDS_WORDS 1U
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_RAW_MIN 0
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_RAW_MAX 65535
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_HOLD_RAMP_MASK 0x0002U
@@ -843,98 +314,35 @@ static inline int32_t jumo_controller_program_controller_commands_decode(uint16_
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_CONTROLLER_OFF_MASK 0x0040U
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_START_SELF_OPTIMISATION_MASK 0x0080U
 #define JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_SELF_OPTIMISATION_MASK 0x2000U
+FIELDSCRIBE_STATUS jumo_controller_controller_commands_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS jumo_controller_controller_commands_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t jumo_controller_controller_commands_decode(uint16_t raw) { return raw; }
 
-static inline jumo_controller_status jumo_controller_controller_commands_check(uint16_t raw)
-{
-    (void)raw;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline jumo_controller_status jumo_controller_controller_commands_encode(int32_t value, uint16_t *raw)
-{
-    if (value < JUMO_CONTROLLER_CONTROLLER_COMMANDS_RAW_MIN || value > JUMO_CONTROLLER_CONTROLLER_COMMANDS_RAW_MAX) {
-        return JUMO_CONTROLLER_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline int32_t jumo_controller_controller_commands_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Operation commands
- * 0..65535; read and write.
- * Erratum operation_commands_mask (certain): printed: The mask of bit 4 is printed with three digits, 0x010; taken:
- * 0010h.
- */
-#define JUMO_CONTROLLER_OPERATION_COMMANDS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* operation commands: 0..65535; rw */
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_ADDRESS 0x0071U
-#define JUMO_CONTROLLER_OPERATION_COMMANDS_WORDS 1U
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_RAW_MIN 0
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_RAW_MAX 65535
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_DISPLAYS_OFF_MASK 0x0010U
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_ACKNOWLEDGE_LIMIT_COMPARATORS_MASK 0x0020U
 #define JUMO_CONTROLLER_OPERATION_COMMANDS_TEXT_DISPLAY_MASK 0x0040U
+FIELDSCRIBE_STATUS jumo_controller_operation_commands_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS jumo_controller_operation_commands_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t jumo_controller_operation_commands_decode(uint16_t raw) { return raw; }
 
-static inline jumo_controller_status jumo_controller_operation_commands_check(uint16_t raw)
-{
-    (void)raw;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline jumo_controller_status jumo_controller_operation_commands_encode(int32_t value, uint16_t *raw)
-{
-    if (value < JUMO_CONTROLLER_OPERATION_COMMANDS_RAW_MIN || value > JUMO_CONTROLLER_OPERATION_COMMANDS_RAW_MAX) {
-        return JUMO_CONTROLLER_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline int32_t jumo_controller_operation_commands_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Timer commands
- * 0..65535; read and write.
- * Erratum timer_commands_mask (certain): printed: The mask of bit 2 is printed as 0=0004; taken: 0004h.
- * Erratum timer_commands_end (unknown): printed: The list ends with holding timer 2; aborting and starting it are
- * missing, as are further timers; taken: Nothing for them.
- */
-#define JUMO_CONTROLLER_TIMER_COMMANDS_SPACE JUMO_CONTROLLER_SPACE_HOLDING
+/* timer commands: 0..65535; rw */
 #define JUMO_CONTROLLER_TIMER_COMMANDS_ADDRESS 0x0072U
-#define JUMO_CONTROLLER_TIMER_COMMANDS_WORDS 1U
 #define JUMO_CONTROLLER_TIMER_COMMANDS_RAW_MIN 0
 #define JUMO_CONTROLLER_TIMER_COMMANDS_RAW_MAX 65535
 #define JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_1_MASK 0x0002U
 #define JUMO_CONTROLLER_TIMER_COMMANDS_ABORT_TIMER_1_MASK 0x0004U
 #define JUMO_CONTROLLER_TIMER_COMMANDS_START_TIMER_1_MASK 0x0008U
 #define JUMO_CONTROLLER_TIMER_COMMANDS_HOLD_TIMER_2_MASK 0x0200U
-
-static inline jumo_controller_status jumo_controller_timer_commands_check(uint16_t raw)
-{
-    (void)raw;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline jumo_controller_status jumo_controller_timer_commands_encode(int32_t value, uint16_t *raw)
-{
-    if (value < JUMO_CONTROLLER_TIMER_COMMANDS_RAW_MIN || value > JUMO_CONTROLLER_TIMER_COMMANDS_RAW_MAX) {
-        return JUMO_CONTROLLER_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return JUMO_CONTROLLER_OK;
-}
-
-static inline int32_t jumo_controller_timer_commands_decode(uint16_t raw)
-{
-    return raw;
-}
+FIELDSCRIBE_STATUS jumo_controller_timer_commands_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS jumo_controller_timer_commands_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t jumo_controller_timer_commands_decode(uint16_t raw) { return raw; }
 
 #ifdef __cplusplus
 }

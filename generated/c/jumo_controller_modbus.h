@@ -5,8 +5,8 @@
  *
  * JUMO Controller with MOD-Bus: Modbus requests.
  *
- * A request is a small struct that refers to the words to write; fieldscribe_modbus_build makes the frame of it in a
- * buffer of the caller, fieldscribe_modbus_parse reads the answer.
+ * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
+ * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  */
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
@@ -14,7 +14,7 @@
 #include "jumo_controller.h"
 #include "fieldscribe_modbus.h"
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 1
+#if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -52,7 +52,7 @@ enum {
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
 #define JUMO_CONTROLLER_PROCESS_DATA_BLOCKS_COUNT 6U
-static const fieldscribe_modbus_block jumo_controller_process_data_blocks[] = {
+static const fieldscribe_modbus_reading jumo_controller_process_data_blocks[] = {
     {0x03U, 0x001FU, 3U},
     {0x03U, 0x0023U, 1U},
     {0x03U, 0x0025U, 3U},
@@ -62,187 +62,78 @@ static const fieldscribe_modbus_block jumo_controller_process_data_blocks[] = {
 };
 
 #define JUMO_CONTROLLER_EXAMPLES_BLOCKS_COUNT 3U
-static const fieldscribe_modbus_block jumo_controller_examples_blocks[] = {
+static const fieldscribe_modbus_reading jumo_controller_examples_blocks[] = {
     {0x03U, 0x00CEU, 2U},
     {0x03U, 0x3014U, 2U},
     {0x03U, 0x3100U, 4U}
 };
 
 #define JUMO_CONTROLLER_COMMAND_WORDS_BLOCKS_COUNT 1U
-static const fieldscribe_modbus_block jumo_controller_command_words_blocks[] = {
+static const fieldscribe_modbus_reading jumo_controller_command_words_blocks[] = {
     {0x03U, 0x006FU, 4U}
 };
 
-/* ---- Requests of the points ---- */
+/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
-static inline fieldscribe_modbus_request jumo_controller_program_status_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_PROGRAM_STATUS_ADDRESS, JUMO_CONTROLLER_PROGRAM_STATUS_WORDS);
-}
+static const fieldscribe_layout jumo_controller_layout_u16 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
+static const fieldscribe_layout jumo_controller_layout_u16_fixed_8000_8000 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x8000U, 0x8000U};
+static const fieldscribe_layout jumo_controller_layout_u32_order_01 =
+    {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
+static const fieldscribe_layout jumo_controller_layout_u32_order_10 =
+    {FIELDSCRIBE_U32, 2U, 0x10U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
 
-static inline fieldscribe_modbus_request jumo_controller_controller_status_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_CONTROLLER_STATUS_ADDRESS, JUMO_CONTROLLER_CONTROLLER_STATUS_WORDS);
-}
+/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
 
-static inline fieldscribe_modbus_request jumo_controller_binary_outputs_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_BINARY_OUTPUTS_ADDRESS, JUMO_CONTROLLER_BINARY_OUTPUTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_binary_inputs_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_BINARY_INPUTS_ADDRESS, JUMO_CONTROLLER_BINARY_INPUTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_control_contacts_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_CONTROL_CONTACTS_ADDRESS, JUMO_CONTROLLER_CONTROL_CONTACTS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_binary_signals_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_BINARY_SIGNALS_ADDRESS, JUMO_CONTROLLER_BINARY_SIGNALS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_binary_output_control_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_ADDRESS, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_binary_output_control_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)(((uint32_t)raw & ~(uint32_t)JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_MASK) | JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_FIXED_BITS);
-    return fieldscribe_modbus_write(unit, 0x06U, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_ADDRESS, JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_program_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_PROGRAM_RUN_TIME_ADDRESS, JUMO_CONTROLLER_PROGRAM_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_program_remaining_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_ADDRESS, JUMO_CONTROLLER_PROGRAM_REMAINING_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_section_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_SECTION_RUN_TIME_ADDRESS, JUMO_CONTROLLER_SECTION_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_section_remaining_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_SECTION_REMAINING_TIME_ADDRESS, JUMO_CONTROLLER_SECTION_REMAINING_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_1_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_TIMER_1_RUN_TIME_ADDRESS, JUMO_CONTROLLER_TIMER_1_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_2_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_TIMER_2_RUN_TIME_ADDRESS, JUMO_CONTROLLER_TIMER_2_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_3_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_TIMER_3_RUN_TIME_ADDRESS, JUMO_CONTROLLER_TIMER_3_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_4_run_time_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_TIMER_4_RUN_TIME_ADDRESS, JUMO_CONTROLLER_TIMER_4_RUN_TIME_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_setpoint_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_SETPOINT_1_ADDRESS, JUMO_CONTROLLER_SETPOINT_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_setpoint_1_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    jumo_controller_setpoint_1_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, JUMO_CONTROLLER_SETPOINT_1_ADDRESS, JUMO_CONTROLLER_SETPOINT_1_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_setpoint_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_SETPOINT_2_ADDRESS, JUMO_CONTROLLER_SETPOINT_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_setpoint_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    jumo_controller_setpoint_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, JUMO_CONTROLLER_SETPOINT_2_ADDRESS, JUMO_CONTROLLER_SETPOINT_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_proportional_band_1_set_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_ADDRESS, JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_proportional_band_1_set_2_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    jumo_controller_proportional_band_1_set_2_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_ADDRESS, JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_value_0077_write_request(uint8_t unit, uint32_t raw, uint16_t words[2])
-{
-    jumo_controller_value_0077_to_words(raw, words);
-    return fieldscribe_modbus_write(unit, 0x10U, JUMO_CONTROLLER_VALUE_0077_ADDRESS, JUMO_CONTROLLER_VALUE_0077_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_value_00ce_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_VALUE_00CE_ADDRESS, JUMO_CONTROLLER_VALUE_00CE_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_program_controller_commands_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ADDRESS, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_program_controller_commands_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_ADDRESS, JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_controller_commands_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_CONTROLLER_COMMANDS_ADDRESS, JUMO_CONTROLLER_CONTROLLER_COMMANDS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_controller_commands_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, JUMO_CONTROLLER_CONTROLLER_COMMANDS_ADDRESS, JUMO_CONTROLLER_CONTROLLER_COMMANDS_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_operation_commands_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_OPERATION_COMMANDS_ADDRESS, JUMO_CONTROLLER_OPERATION_COMMANDS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_operation_commands_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, JUMO_CONTROLLER_OPERATION_COMMANDS_ADDRESS, JUMO_CONTROLLER_OPERATION_COMMANDS_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_commands_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, JUMO_CONTROLLER_TIMER_COMMANDS_ADDRESS, JUMO_CONTROLLER_TIMER_COMMANDS_WORDS);
-}
-
-static inline fieldscribe_modbus_request jumo_controller_timer_commands_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, JUMO_CONTROLLER_TIMER_COMMANDS_ADDRESS, JUMO_CONTROLLER_TIMER_COMMANDS_WORDS, words);
-}
+static const fieldscribe_modbus_r jumo_controller_program_status_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x001FU, 1U}};
+static const fieldscribe_modbus_r jumo_controller_controller_status_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0020U, 1U}};
+static const fieldscribe_modbus_r jumo_controller_binary_outputs_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0021U, 1U}};
+static const fieldscribe_modbus_r jumo_controller_binary_inputs_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0023U, 1U}};
+static const fieldscribe_modbus_r jumo_controller_control_contacts_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0025U, 1U}};
+static const fieldscribe_modbus_r jumo_controller_binary_signals_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0026U, 1U}};
+static const fieldscribe_modbus_rw jumo_controller_binary_output_control_frame =
+    {&jumo_controller_layout_u16_fixed_8000_8000, {0x03U, 0x0027U, 1U}, {0x06U, 0x0027U, 1U}};
+static const fieldscribe_modbus_r jumo_controller_program_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x005BU, 2U}};
+static const fieldscribe_modbus_r jumo_controller_program_remaining_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x005DU, 2U}};
+static const fieldscribe_modbus_r jumo_controller_section_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0061U, 2U}};
+static const fieldscribe_modbus_r jumo_controller_section_remaining_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0063U, 2U}};
+static const fieldscribe_modbus_r jumo_controller_timer_1_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0067U, 2U}};
+static const fieldscribe_modbus_r jumo_controller_timer_2_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0069U, 2U}};
+static const fieldscribe_modbus_r jumo_controller_timer_3_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x006BU, 2U}};
+static const fieldscribe_modbus_r jumo_controller_timer_4_run_time_frame =
+    {&jumo_controller_layout_u32_order_01, {0x03U, 0x006DU, 2U}};
+static const fieldscribe_modbus_rw jumo_controller_setpoint_1_frame =
+    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3100U, 2U}, {0x10U, 0x3100U, 2U}};
+static const fieldscribe_modbus_rw jumo_controller_setpoint_2_frame =
+    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3102U, 2U}, {0x10U, 0x3102U, 2U}};
+static const fieldscribe_modbus_rw jumo_controller_proportional_band_1_set_2_frame =
+    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3014U, 2U}, {0x10U, 0x3014U, 2U}};
+static const fieldscribe_modbus_w jumo_controller_value_0077_frame =
+    {&jumo_controller_layout_u32_order_10, {0x10U, 0x0077U, 2U}};
+static const fieldscribe_modbus_r jumo_controller_value_00ce_frame =
+    {&jumo_controller_layout_u32_order_10, {0x03U, 0x00CEU, 2U}};
+static const fieldscribe_modbus_rw jumo_controller_program_controller_commands_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x006FU, 1U}, {0x06U, 0x006FU, 1U}};
+static const fieldscribe_modbus_rw jumo_controller_controller_commands_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0070U, 1U}, {0x06U, 0x0070U, 1U}};
+static const fieldscribe_modbus_rw jumo_controller_operation_commands_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0071U, 1U}, {0x06U, 0x0071U, 1U}};
+static const fieldscribe_modbus_rw jumo_controller_timer_commands_frame =
+    {&jumo_controller_layout_u16, {0x03U, 0x0072U, 1U}, {0x06U, 0x0072U, 1U}};
 
 #ifdef __cplusplus
 }

@@ -8,21 +8,15 @@
  * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
  * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
  * and writes its result only when it returns NORD_SK5XXE_OK. Decoding takes whatever the device may send.
- *
- * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
- * FIELDSCRIBE_FLOAT32 makes nord_sk5xxe_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: the results are exact to the bit without them.
+ * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
  */
 #ifndef NORD_SK5XXE_H
 #define NORD_SK5XXE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "fieldscribe.h"
 
-#if !defined(FIELDSCRIBE_NO_FLOAT) && \
-    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#if FIELDSCRIBE_INTERFACE != 1
+#error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 
 #define NORD_SK5XXE_DESCRIPTION_VERSION "1.0.0"
@@ -32,50 +26,27 @@
 extern "C" {
 #endif
 
-/* What conversions answer. */
-typedef enum nord_sk5xxe_status {
-    NORD_SK5XXE_OK = 0,
-    NORD_SK5XXE_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
-    NORD_SK5XXE_NOT_A_NUMBER,  /* the value is NaN */
-    NORD_SK5XXE_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    NORD_SK5XXE_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    NORD_SK5XXE_NO_CASE,       /* no scale for what the other point holds */
-    NORD_SK5XXE_OVERFLOW,      /* the result does not fit */
-    NORD_SK5XXE_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
-} nord_sk5xxe_status;
+typedef fieldscribe_status nord_sk5xxe_status;
+#if !defined(FIELDSCRIBE_NO_FLOAT)
+typedef fieldscribe_real nord_sk5xxe_real;
+#endif
+#define NORD_SK5XXE_OK FIELDSCRIBE_OK
+#define NORD_SK5XXE_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
+#define NORD_SK5XXE_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
+#define NORD_SK5XXE_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
+#define NORD_SK5XXE_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
+#define NORD_SK5XXE_NO_CASE FIELDSCRIBE_NO_CASE
+#define NORD_SK5XXE_OVERFLOW FIELDSCRIBE_OVERFLOW
+#define NORD_SK5XXE_SPECIAL FIELDSCRIBE_SPECIAL
 
-/* Where an address counts. */
-enum {
-    NORD_SK5XXE_SPACE_HOLDING = 0
-};
 
-/* ---- Process data ---- */
+/* ---- process data (holding) ---- */
 
 /*
- * P050[1]: Control word
- * 0..65535; read and write.
- * Bit 1 (inhibit_voltage) is true when it is 0.
- * Bit 2 (quick_stop) is true when it is 0.
- * Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- * Erratum control_word_set_01 (certain): printed: The rows of bits 14 and 15 explain 00, 10 and 11; 01 is missing;
- * taken: 01 is parameter set 2.
- * Erratum control_word_acknowledge_row (certain): printed: The remark on the change from 0 to 1 stands in the row of
- * value 0; taken: It belongs to value 1.
- * Erratum control_word_function_480 (likely): printed: The bit starts function 480, 11, with a comma; the status
- * word writes such functions with a point; taken: Indices 11 and 12 of P480, 9 and 10 of P481.
- * Erratum control_word_direction (likely): printed: The footnote says that clockwise holds while bit 12 is 0; the
- * row of clockwise gives it priority; taken: Both: counter-clockwise needs bit 12 set and bit 11 clear.
+ * P050[1] control word: 0..65535; rw; exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back
  */
-#define NORD_SK5XXE_CONTROL_WORD_SPACE NORD_SK5XXE_SPACE_HOLDING
 #define NORD_SK5XXE_CONTROL_WORD_ADDRESS 0x0C80U
 #define NORD_SK5XXE_CONTROL_WORD_INDEX 1U
-#define NORD_SK5XXE_CONTROL_WORD_CODE "P050[1]"
-#define NORD_SK5XXE_CONTROL_WORD_WORDS 1U
 #define NORD_SK5XXE_CONTROL_WORD_RAW_MIN 0
 #define NORD_SK5XXE_CONTROL_WORD_RAW_MAX 65535
 #define NORD_SK5XXE_CONTROL_WORD_ACTIVE_LOW_MASK 0x0006U
@@ -99,245 +70,66 @@ enum {
 #define NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_2 1U
 #define NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_3 2U
 #define NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_4 3U
-
-static inline nord_sk5xxe_status nord_sk5xxe_control_word_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_control_word_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_CONTROL_WORD_RAW_MIN || value > NORD_SK5XXE_CONTROL_WORD_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_control_word_decode(uint16_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS nord_sk5xxe_control_word_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_control_word_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_control_word_decode(uint16_t raw) { return raw; }
 static inline uint16_t nord_sk5xxe_control_word_parameter_set(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_MASK) >> NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 
-/*
- * P050[2]: Setpoint 1
- * 0..65535; read and write.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum setpoint_scale (unknown): printed: 8000 is about 50 % of the maximum frequency, about 25 Hz; taken: The
- * raw word, without a scale and without a sign.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- */
-#define NORD_SK5XXE_SETPOINT_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P050[2] setpoint 1: 0..65535; rw */
 #define NORD_SK5XXE_SETPOINT_1_ADDRESS 0x0C81U
 #define NORD_SK5XXE_SETPOINT_1_INDEX 2U
-#define NORD_SK5XXE_SETPOINT_1_CODE "P050[2]"
-#define NORD_SK5XXE_SETPOINT_1_WORDS 1U
 #define NORD_SK5XXE_SETPOINT_1_RAW_MIN 0
 #define NORD_SK5XXE_SETPOINT_1_RAW_MAX 65535
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_1_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_1_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_setpoint_1_decode(uint16_t raw) { return raw; }
 
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_1_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_1_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_SETPOINT_1_RAW_MIN || value > NORD_SK5XXE_SETPOINT_1_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_setpoint_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P050[3]: Setpoint 2
- * 0..65535; read and write.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum setpoint_scale (unknown): printed: 8000 is about 50 % of the maximum frequency, about 25 Hz; taken: The
- * raw word, without a scale and without a sign.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- */
-#define NORD_SK5XXE_SETPOINT_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P050[3] setpoint 2: 0..65535; rw */
 #define NORD_SK5XXE_SETPOINT_2_ADDRESS 0x0C82U
 #define NORD_SK5XXE_SETPOINT_2_INDEX 3U
-#define NORD_SK5XXE_SETPOINT_2_CODE "P050[3]"
-#define NORD_SK5XXE_SETPOINT_2_WORDS 1U
 #define NORD_SK5XXE_SETPOINT_2_RAW_MIN 0
 #define NORD_SK5XXE_SETPOINT_2_RAW_MAX 65535
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_2_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_setpoint_2_decode(uint16_t raw) { return raw; }
 
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_2_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_SETPOINT_2_RAW_MIN || value > NORD_SK5XXE_SETPOINT_2_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_setpoint_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P050[4]: Setpoint 3
- * 0..65535; read and write.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum setpoint_scale (unknown): printed: 8000 is about 50 % of the maximum frequency, about 25 Hz; taken: The
- * raw word, without a scale and without a sign.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- */
-#define NORD_SK5XXE_SETPOINT_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P050[4] setpoint 3: 0..65535; rw */
 #define NORD_SK5XXE_SETPOINT_3_ADDRESS 0x0C83U
 #define NORD_SK5XXE_SETPOINT_3_INDEX 4U
-#define NORD_SK5XXE_SETPOINT_3_CODE "P050[4]"
-#define NORD_SK5XXE_SETPOINT_3_WORDS 1U
 #define NORD_SK5XXE_SETPOINT_3_RAW_MIN 0
 #define NORD_SK5XXE_SETPOINT_3_RAW_MAX 65535
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_3_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_3_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_setpoint_3_decode(uint16_t raw) { return raw; }
 
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_3_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_3_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_SETPOINT_3_RAW_MIN || value > NORD_SK5XXE_SETPOINT_3_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_setpoint_3_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P050[5]: Setpoint 4
- * 0..65535; read and write.
- * Erratum setpoint_scale (unknown): printed: 8000 is about 50 % of the maximum frequency, about 25 Hz; taken: The
- * raw word, without a scale and without a sign.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- */
-#define NORD_SK5XXE_SETPOINT_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P050[5] setpoint 4: 0..65535; rw */
 #define NORD_SK5XXE_SETPOINT_4_ADDRESS 0x0C84U
 #define NORD_SK5XXE_SETPOINT_4_INDEX 5U
-#define NORD_SK5XXE_SETPOINT_4_CODE "P050[5]"
-#define NORD_SK5XXE_SETPOINT_4_WORDS 1U
 #define NORD_SK5XXE_SETPOINT_4_RAW_MIN 0
 #define NORD_SK5XXE_SETPOINT_4_RAW_MAX 65535
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_4_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_4_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_setpoint_4_decode(uint16_t raw) { return raw; }
 
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_4_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_4_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_SETPOINT_4_RAW_MIN || value > NORD_SK5XXE_SETPOINT_4_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_setpoint_4_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P050[6]: Setpoint 5
- * 0..65535; read and write.
- * Erratum setpoint_scale (unknown): printed: 8000 is about 50 % of the maximum frequency, about 25 Hz; taken: The
- * raw word, without a scale and without a sign.
- * Erratum process_data_access (likely): printed: Process data are read or written; reading a setpoint or writing an
- * actual value is not shown; taken: rw for control word and setpoints, r for status word and actual values.
- */
-#define NORD_SK5XXE_SETPOINT_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P050[6] setpoint 5: 0..65535; rw */
 #define NORD_SK5XXE_SETPOINT_5_ADDRESS 0x0C85U
 #define NORD_SK5XXE_SETPOINT_5_INDEX 6U
-#define NORD_SK5XXE_SETPOINT_5_CODE "P050[6]"
-#define NORD_SK5XXE_SETPOINT_5_WORDS 1U
 #define NORD_SK5XXE_SETPOINT_5_RAW_MIN 0
 #define NORD_SK5XXE_SETPOINT_5_RAW_MAX 65535
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_5_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS nord_sk5xxe_setpoint_5_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t nord_sk5xxe_setpoint_5_decode(uint16_t raw) { return raw; }
 
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_5_check(uint16_t raw)
-{
-    (void)raw;
-    return NORD_SK5XXE_OK;
-}
-
-static inline nord_sk5xxe_status nord_sk5xxe_setpoint_5_encode(int32_t value, uint16_t *raw)
-{
-    if (value < NORD_SK5XXE_SETPOINT_5_RAW_MIN || value > NORD_SK5XXE_SETPOINT_5_RAW_MAX) {
-        return NORD_SK5XXE_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return NORD_SK5XXE_OK;
-}
-
-static inline int32_t nord_sk5xxe_setpoint_5_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P051[1]: Status word
- * 0..65535; read only.
- * Bit 5 (quick_stop) is true when it is 0.
- * Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum status_word_direction (certain): printed: The status word is said to be sent to the inverter; taken: The
- * inverter sends it: access r.
- * Erratum status_word_function_481 (likely): printed: A bit of the status word is said to start a function; taken:
- * The bit reports that the function is active.
- * Erratum status_word_other_types (certain): printed: Bits 10 and 13 have a second meaning in SK 300E, 7x0E and
- * 7x5E; taken: The meaning that is printed for SK 5xxE.
- * Erratum status_word_bus_control (unknown): printed: The bit is named bus control active, and its remark says that
- * the master is asked to take control; taken: Both texts.
- */
-#define NORD_SK5XXE_STATUS_WORD_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[1] status word: 0..65535; r; exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back */
 #define NORD_SK5XXE_STATUS_WORD_ADDRESS 0x0CC0U
 #define NORD_SK5XXE_STATUS_WORD_INDEX 1U
-#define NORD_SK5XXE_STATUS_WORD_CODE "P051[1]"
-#define NORD_SK5XXE_STATUS_WORD_WORDS 1U
-#define NORD_SK5XXE_STATUS_WORD_RAW_MIN 0
-#define NORD_SK5XXE_STATUS_WORD_RAW_MAX 65535
 #define NORD_SK5XXE_STATUS_WORD_ACTIVE_LOW_MASK 0x0020U
 #define NORD_SK5XXE_STATUS_WORD_READY_TO_SWITCH_ON_MASK 0x0001U
 #define NORD_SK5XXE_STATUS_WORD_READY_TO_RUN_MASK 0x0002U
@@ -359,727 +151,245 @@ static inline int32_t nord_sk5xxe_setpoint_5_decode(uint16_t raw)
 #define NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_2 1U
 #define NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_3 2U
 #define NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_4 3U
-
-static inline int32_t nord_sk5xxe_status_word_decode(uint16_t raw)
-{
-    return raw;
-}
-
+static inline int32_t nord_sk5xxe_status_word_decode(uint16_t raw) { return raw; }
 static inline uint16_t nord_sk5xxe_status_word_parameter_set(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_MASK) >> NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 
-/*
- * P051[2]: Actual value 1
- * 0..65535; read only.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum actual_value_scale (unknown): printed: Actual values are printed as hexadecimal words, without a unit;
- * taken: The raw word, without a scale and without a sign.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[2] actual value 1: 0..65535; r */
 #define NORD_SK5XXE_ACTUAL_VALUE_1_ADDRESS 0x0CC1U
 #define NORD_SK5XXE_ACTUAL_VALUE_1_INDEX 2U
-#define NORD_SK5XXE_ACTUAL_VALUE_1_CODE "P051[2]"
-#define NORD_SK5XXE_ACTUAL_VALUE_1_WORDS 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_1_RAW_MIN 0
-#define NORD_SK5XXE_ACTUAL_VALUE_1_RAW_MAX 65535
+static inline int32_t nord_sk5xxe_actual_value_1_decode(uint16_t raw) { return raw; }
 
-static inline int32_t nord_sk5xxe_actual_value_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P051[3]: Actual value 2
- * 0..65535; read only.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum actual_value_scale (unknown): printed: Actual values are printed as hexadecimal words, without a unit;
- * taken: The raw word, without a scale and without a sign.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[3] actual value 2: 0..65535; r */
 #define NORD_SK5XXE_ACTUAL_VALUE_2_ADDRESS 0x0CC2U
 #define NORD_SK5XXE_ACTUAL_VALUE_2_INDEX 3U
-#define NORD_SK5XXE_ACTUAL_VALUE_2_CODE "P051[3]"
-#define NORD_SK5XXE_ACTUAL_VALUE_2_WORDS 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_2_RAW_MIN 0
-#define NORD_SK5XXE_ACTUAL_VALUE_2_RAW_MAX 65535
+static inline int32_t nord_sk5xxe_actual_value_2_decode(uint16_t raw) { return raw; }
 
-static inline int32_t nord_sk5xxe_actual_value_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P051[4]: Actual value 3
- * 0..65535; read only.
- * Erratum process_data_index_base (certain): printed: Setpoints 1 to 3 are called P050[1] to P050[3]; the example
- * above counts status word and actual values of P051 from zero; taken: Indices from 1: P050[1] is the control word,
- * P050[2] to P050[4] are the setpoints 1 to 3, P051[1] is the status word.
- * Erratum actual_value_scale (unknown): printed: Actual values are printed as hexadecimal words, without a unit;
- * taken: The raw word, without a scale and without a sign.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[4] actual value 3: 0..65535; r */
 #define NORD_SK5XXE_ACTUAL_VALUE_3_ADDRESS 0x0CC3U
 #define NORD_SK5XXE_ACTUAL_VALUE_3_INDEX 4U
-#define NORD_SK5XXE_ACTUAL_VALUE_3_CODE "P051[4]"
-#define NORD_SK5XXE_ACTUAL_VALUE_3_WORDS 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_3_RAW_MIN 0
-#define NORD_SK5XXE_ACTUAL_VALUE_3_RAW_MAX 65535
+static inline int32_t nord_sk5xxe_actual_value_3_decode(uint16_t raw) { return raw; }
 
-static inline int32_t nord_sk5xxe_actual_value_3_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P051[5]: Actual value 4
- * 0..65535; read only.
- * Erratum actual_value_scale (unknown): printed: Actual values are printed as hexadecimal words, without a unit;
- * taken: The raw word, without a scale and without a sign.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[5] actual value 4: 0..65535; r */
 #define NORD_SK5XXE_ACTUAL_VALUE_4_ADDRESS 0x0CC4U
 #define NORD_SK5XXE_ACTUAL_VALUE_4_INDEX 5U
-#define NORD_SK5XXE_ACTUAL_VALUE_4_CODE "P051[5]"
-#define NORD_SK5XXE_ACTUAL_VALUE_4_WORDS 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_4_RAW_MIN 0
-#define NORD_SK5XXE_ACTUAL_VALUE_4_RAW_MAX 65535
+static inline int32_t nord_sk5xxe_actual_value_4_decode(uint16_t raw) { return raw; }
 
-static inline int32_t nord_sk5xxe_actual_value_4_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P051[6]: Actual value 5
- * 0..65535; read only.
- * Erratum actual_value_scale (unknown): printed: Actual values are printed as hexadecimal words, without a unit;
- * taken: The raw word, without a scale and without a sign.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P051[6] actual value 5: 0..65535; r */
 #define NORD_SK5XXE_ACTUAL_VALUE_5_ADDRESS 0x0CC5U
 #define NORD_SK5XXE_ACTUAL_VALUE_5_INDEX 6U
-#define NORD_SK5XXE_ACTUAL_VALUE_5_CODE "P051[6]"
-#define NORD_SK5XXE_ACTUAL_VALUE_5_WORDS 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_5_RAW_MIN 0
-#define NORD_SK5XXE_ACTUAL_VALUE_5_RAW_MAX 65535
+static inline int32_t nord_sk5xxe_actual_value_5_decode(uint16_t raw) { return raw; }
 
-static inline int32_t nord_sk5xxe_actual_value_5_decode(uint16_t raw)
-{
-    return raw;
-}
+/* ---- parameters (holding) ---- */
 
-/* ---- Parameters ---- */
-
-/*
- * P102: P102 set 1
- * read and write.
- * Erratum p102_title (likely): printed: P102 has no title; taken: Acceleration time.
- * Not generated (p102_set_1): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P102_SET_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P102 p102 set 1: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P102_SET_1_ADDRESS 0x1980U
-#define NORD_SK5XXE_P102_SET_1_CODE "P102"
 #define NORD_SK5XXE_P102_SET_1_WORDS 1U
 
-/*
- * P102: P102 set 2
- * read and write.
- * Erratum p102_title (likely): printed: P102 has no title; taken: Acceleration time.
- * Not generated (p102_set_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P102_SET_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P102 p102 set 2: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P102_SET_2_ADDRESS 0x1981U
-#define NORD_SK5XXE_P102_SET_2_CODE "P102"
 #define NORD_SK5XXE_P102_SET_2_WORDS 1U
 
-/*
- * P102: P102 set 3
- * read and write.
- * Erratum p102_title (likely): printed: P102 has no title; taken: Acceleration time.
- * Not generated (p102_set_3): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P102_SET_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P102 p102 set 3: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P102_SET_3_ADDRESS 0x1982U
-#define NORD_SK5XXE_P102_SET_3_CODE "P102"
 #define NORD_SK5XXE_P102_SET_3_WORDS 1U
 
-/*
- * P102: P102 set 4
- * read and write.
- * Erratum p102_title (likely): printed: P102 has no title; taken: Acceleration time.
- * Not generated (p102_set_4): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P102_SET_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P102 p102 set 4: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P102_SET_4_ADDRESS 0x1983U
-#define NORD_SK5XXE_P102_SET_4_CODE "P102"
 #define NORD_SK5XXE_P102_SET_4_WORDS 1U
 
-/*
- * P103: Maximum frequency
- * read and write.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Erratum p103_title (unknown): printed: P103 is called the maximum frequency; taken: As printed, documented only.
- * Not generated (maximum_frequency): the manual does not settle its type.
- */
-#define NORD_SK5XXE_MAXIMUM_FREQUENCY_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P103 maximum frequency: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_MAXIMUM_FREQUENCY_ADDRESS 0x19C0U
-#define NORD_SK5XXE_MAXIMUM_FREQUENCY_CODE "P103"
 #define NORD_SK5XXE_MAXIMUM_FREQUENCY_WORDS 1U
 
-/*
- * P480[11]: Bus bit 8 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (bus_bit_8_function): the manual prints no address.
- */
+/* P480[11] bus bit 8 function: rw; not generated: the manual prints no address */
 
-/*
- * P480[12]: Bus bit 9 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (bus_bit_9_function): the manual prints no address.
- */
+/* P480[12] bus bit 9 function: rw; not generated: the manual prints no address */
 
-/*
- * P481[9]: Bus bit 10 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (bus_bit_10_function): the manual prints no address.
- */
+/* P481[9] bus bit 10 function: rw; not generated: the manual prints no address */
 
-/*
- * P481[10]: Bus bit 13 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (bus_bit_13_function): the manual prints no address.
- */
+/* P481[10] bus bit 13 function: rw; not generated: the manual prints no address */
 
-/*
- * P502: P502
- * read and write.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Not generated (p502): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P502_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P502 p502: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P502_ADDRESS 0x7D80U
-#define NORD_SK5XXE_P502_CODE "P502"
 #define NORD_SK5XXE_P502_WORDS 1U
 
-/*
- * P509: Control word source
- * read and write.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Not generated (control_word_source): the manual does not settle its type.
- */
-#define NORD_SK5XXE_CONTROL_WORD_SOURCE_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P509 control word source: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_CONTROL_WORD_SOURCE_ADDRESS 0x7F40U
-#define NORD_SK5XXE_CONTROL_WORD_SOURCE_CODE "P509"
 #define NORD_SK5XXE_CONTROL_WORD_SOURCE_WORDS 1U
 
-/*
- * P511: Uss baud rate
- * read and write.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Not generated (uss_baud_rate): the manual does not settle its type.
- */
-#define NORD_SK5XXE_USS_BAUD_RATE_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P511 uss baud rate: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_USS_BAUD_RATE_ADDRESS 0x7FC0U
-#define NORD_SK5XXE_USS_BAUD_RATE_CODE "P511"
 #define NORD_SK5XXE_USS_BAUD_RATE_WORDS 1U
 
-/*
- * P512: Uss address
- * read and write; default 0.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Erratum p512_default (likely): printed: 0 is the factory setting and at the same time reserved; taken: default: 0;
- * it must be changed before Modbus is used.
- * Not generated (uss_address): the manual does not settle its type.
- */
-#define NORD_SK5XXE_USS_ADDRESS_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P512 uss address: rw; default 0; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_USS_ADDRESS_ADDRESS 0x8000U
-#define NORD_SK5XXE_USS_ADDRESS_CODE "P512"
 #define NORD_SK5XXE_USS_ADDRESS_WORDS 1U
 
-/*
- * P513[2]: P513 index 2
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (p513_index_2): the manual prints no address.
- */
+/* P513[2] p513 index 2: rw; not generated: the manual prints no address */
 
-/*
- * P543: Actual value source set 1 index 1
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_1_index_1): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 1 index 1: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_1_ADDRESS 0x87C0U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_1_INDEX 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_1_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_1_WORDS 1U
 
-/*
- * P543: Actual value source set 1 index 2
- * read and write.
- * Erratum p543_example_6_set (certain): printed: The array index 4 is derived from parameter set 2; taken: Parameter
- * set 1 and index 2.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_1_index_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 1 index 2: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_2_ADDRESS 0x87C4U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_2_INDEX 2U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_2_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_2_WORDS 1U
 
-/*
- * P543: Actual value source set 1 index 3
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_1_index_3): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 1 index 3: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_3_ADDRESS 0x87C8U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_3_INDEX 3U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_3_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_3_WORDS 1U
 
-/*
- * P543: Actual value source set 1 index 4
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_1_index_4): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 1 index 4: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_4_ADDRESS 0x87CCU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_4_INDEX 4U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_4_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_4_WORDS 1U
 
-/*
- * P543: Actual value source set 1 index 5
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_1_index_5): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 1 index 5: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_5_ADDRESS 0x87D0U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_5_INDEX 5U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_5_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_1_INDEX_5_WORDS 1U
 
 /*
- * P543: Actual value source set 2 index 1
- * read and write.
- * Erratum p543_set_2_binary (certain): printed: wire 0b100001111100001; taken: wire 0b1000011111000001.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_2_index_1): the manual does not settle its type.
+ * P543 actual value source set 2 index 1: rw; erratum p543_set_2_binary; not generated: the manual does not settle its
+ * type
  */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_1_SPACE NORD_SK5XXE_SPACE_HOLDING
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_1_ADDRESS 0x87C1U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_1_INDEX 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_1_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_1_WORDS 1U
 
-/*
- * P543: Actual value source set 2 index 2
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_2_index_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 2 index 2: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_2_ADDRESS 0x87C5U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_2_INDEX 2U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_2_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_2_WORDS 1U
 
-/*
- * P543: Actual value source set 2 index 3
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_2_index_3): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 2 index 3: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_3_ADDRESS 0x87C9U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_3_INDEX 3U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_3_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_3_WORDS 1U
 
-/*
- * P543: Actual value source set 2 index 4
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_2_index_4): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 2 index 4: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_4_ADDRESS 0x87CDU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_4_INDEX 4U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_4_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_4_WORDS 1U
 
-/*
- * P543: Actual value source set 2 index 5
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_2_index_5): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 2 index 5: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_5_ADDRESS 0x87D1U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_5_INDEX 5U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_5_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_2_INDEX_5_WORDS 1U
 
-/*
- * P543: Actual value source set 3 index 1
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_3_index_1): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 3 index 1: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_1_ADDRESS 0x87C2U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_1_INDEX 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_1_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_1_WORDS 1U
 
-/*
- * P543: Actual value source set 3 index 2
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_3_index_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 3 index 2: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_2_ADDRESS 0x87C6U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_2_INDEX 2U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_2_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_2_WORDS 1U
 
-/*
- * P543: Actual value source set 3 index 3
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_3_index_3): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 3 index 3: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_3_ADDRESS 0x87CAU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_3_INDEX 3U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_3_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_3_WORDS 1U
 
-/*
- * P543: Actual value source set 3 index 4
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_3_index_4): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 3 index 4: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_4_ADDRESS 0x87CEU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_4_INDEX 4U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_4_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_4_WORDS 1U
 
-/*
- * P543: Actual value source set 3 index 5
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_3_index_5): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 3 index 5: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_5_ADDRESS 0x87D2U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_5_INDEX 5U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_5_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_3_INDEX_5_WORDS 1U
 
 /*
- * P543: Actual value source set 4 index 1
- * read and write.
- * Erratum p543_set_4_binary (certain): printed: wire 0b100001111100011; taken: wire 0b1000011111000011.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_4_index_1): the manual does not settle its type.
+ * P543 actual value source set 4 index 1: rw; erratum p543_set_4_binary; not generated: the manual does not settle its
+ * type
  */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_1_SPACE NORD_SK5XXE_SPACE_HOLDING
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_1_ADDRESS 0x87C3U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_1_INDEX 1U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_1_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_1_WORDS 1U
 
-/*
- * P543: Actual value source set 4 index 2
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_4_index_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 4 index 2: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_2_ADDRESS 0x87C7U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_2_INDEX 2U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_2_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_2_WORDS 1U
 
-/*
- * P543: Actual value source set 4 index 3
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_4_index_3): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_3_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 4 index 3: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_3_ADDRESS 0x87CBU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_3_INDEX 3U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_3_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_3_WORDS 1U
 
-/*
- * P543: Actual value source set 4 index 4
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_4_index_4): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_4_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 4 index 4: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_4_ADDRESS 0x87CFU
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_4_INDEX 4U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_4_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_4_WORDS 1U
 
-/*
- * P543: Actual value source set 4 index 5
- * read and write.
- * Erratum p543_indices (likely): printed: The table names five indices, the table of array indices shows three and
- * goes on; taken: Five indices.
- * Not generated (actual_value_source_set_4_index_5): the manual does not settle its type.
- */
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_5_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P543 actual value source set 4 index 5: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_5_ADDRESS 0x87D3U
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_5_INDEX 5U
-#define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_5_CODE "P543"
 #define NORD_SK5XXE_ACTUAL_VALUE_SOURCE_SET_4_INDEX_5_WORDS 1U
 
-/*
- * P546[1]: Setpoint 1 function
- * read and write.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Not generated (setpoint_1_function): the manual does not settle its type.
- */
-#define NORD_SK5XXE_SETPOINT_1_FUNCTION_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P546[1] setpoint 1 function: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_SETPOINT_1_FUNCTION_ADDRESS 0x8880U
 #define NORD_SK5XXE_SETPOINT_1_FUNCTION_INDEX 1U
-#define NORD_SK5XXE_SETPOINT_1_FUNCTION_CODE "P546[1]"
 #define NORD_SK5XXE_SETPOINT_1_FUNCTION_WORDS 1U
 
-/*
- * P546[2]: Setpoint 2 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (setpoint_2_function): the manual prints no address.
- */
+/* P546[2] setpoint 2 function: rw; not generated: the manual prints no address */
 
-/*
- * P546[3]: Setpoint 3 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (setpoint_3_function): the manual prints no address.
- */
+/* P546[3] setpoint 3 function: rw; not generated: the manual prints no address */
 
-/*
- * P546[4]: Setpoint 4 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (setpoint_4_function): the manual prints no address.
- */
+/* P546[4] setpoint 4 function: rw; not generated: the manual prints no address */
 
-/*
- * P546[5]: Setpoint 5 function
- * read and write.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (setpoint_5_function): the manual prints no address.
- */
+/* P546[5] setpoint 5 function: rw; not generated: the manual prints no address */
 
-/*
- * P601: P601
- * read and write.
- * Not generated (p601): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P601_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P601 p601: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P601_ADDRESS 0x9640U
-#define NORD_SK5XXE_P601_CODE "P601"
 #define NORD_SK5XXE_P601_WORDS 1U
 
-/*
- * P607: P607 index 1
- * read and write.
- * Erratum p607_indices (unknown): printed: The examples use the indices 1 and 2; how many there are is not printed;
- * taken: Two indices.
- * Not generated (p607_index_1): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P607_INDEX_1_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P607 p607 index 1: rw; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P607_INDEX_1_ADDRESS 0x97C0U
 #define NORD_SK5XXE_P607_INDEX_1_INDEX 1U
-#define NORD_SK5XXE_P607_INDEX_1_CODE "P607"
 #define NORD_SK5XXE_P607_INDEX_1_WORDS 1U
 
-/*
- * P607: P607 index 2
- * read and write.
- * Erratum p607_index_2_decimal (certain): printed: wire 38850; taken: wire 38849.
- * Erratum p607_indices (unknown): printed: The examples use the indices 1 and 2; how many there are is not printed;
- * taken: Two indices.
- * Not generated (p607_index_2): the manual does not settle its type.
- */
-#define NORD_SK5XXE_P607_INDEX_2_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P607 p607 index 2: rw; erratum p607_index_2_decimal; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_P607_INDEX_2_ADDRESS 0x97C1U
 #define NORD_SK5XXE_P607_INDEX_2_INDEX 2U
-#define NORD_SK5XXE_P607_INDEX_2_CODE "P607"
 #define NORD_SK5XXE_P607_INDEX_2_WORDS 1U
 
-/*
- * P740[1]: Received control word
- * read only.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Erratum table_1_references (certain): printed: P740 stands beside the addresses 3200 to 3205, P741 beside 3264 to
- * 3269; taken: These addresses are those of P050 and P051; P740 and P741 show the same words and lie at their own
- * numbers.
- * Not generated (received_control_word): the manual does not settle its type.
- */
-#define NORD_SK5XXE_RECEIVED_CONTROL_WORD_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P740[1] received control word: r; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_RECEIVED_CONTROL_WORD_ADDRESS 0xB900U
 #define NORD_SK5XXE_RECEIVED_CONTROL_WORD_INDEX 1U
-#define NORD_SK5XXE_RECEIVED_CONTROL_WORD_CODE "P740[1]"
 #define NORD_SK5XXE_RECEIVED_CONTROL_WORD_WORDS 1U
 
-/*
- * P740[2]: Received setpoint 1
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (received_setpoint_1): the manual prints no address.
- */
+/* P740[2] received setpoint 1: r; not generated: the manual prints no address */
 
-/*
- * P740[3]: Received setpoint 2
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (received_setpoint_2): the manual prints no address.
- */
+/* P740[3] received setpoint 2: r; not generated: the manual prints no address */
 
-/*
- * P740[4]: Received setpoint 3
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (received_setpoint_3): the manual prints no address.
- */
+/* P740[4] received setpoint 3: r; not generated: the manual prints no address */
 
-/*
- * P740[5]: Received setpoint 4
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (received_setpoint_4): the manual prints no address.
- */
+/* P740[5] received setpoint 4: r; not generated: the manual prints no address */
 
-/*
- * P740[6]: Received setpoint 5
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (received_setpoint_5): the manual prints no address.
- */
+/* P740[6] received setpoint 5: r; not generated: the manual prints no address */
 
-/*
- * P741[1]: Sent status word
- * read only.
- * Erratum single_elements (certain): printed: Which of the four cases holds is printed for P601, P102, P607 and P543
- * only; taken: The first element: number * 64 in all four cases.
- * Erratum table_1_references (certain): printed: P740 stands beside the addresses 3200 to 3205, P741 beside 3264 to
- * 3269; taken: These addresses are those of P050 and P051; P740 and P741 show the same words and lie at their own
- * numbers.
- * Not generated (sent_status_word): the manual does not settle its type.
- */
-#define NORD_SK5XXE_SENT_STATUS_WORD_SPACE NORD_SK5XXE_SPACE_HOLDING
+/* P741[1] sent status word: r; not generated: the manual does not settle its type */
 #define NORD_SK5XXE_SENT_STATUS_WORD_ADDRESS 0xB940U
 #define NORD_SK5XXE_SENT_STATUS_WORD_INDEX 1U
-#define NORD_SK5XXE_SENT_STATUS_WORD_CODE "P741[1]"
 #define NORD_SK5XXE_SENT_STATUS_WORD_WORDS 1U
 
-/*
- * P741[2]: Sent actual value 1
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (sent_actual_value_1): the manual prints no address.
- */
+/* P741[2] sent actual value 1: r; not generated: the manual prints no address */
 
-/*
- * P741[3]: Sent actual value 2
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (sent_actual_value_2): the manual prints no address.
- */
+/* P741[3] sent actual value 2: r; not generated: the manual prints no address */
 
-/*
- * P741[4]: Sent actual value 3
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (sent_actual_value_3): the manual prints no address.
- */
+/* P741[4] sent actual value 3: r; not generated: the manual prints no address */
 
-/*
- * P741[5]: Sent actual value 4
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (sent_actual_value_4): the manual prints no address.
- */
+/* P741[5] sent actual value 4: r; not generated: the manual prints no address */
 
-/*
- * P741[6]: Sent actual value 5
- * read only.
- * Erratum further_elements (unknown): printed: An index is printed; whether the parameter also depends on the
- * parameter set is not; taken: No address.
- * Not generated (sent_actual_value_5): the manual prints no address.
- */
+/* P741[6] sent actual value 5: r; not generated: the manual prints no address */
 
 #ifdef __cplusplus
 }

@@ -5,8 +5,8 @@
  *
  * NORD SK 5xxE: Modbus requests.
  *
- * A request is a small struct that refers to the words to write; fieldscribe_modbus_build makes the frame of it in a
- * buffer of the caller, fieldscribe_modbus_parse reads the answer.
+ * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
+ * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  */
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
@@ -14,7 +14,7 @@
 #include "nord_sk5xxe.h"
 #include "fieldscribe_modbus.h"
 
-#if FIELDSCRIBE_MODBUS_INTERFACE != 1
+#if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -46,7 +46,7 @@ static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
 #define NORD_SK5XXE_PROCESS_DATA_BLOCKS_COUNT 2U
-static const fieldscribe_modbus_block nord_sk5xxe_process_data_blocks[] = {
+static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
     {0x03U, 0x0C80U, 6U},
     {0x03U, 0x0CC0U, 6U}
 };
@@ -56,120 +56,41 @@ static const fieldscribe_modbus_block nord_sk5xxe_process_data_blocks[] = {
 /* Make ready to switch on. */
 #define NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS 0x0C80U
 #define NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE 1150U
-
-static inline fieldscribe_modbus_request nord_sk5xxe_command_make_ready_to_switch_on_request(uint8_t unit, uint16_t words[1])
-{
-    words[0] = NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS, 1U, words);
-}
+static const fieldscribe_modbus_command nord_sk5xxe_command_make_ready_to_switch_on =
+    {{0x06U, NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS, 1U},
+        NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE};
 
 /* Switch on. */
 #define NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS 0x0C80U
 #define NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE 1151U
+static const fieldscribe_modbus_command nord_sk5xxe_command_switch_on =
+    {{0x06U, NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS, 1U}, NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE};
 
-static inline fieldscribe_modbus_request nord_sk5xxe_command_switch_on_request(uint8_t unit, uint16_t words[1])
-{
-    words[0] = NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS, 1U, words);
-}
+/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
-/* ---- Requests of the points ---- */
+static const fieldscribe_layout nord_sk5xxe_layout_u16 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
 
-static inline fieldscribe_modbus_request nord_sk5xxe_control_word_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_CONTROL_WORD_ADDRESS, NORD_SK5XXE_CONTROL_WORD_WORDS);
-}
+/* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
 
-static inline fieldscribe_modbus_request nord_sk5xxe_control_word_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_CONTROL_WORD_ADDRESS, NORD_SK5XXE_CONTROL_WORD_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_SETPOINT_1_ADDRESS, NORD_SK5XXE_SETPOINT_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_1_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_SETPOINT_1_ADDRESS, NORD_SK5XXE_SETPOINT_1_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_SETPOINT_2_ADDRESS, NORD_SK5XXE_SETPOINT_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_2_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_SETPOINT_2_ADDRESS, NORD_SK5XXE_SETPOINT_2_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_3_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_SETPOINT_3_ADDRESS, NORD_SK5XXE_SETPOINT_3_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_3_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_SETPOINT_3_ADDRESS, NORD_SK5XXE_SETPOINT_3_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_4_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_SETPOINT_4_ADDRESS, NORD_SK5XXE_SETPOINT_4_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_4_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_SETPOINT_4_ADDRESS, NORD_SK5XXE_SETPOINT_4_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_5_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_SETPOINT_5_ADDRESS, NORD_SK5XXE_SETPOINT_5_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_setpoint_5_write_request(uint8_t unit, uint16_t raw, uint16_t words[1])
-{
-    words[0] = raw;
-    return fieldscribe_modbus_write(unit, 0x06U, NORD_SK5XXE_SETPOINT_5_ADDRESS, NORD_SK5XXE_SETPOINT_5_WORDS, words);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_status_word_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_STATUS_WORD_ADDRESS, NORD_SK5XXE_STATUS_WORD_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_actual_value_1_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_ACTUAL_VALUE_1_ADDRESS, NORD_SK5XXE_ACTUAL_VALUE_1_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_actual_value_2_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_ACTUAL_VALUE_2_ADDRESS, NORD_SK5XXE_ACTUAL_VALUE_2_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_actual_value_3_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_ACTUAL_VALUE_3_ADDRESS, NORD_SK5XXE_ACTUAL_VALUE_3_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_actual_value_4_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_ACTUAL_VALUE_4_ADDRESS, NORD_SK5XXE_ACTUAL_VALUE_4_WORDS);
-}
-
-static inline fieldscribe_modbus_request nord_sk5xxe_actual_value_5_read_request(uint8_t unit)
-{
-    return fieldscribe_modbus_read(unit, 0x03U, NORD_SK5XXE_ACTUAL_VALUE_5_ADDRESS, NORD_SK5XXE_ACTUAL_VALUE_5_WORDS);
-}
+static const fieldscribe_modbus_rw nord_sk5xxe_control_word_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C80U, 1U}, {0x06U, 0x0C80U, 1U}};
+static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_1_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C81U, 1U}, {0x06U, 0x0C81U, 1U}};
+static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_2_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C82U, 1U}, {0x06U, 0x0C82U, 1U}};
+static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_3_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C83U, 1U}, {0x06U, 0x0C83U, 1U}};
+static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_4_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C84U, 1U}, {0x06U, 0x0C84U, 1U}};
+static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_5_frame =
+    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C85U, 1U}, {0x06U, 0x0C85U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_status_word_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC0U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_1_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC1U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_2_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC2U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_3_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC3U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_4_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC4U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_5_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC5U, 1U}};
 
 #ifdef __cplusplus
 }

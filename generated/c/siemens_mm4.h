@@ -8,31 +8,18 @@
  * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
  * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
  * and writes its result only when it returns SIEMENS_MM4_OK. Decoding takes whatever the device may send.
- *
- * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
- * FIELDSCRIBE_FLOAT32 makes siemens_mm4_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: the results are exact to the bit without them.
+ * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
  */
 #ifndef SIEMENS_MM4_H
 #define SIEMENS_MM4_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "fieldscribe.h"
 
-#if !defined(FIELDSCRIBE_NO_FLOAT) && \
-    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#if FIELDSCRIBE_INTERFACE != 1
+#error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-#include <float.h>
-#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
-#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_NO_FLOAT."
-#endif
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 /* 16 is about half floats alone */
-#error "The arithmetic here has excess precision (x87): compile with -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
-#endif
+#if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
+#error "A double has not 53 bits here, and values need them: define FIELDSCRIBE_NO_FLOAT."
 #endif
 
 #define SIEMENS_MM4_DESCRIPTION_VERSION "1.0.0"
@@ -42,23 +29,18 @@
 extern "C" {
 #endif
 
-/* What conversions answer. */
-typedef enum siemens_mm4_status {
-    SIEMENS_MM4_OK = 0,
-    SIEMENS_MM4_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
-    SIEMENS_MM4_NOT_A_NUMBER,  /* the value is NaN */
-    SIEMENS_MM4_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    SIEMENS_MM4_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    SIEMENS_MM4_NO_CASE,       /* no scale for what the other point holds */
-    SIEMENS_MM4_OVERFLOW,      /* the result does not fit */
-    SIEMENS_MM4_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
-} siemens_mm4_status;
-
-/* Where an address counts. */
-enum {
-    SIEMENS_MM4_SPACE_PARAMETER = 0,
-    SIEMENS_MM4_SPACE_TELEGRAM = 1
-};
+typedef fieldscribe_status siemens_mm4_status;
+#if !defined(FIELDSCRIBE_NO_FLOAT)
+typedef fieldscribe_real siemens_mm4_real;
+#endif
+#define SIEMENS_MM4_OK FIELDSCRIBE_OK
+#define SIEMENS_MM4_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
+#define SIEMENS_MM4_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
+#define SIEMENS_MM4_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
+#define SIEMENS_MM4_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
+#define SIEMENS_MM4_NO_CASE FIELDSCRIBE_NO_CASE
+#define SIEMENS_MM4_OVERFLOW FIELDSCRIBE_OVERFLOW
+#define SIEMENS_MM4_SPECIAL FIELDSCRIBE_SPECIAL
 
 /* The cyclic telegrams, and how many words each has. */
 enum {
@@ -68,395 +50,52 @@ enum {
 #define SIEMENS_MM4_TELEGRAM_TASK_WORDS 8U
 #define SIEMENS_MM4_TELEGRAM_ANSWER_WORDS 8U
 
-/* Bit patterns in the order of their numbers: those of negative numbers count down from 0. */
-static inline int32_t siemens_mm4_f32_order(uint32_t bits)
-{
-    const int32_t size = (int32_t)(bits & 0x7FFFFFFFU);
-    return bits > 0x7FFFFFFFU ? -size : size;
-}
 
-/* A scale whose factors are known at run time: raw = value * num / den * 2^shift. */
-typedef struct siemens_mm4_rule {
-    int64_t num;
-    int64_t den;
-    int32_t shift;
-} siemens_mm4_rule;
+/* ---- parameters (parameter) ---- */
 
-static inline uint64_t siemens_mm4_magnitude(int64_t number)
-{
-    return number < 0 ? (uint64_t)(-(number + 1)) + 1U : (uint64_t)number;
-}
-
-/* a * b; false when that is no int64_t. */
-static inline bool siemens_mm4_multiply(int64_t a, int64_t b, int64_t *product)
-{
-    const uint64_t size = siemens_mm4_magnitude(a);
-    if (size != 0U && siemens_mm4_magnitude(b) > (uint64_t)INT64_MAX / size) {
-        return false;
-    }
-    *product = a * b;
-    return true;
-}
-
-/* The mantissa and the exponent of a binary32 number; false when it is zero, infinite or not a number. */
-static inline bool siemens_mm4_split_f32(uint32_t bits, int64_t *mantissa, int32_t *exponent)
-{
-    const uint32_t power = (bits >> 23) & 0xFFU;
-    const uint32_t fraction = bits & 0x7FFFFFU;
-    const int64_t size = (int64_t)(power != 0U ? fraction | 0x800000U : fraction);
-    if (size == 0 || power == 0xFFU) {
-        return false;
-    }
-    *mantissa = bits > 0x7FFFFFFFU ? -size : size;
-    *exponent = (int32_t)(power != 0U ? power : 1U) - 150;
-    return true;
-}
-
-/*
- * Twice a * b / divisor * 2^shift, rounded down, and whether that left something over; false beyond 64 bits.
- * The divisor is in 1..2^63.
- */
-static inline bool siemens_mm4_twice_ratio(
-    uint64_t a, uint64_t b, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
-{
-    const uint64_t half_word = UINT64_C(0xFFFFFFFF);
-    /* the product has 128 bits: high, low */
-    const uint64_t lowest = (a & half_word) * (b & half_word);
-    const uint64_t cross = (a >> 32) * (b & half_word) + (lowest >> 32);
-    const uint64_t middle = (a & half_word) * (b >> 32) + (cross & half_word);
-    uint64_t high = (a >> 32) * (b >> 32) + (cross >> 32) + (middle >> 32);
-    uint64_t low = ((middle & half_word) << 32) | (lowest & half_word);
-    uint64_t rest = 0U;
-    uint64_t quotient = 0U;
-    int32_t bit;
-    for (bit = -129; bit < shift; ++bit) {
-        rest = (rest << 1) | (high >> 63); /* rest < divisor <= 2^63: no bit is lost */
-        high = ((high & (uint64_t)INT64_MAX) << 1) | (low >> 63);
-        low = (low & (uint64_t)INT64_MAX) << 1;
-        if (quotient > (uint64_t)INT64_MAX) {
-            return false;
-        }
-        quotient <<= 1;
-        if (rest >= divisor) {
-            rest -= divisor;
-            quotient |= 1U;
-        }
-    }
-    *twice = quotient;
-    *left_over = (rest | high | low) != 0U;
-    return true;
-}
-
-/* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false when that is no int64_t. */
-static inline bool siemens_mm4_shifted_ratio(int64_t number, int64_t num, int64_t den, int32_t shift, int64_t *result)
-{
-    const bool negative = (number < 0) != ((num < 0) != (den < 0));
-    uint64_t twice = 0U;
-    bool left_over = false;
-    if (!siemens_mm4_twice_ratio(siemens_mm4_magnitude(number), siemens_mm4_magnitude(num), siemens_mm4_magnitude(den), shift, &twice, &left_over) ||
-        twice >= UINT64_MAX) {
-        return false;
-    }
-    twice = (twice + 1U) / 2U;
-    if (twice > (uint64_t)INT64_MAX) {
-        return false;
-    }
-    *result = negative ? -(int64_t)twice : (int64_t)twice;
-    return true;
-}
-
-/* The raw number of `count`, where `tens` counts are one unit; false when it does not fit. */
-static inline bool siemens_mm4_apply_rule(const siemens_mm4_rule *rule, int64_t count, int64_t tens, int64_t *raw)
-{
-    int64_t den = 0;
-    if (!siemens_mm4_multiply(rule->den, tens, &den)) {
-        return false;
-    }
-    return siemens_mm4_shifted_ratio(count, rule->num, den, rule->shift, raw);
-}
-
-static inline siemens_mm4_status siemens_mm4_raw_from_count(
-    const siemens_mm4_rule *rule, int64_t count, int64_t tens, int64_t low, int64_t high, int64_t *raw)
-{
-    if (!siemens_mm4_apply_rule(rule, count, tens, raw) || *raw < low || *raw > high) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_count_from_raw(
-    const siemens_mm4_rule *rule, int64_t raw, int64_t tens, int64_t *count)
-{
-    int64_t den = 0;
-    if (!siemens_mm4_multiply(rule->den, tens, &den) ||
-        !siemens_mm4_shifted_ratio(raw, den, rule->num, -rule->shift, count)) {
-        return SIEMENS_MM4_OVERFLOW;
-    }
-    return SIEMENS_MM4_OK;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-/* Machines that can multiply and add in one rounding. Of others than x86 and ARM clang does not tell, MSVC never. */
-#if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
-    defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
-    (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
-#define SIEMENS_MM4_MAY_FUSE
-#endif
-
-#if defined(FIELDSCRIBE_FLOAT32)
-typedef float siemens_mm4_real;
-#else
-typedef double siemens_mm4_real;
-#endif
-
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
-static inline double siemens_mm4_times_wide(double value, double factor)
-{
-#if defined(SIEMENS_MM4_MAY_FUSE)
-    volatile double product = value * factor;
-    return product;
-#else
-    return value * factor;
-#endif
-}
-
-/* The nearest integer, halves away from zero, if it lies in low..high. */
-static inline siemens_mm4_status siemens_mm4_round_wide(double number, int64_t low, int64_t high, int64_t *whole)
-{
-    int64_t nearest;
-    double rest;
-    if (!(number >= -9223372036854775808.0 && number < 9223372036854775808.0)) {
-        return number < 0 || number >= 0 ? SIEMENS_MM4_OUT_OF_RANGE : SIEMENS_MM4_NOT_A_NUMBER;
-    }
-    nearest = (int64_t)number;
-    rest = number - (double)nearest;
-    if (rest >= 0.5) {
-        ++nearest;
-    } else if (rest <= -0.5) {
-        --nearest;
-    }
-    if (nearest < low || nearest > high) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *whole = nearest;
-    return SIEMENS_MM4_OK;
-}
-
-/* A pattern is neither a conversion nor an alias: its bytes are copied. */
-static inline void siemens_mm4_copy(void *to, const void *from, size_t size)
-{
-#if defined(__GNUC__)
-    __builtin_memcpy(to, from, size);
-#else
-    size_t at;
-    for (at = 0U; at < size; ++at) {
-        ((unsigned char *)to)[at] = ((const unsigned char *)from)[at];
-    }
-#endif
-}
-
-/* The number with that IEEE 754 bit pattern. */
-static inline siemens_mm4_real siemens_mm4_f32_of_bits(uint32_t bits)
-{
-    float number = 0;
-    siemens_mm4_copy(&number, &bits, sizeof number);
-    return (siemens_mm4_real)number;
-}
-
-/* The bit pattern of the nearest float, ties to even. */
-static inline siemens_mm4_status siemens_mm4_bits_of_f32(siemens_mm4_real number, uint32_t *bits)
-{
-    float narrow;
-    uint32_t pattern = 0U;
-#if defined(FIELDSCRIBE_FLOAT32)
-    const float over = 3.4028234663852886e+38F; /* the largest float */
-    const bool fits = number >= -over && number <= over;
-#else
-    const double over = 3.4028235677973366e+38; /* from here on a double rounds to infinity */
-    const bool fits = number > -over && number < over;
-#endif
-    if (!fits) {
-        return number < 0 || number >= 0 ? SIEMENS_MM4_OUT_OF_RANGE : SIEMENS_MM4_NOT_A_NUMBER;
-    }
-    narrow = (float)number;
-    siemens_mm4_copy(&pattern, &narrow, sizeof pattern);
-    *bits = pattern;
-    return SIEMENS_MM4_OK;
-}
-
-/* Two to the power of an exponent of -1022..1023. */
-static inline double siemens_mm4_two_to(int32_t exponent)
-{
-    const uint64_t bits = (uint64_t)(1023 + exponent) << 52;
-    double number = 0;
-    siemens_mm4_copy(&number, &bits, sizeof number);
-    return number;
-}
-
-static inline bool siemens_mm4_is_nan(double value)
-{
-    return !(value < 0 || value >= 0);
-}
-
-static inline siemens_mm4_status siemens_mm4_raw_from_value(
-    const siemens_mm4_rule *rule, double value, int64_t low, int64_t high, int64_t *raw)
-{
-    double number = siemens_mm4_times_wide(value, (double)rule->num) / (double)rule->den;
-    number *= siemens_mm4_two_to(rule->shift); /* exact */
-    return siemens_mm4_round_wide(number, low, high, raw);
-}
-
-/* One division of two exact integers gives the nearest double. */
-static inline siemens_mm4_status siemens_mm4_value_from_raw(const siemens_mm4_rule *rule, int64_t raw, double *value)
-{
-    int64_t number = 0;
-    const int64_t num = rule->num;
-    if (!siemens_mm4_multiply(raw, rule->den, &number)) {
-        return SIEMENS_MM4_OVERFLOW;
-    }
-    *value = num < 0 ? (double)-number / (double)-num : (double)number / (double)num;
-    *value *= siemens_mm4_two_to(-rule->shift); /* exact */
-    return SIEMENS_MM4_OK;
-}
-#endif
-
-/* ---- Parameters ---- */
-
-/*
- * r0000: Display value
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Not generated (display_value): the manual does not settle its type.
- */
-#define SIEMENS_MM4_DISPLAY_VALUE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r0000 display value: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_DISPLAY_VALUE_ADDRESS 0x0000U
-#define SIEMENS_MM4_DISPLAY_VALUE_CODE "r0000"
 #define SIEMENS_MM4_DISPLAY_VALUE_WORDS 1U
 
-/* User access level */
 enum {
     SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2 = 2,
     SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT = 3
 };
-
+static const fieldscribe_name siemens_mm4_user_access_level_names[] = {
+    {SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2, "level_2"}, {SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT, "expert"}
+};
 static inline const char *siemens_mm4_user_access_level_name(int32_t raw)
 {
-    switch (raw) {
-    case SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2:
-        return "level_2";
-    case SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT:
-        return "expert";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(siemens_mm4_user_access_level_names,
+        FIELDSCRIBE_COUNT(siemens_mm4_user_access_level_names), raw);
 }
 
-/*
- * P0003: User access level
- * 0..65535; read and write.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- */
-#define SIEMENS_MM4_USER_ACCESS_LEVEL_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P0003 user access level: 0..65535; rw */
 #define SIEMENS_MM4_USER_ACCESS_LEVEL_ADDRESS 0x0003U
-#define SIEMENS_MM4_USER_ACCESS_LEVEL_CODE "P0003"
-#define SIEMENS_MM4_USER_ACCESS_LEVEL_WORDS 1U
 #define SIEMENS_MM4_USER_ACCESS_LEVEL_RAW_MIN 0
 #define SIEMENS_MM4_USER_ACCESS_LEVEL_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_user_access_level_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_user_access_level_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_user_access_level_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_user_access_level_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_user_access_level_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USER_ACCESS_LEVEL_RAW_MIN || value > SIEMENS_MM4_USER_ACCESS_LEVEL_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_user_access_level_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * r0018: Firmware version
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Not generated (firmware_version): the manual does not settle its type.
- */
-#define SIEMENS_MM4_FIRMWARE_VERSION_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r0018 firmware version: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_FIRMWARE_VERSION_ADDRESS 0x0012U
-#define SIEMENS_MM4_FIRMWARE_VERSION_CODE "r0018"
 #define SIEMENS_MM4_FIRMWARE_VERSION_WORDS 1U
 
-/*
- * r0021: Output frequency
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum source_numbers (likely): printed: The numbers 21, 27, 2036 and 2037 stand as sources, without a letter;
- * taken: Parameters that can be read only: r0021, r0027, r2036 and r2037.
- * Not generated (output_frequency): the manual does not settle its type.
- */
-#define SIEMENS_MM4_OUTPUT_FREQUENCY_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r0021 output frequency: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_OUTPUT_FREQUENCY_ADDRESS 0x0015U
-#define SIEMENS_MM4_OUTPUT_FREQUENCY_CODE "r0021"
 #define SIEMENS_MM4_OUTPUT_FREQUENCY_WORDS 1U
 
-/*
- * r0027: Output current
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum source_numbers (likely): printed: The numbers 21, 27, 2036 and 2037 stand as sources, without a letter;
- * taken: Parameters that can be read only: r0021, r0027, r2036 and r2037.
- * Not generated (output_current): the manual does not settle its type.
- */
-#define SIEMENS_MM4_OUTPUT_CURRENT_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r0027 output current: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_OUTPUT_CURRENT_ADDRESS 0x001BU
-#define SIEMENS_MM4_OUTPUT_CURRENT_CODE "r0027"
 #define SIEMENS_MM4_OUTPUT_CURRENT_WORDS 1U
 
 /*
- * r0052: Inverter status word
- * 0..65535; read only.
- * Bit 4 (off2_pending) is true when it is 0.
- * Bit 5 (off3_pending) is true when it is 0.
- * Bit 8 (deviation) is true when it is 0.
- * Bit 11 (current_limit_warning) is true when it is 0.
- * Bit 12 (holding_brake_active) is true when it is 0.
- * Bit 13 (motor_overload) is true when it is 0.
- * Bit 15 (inverter_overload) is true when it is 0.
- * Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.
- * Erratum status_word_parameter_type (likely): printed: No type is printed; taken: u16 with the bits of ZSW.
- * Erratum zsw_bit_3_polarity (certain): printed: Bit 3 names the fault as its second meaning, that of 1, while its
- * polarity column says 0 yes, 1 no; taken: 1 is a fault.
- * Erratum zsw_bit_5_polarity (certain): printed: Bit 5 names the AUS3 command as its first meaning, that of 0, while
- * its polarity column says 0 no, 1 yes; taken: 0 is a pending OFF3.
- * Erratum zsw_bit_8_at_rest (unknown): printed: Bit 8 is a deviation at 0. FA31h has it at 0 after 047E 0000, where
- * setpoint and actual value are both 0; taken: As printed in the table: 0 is a deviation.
- * Erratum zsw_bit_12_at_rest (unknown): printed: Bit 12 is an active holding brake at 0; FA31h has it at 1 while the
- * motor stands; taken: As printed: 0 is an active brake.
- * Erratum zsw_bit_6_spelling (certain): printed: The word for switch-on inhibit lacks its last letter twice; taken:
- * Switch-on inhibit.
- * Erratum zsw_bit_9_words (likely): printed: Bit 9: control required, spelt as a verb; taken: Control requested.
- * Erratum zsw_bit_11_words (certain): printed: Bit 11 warns of the motor at its current limit, with a wrong article;
- * taken: Motor at its current limit.
+ * r0052 inverter status word: 0..65535; r; exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and
+ * back
  */
-#define SIEMENS_MM4_INVERTER_STATUS_WORD_SPACE SIEMENS_MM4_SPACE_PARAMETER
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_ADDRESS 0x0034U
-#define SIEMENS_MM4_INVERTER_STATUS_WORD_CODE "r0052"
-#define SIEMENS_MM4_INVERTER_STATUS_WORD_WORDS 1U
-#define SIEMENS_MM4_INVERTER_STATUS_WORD_RAW_MIN 0
-#define SIEMENS_MM4_INVERTER_STATUS_WORD_RAW_MAX 65535
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK 0xB930U
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK 0x0001U
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK 0x0002U
@@ -474,118 +113,46 @@ static inline int32_t siemens_mm4_user_access_level_decode(uint16_t raw)
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK 0x2000U /* true while 0 */
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK 0x4000U
 #define SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK 0x8000U /* true while 0 */
+static inline int32_t siemens_mm4_inverter_status_word_decode(uint16_t raw) { return raw; }
 
-static inline int32_t siemens_mm4_inverter_status_word_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * r0056: Second control word display
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum second_control_word_display (unknown): printed: r0056 is said to display the second control word, whose
- * bits the list names; taken: As printed, documented only.
- * Not generated (second_control_word_display): the manual does not settle its type.
- */
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r0056 second control word display: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY_ADDRESS 0x0038U
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY_CODE "r0056"
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY_WORDS 1U
 
-/* Command source */
 enum {
     SIEMENS_MM4_COMMAND_SOURCE_USS_RS232 = 4,
     SIEMENS_MM4_COMMAND_SOURCE_USS_RS485 = 5
 };
-
+static const fieldscribe_name siemens_mm4_command_source_names[] = {
+    {SIEMENS_MM4_COMMAND_SOURCE_USS_RS232, "uss_rs232"}, {SIEMENS_MM4_COMMAND_SOURCE_USS_RS485, "uss_rs485"}
+};
 static inline const char *siemens_mm4_command_source_name(int32_t raw)
 {
-    switch (raw) {
-    case SIEMENS_MM4_COMMAND_SOURCE_USS_RS232:
-        return "uss_rs232";
-    case SIEMENS_MM4_COMMAND_SOURCE_USS_RS485:
-        return "uss_rs485";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(siemens_mm4_command_source_names, FIELDSCRIBE_COUNT(siemens_mm4_command_source_names),
+        raw);
 }
 
-/*
- * P0700: Command source
- * 0..65535; read and write.
- * Erratum single_word_sign (likely): printed: The answers at lines 217 and 245 are single words; whether U16 or I16
- * is not said; taken: u16.
- * Erratum command_source_numbers (certain): printed: 4 or 5, USS over RS232 or RS485, with no number tied to either;
- * taken: 4 RS232, 5 RS485.
- */
-#define SIEMENS_MM4_COMMAND_SOURCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P0700 command source: 0..65535; rw */
 #define SIEMENS_MM4_COMMAND_SOURCE_ADDRESS 0x02BCU
-#define SIEMENS_MM4_COMMAND_SOURCE_CODE "P0700"
-#define SIEMENS_MM4_COMMAND_SOURCE_WORDS 1U
 #define SIEMENS_MM4_COMMAND_SOURCE_RAW_MIN 0
 #define SIEMENS_MM4_COMMAND_SOURCE_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_command_source_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_command_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_command_source_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_command_source_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_command_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_COMMAND_SOURCE_RAW_MIN || value > SIEMENS_MM4_COMMAND_SOURCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_command_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P0719: Remote local selection index 0
- * read and write.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum p0719_meaning (unknown): printed: Index 0 stands for remote control and index 1 for local control; what
- * the parameter holds is not said; taken: Documented only.
- * Not generated (remote_local_selection_index_0): the manual does not settle its type.
- */
-#define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P0719 remote local selection index 0: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0_ADDRESS 0x02CFU
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0_CODE "P0719"
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0_WORDS 1U
 
-/*
- * P0719: Remote local selection index 1
- * read and write.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum p0719_meaning (unknown): printed: Index 0 stands for remote control and index 1 for local control; what
- * the parameter holds is not said; taken: Documented only.
- * Not generated (remote_local_selection_index_1): the manual does not settle its type.
- */
-#define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P0719 remote local selection index 1: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1_ADDRESS 0x02CFU
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1_CODE "P0719"
 #define SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1_WORDS 1U
 
-/*
- * P0731: P0731 source
- * 0..4294967295; read and write.
- * Erratum p0731_meaning (likely): printed: What the parameter does is not said; taken: A source, named after its
- * number.
- */
-#define SIEMENS_MM4_P0731_SOURCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P0731 p0731 source: 0..4294967295; rw */
 #define SIEMENS_MM4_P0731_SOURCE_ADDRESS 0x02DBU
-#define SIEMENS_MM4_P0731_SOURCE_CODE "P0731"
 #define SIEMENS_MM4_P0731_SOURCE_WORDS 2U
 #define SIEMENS_MM4_P0731_SOURCE_RAW_MIN 0
 #define SIEMENS_MM4_P0731_SOURCE_RAW_MAX 4294967295
@@ -593,215 +160,79 @@ static inline int32_t siemens_mm4_command_source_decode(uint16_t raw)
 #define SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_p0731_source_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_p0731_source_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_P0731_SOURCE_RAW_MIN || value > SIEMENS_MM4_P0731_SOURCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_p0731_source_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_p0731_source_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_p0731_source_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_p0731_source_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_p0731_source_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_p0731_source_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT_MASK) >> SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_p0731_source_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_p0731_source_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/* Main setpoint source */
 enum {
     SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232 = 4,
     SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485 = 5
 };
-
+static const fieldscribe_name siemens_mm4_main_setpoint_source_names[] = {
+    {SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232, "uss_rs232"}, {SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485, "uss_rs485"}
+};
 static inline const char *siemens_mm4_main_setpoint_source_name(int32_t raw)
 {
-    switch (raw) {
-    case SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232:
-        return "uss_rs232";
-    case SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485:
-        return "uss_rs485";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(siemens_mm4_main_setpoint_source_names,
+        FIELDSCRIBE_COUNT(siemens_mm4_main_setpoint_source_names), raw);
 }
 
-/*
- * P1000: Main setpoint source
- * 0..65535; read and write.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum command_source_numbers (certain): printed: 4 or 5, USS over RS232 or RS485, with no number tied to either;
- * taken: 4 RS232, 5 RS485.
- */
-#define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1000 main setpoint source: 0..65535; rw */
 #define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_ADDRESS 0x03E8U
-#define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_CODE "P1000"
-#define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_WORDS 1U
 #define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_RAW_MIN 0
 #define SIEMENS_MM4_MAIN_SETPOINT_SOURCE_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_source_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_main_setpoint_source_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_main_setpoint_source_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_main_setpoint_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_MAIN_SETPOINT_SOURCE_RAW_MIN || value > SIEMENS_MM4_MAIN_SETPOINT_SOURCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_main_setpoint_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P1060: Jog acceleration time
- * read and write.
- * Erratum ramp_times_type (unknown): printed: Ramp times are double words; their type, unit and limits are not
- * printed; taken: type: ~.
- * Not generated (jog_acceleration_time): the manual does not settle its type.
- */
-#define SIEMENS_MM4_JOG_ACCELERATION_TIME_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1060 jog acceleration time: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_JOG_ACCELERATION_TIME_ADDRESS 0x0424U
-#define SIEMENS_MM4_JOG_ACCELERATION_TIME_CODE "P1060"
 #define SIEMENS_MM4_JOG_ACCELERATION_TIME_WORDS 1U
 
-/*
- * P1061: Jog deceleration time
- * read and write.
- * Erratum ramp_times_type (unknown): printed: Ramp times are double words; their type, unit and limits are not
- * printed; taken: type: ~.
- * Not generated (jog_deceleration_time): the manual does not settle its type.
- */
-#define SIEMENS_MM4_JOG_DECELERATION_TIME_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1061 jog deceleration time: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_JOG_DECELERATION_TIME_ADDRESS 0x0425U
-#define SIEMENS_MM4_JOG_DECELERATION_TIME_CODE "P1061"
 #define SIEMENS_MM4_JOG_DECELERATION_TIME_WORDS 1U
 
-/*
- * P1082: Maximum frequency
- * any number; read and write.
- * Erratum maximum_frequency_unit (likely): printed: 50.00 and 40.00 without a unit; taken: unit: Hz.
- */
-#define SIEMENS_MM4_MAXIMUM_FREQUENCY_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1082 maximum frequency: any number; rw */
 #define SIEMENS_MM4_MAXIMUM_FREQUENCY_ADDRESS 0x043AU
-#define SIEMENS_MM4_MAXIMUM_FREQUENCY_CODE "P1082"
 #define SIEMENS_MM4_MAXIMUM_FREQUENCY_WORDS 2U
-
-static inline siemens_mm4_status siemens_mm4_maximum_frequency_check(uint32_t raw)
+FIELDSCRIBE_STATUS siemens_mm4_maximum_frequency_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
+static inline void siemens_mm4_maximum_frequency_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t siemens_mm4_maximum_frequency_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS siemens_mm4_maximum_frequency_encode(fieldscribe_real value, uint32_t *raw)
 {
-    const int32_t order = siemens_mm4_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return SIEMENS_MM4_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        siemens_mm4_maximum_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline siemens_mm4_status siemens_mm4_maximum_frequency_encode(siemens_mm4_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    siemens_mm4_status status = siemens_mm4_bits_of_f32(value, &pattern);
-    if (status == SIEMENS_MM4_OK) {
-        status = siemens_mm4_maximum_frequency_check(pattern);
-    }
-    if (status == SIEMENS_MM4_OK) {
-        *raw = pattern;
-    }
-    return status;
-}
-
-static inline siemens_mm4_real siemens_mm4_maximum_frequency_decode(uint32_t raw)
-{
-    return siemens_mm4_f32_of_bits(raw);
-}
+static inline fieldscribe_real siemens_mm4_maximum_frequency_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
 #endif
 
-static inline void siemens_mm4_maximum_frequency_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t siemens_mm4_maximum_frequency_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
-/*
- * P1120: Acceleration time
- * read and write.
- * Erratum ramp_times_type (unknown): printed: Ramp times are double words; their type, unit and limits are not
- * printed; taken: type: ~.
- * Erratum loading_time (certain): printed: The acceleration time is called a loading time, here and at lines 403,
- * 520 and 557; taken: Acceleration time.
- * Not generated (acceleration_time): the manual does not settle its type.
- */
-#define SIEMENS_MM4_ACCELERATION_TIME_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1120 acceleration time: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_ACCELERATION_TIME_ADDRESS 0x0460U
-#define SIEMENS_MM4_ACCELERATION_TIME_CODE "P1120"
 #define SIEMENS_MM4_ACCELERATION_TIME_WORDS 1U
 
-/*
- * P1121: Deceleration time
- * read and write.
- * Erratum ramp_times_type (unknown): printed: Ramp times are double words; their type, unit and limits are not
- * printed; taken: type: ~.
- * Not generated (deceleration_time): the manual does not settle its type.
- */
-#define SIEMENS_MM4_DECELERATION_TIME_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1121 deceleration time: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_DECELERATION_TIME_ADDRESS 0x0461U
-#define SIEMENS_MM4_DECELERATION_TIME_CODE "P1121"
 #define SIEMENS_MM4_DECELERATION_TIME_WORDS 1U
 
-/*
- * P1124: Jog time selection source
- * 0..4294967295; read and write.
- * Erratum source_type (likely): printed: 2036.12, and 2037.9 at line 587, are their values; no type is printed;
- * taken: u32, the number of the source in the high word and its bit in the low word.
- * Erratum jog_time_selection_words (likely): printed: The bit is to choose between slow and fast ramp times, and
- * P1124 is the source that selects the jog acceleration time; taken: It switches between the normal and the jog
- * times.
- */
-#define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1124 jog time selection source: 0..4294967295; rw */
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_ADDRESS 0x0464U
-#define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_CODE "P1124"
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_WORDS 2U
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_RAW_MIN 0
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_RAW_MAX 4294967295
@@ -809,58 +240,21 @@ static inline uint32_t siemens_mm4_maximum_frequency_from_words(const uint16_t w
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_jog_time_selection_source_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_jog_time_selection_source_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_RAW_MIN || value > SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_jog_time_selection_source_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_jog_time_selection_source_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_jog_time_selection_source_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_jog_time_selection_source_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_jog_time_selection_source_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_jog_time_selection_source_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT_MASK) >> SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_jog_time_selection_source_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_jog_time_selection_source_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P1230: Dc braking source
- * 0..4294967295; read and write.
- * Erratum source_type (likely): printed: 2036.12, and 2037.9 at line 587, are their values; no type is printed;
- * taken: u32, the number of the source in the high word and its bit in the low word.
- */
-#define SIEMENS_MM4_DC_BRAKING_SOURCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1230 dc braking source: 0..4294967295; rw */
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_ADDRESS 0x04CEU
-#define SIEMENS_MM4_DC_BRAKING_SOURCE_CODE "P1230"
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_WORDS 2U
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_RAW_MIN 0
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_RAW_MAX 4294967295
@@ -868,954 +262,332 @@ static inline uint32_t siemens_mm4_jog_time_selection_source_from_words(const ui
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_dc_braking_source_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_dc_braking_source_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_DC_BRAKING_SOURCE_RAW_MIN || value > SIEMENS_MM4_DC_BRAKING_SOURCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_dc_braking_source_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_dc_braking_source_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_dc_braking_source_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_dc_braking_source_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_dc_braking_source_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_dc_braking_source_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT_MASK) >> SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_dc_braking_source_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_dc_braking_source_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/* Output phase sequence */
 enum {
     SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED = 1
 };
-
+static const fieldscribe_name siemens_mm4_output_phase_sequence_names[] = {
+    {SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED, "reversed"}
+};
 static inline const char *siemens_mm4_output_phase_sequence_name(int32_t raw)
 {
-    switch (raw) {
-    case SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED:
-        return "reversed";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(siemens_mm4_output_phase_sequence_names,
+        FIELDSCRIBE_COUNT(siemens_mm4_output_phase_sequence_names), raw);
 }
 
-/*
- * P1820: Output phase sequence
- * 0..65535; read and write.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- */
-#define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P1820 output phase sequence: 0..65535; rw */
 #define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_ADDRESS 0x071CU
-#define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_CODE "P1820"
-#define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_WORDS 1U
 #define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_RAW_MIN 0
 #define SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_output_phase_sequence_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_output_phase_sequence_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_output_phase_sequence_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_output_phase_sequence_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_output_phase_sequence_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_RAW_MIN || value > SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_output_phase_sequence_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2000: Reference frequency
- * any number; read and write.
- * Erratum reference_frequency_unit (certain): printed: 50.00 without a unit at line 235; taken: unit: Hz.
- */
-#define SIEMENS_MM4_REFERENCE_FREQUENCY_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2000 reference frequency: any number; rw */
 #define SIEMENS_MM4_REFERENCE_FREQUENCY_ADDRESS 0x07D0U
-#define SIEMENS_MM4_REFERENCE_FREQUENCY_CODE "P2000"
 #define SIEMENS_MM4_REFERENCE_FREQUENCY_WORDS 2U
-
-static inline siemens_mm4_status siemens_mm4_reference_frequency_check(uint32_t raw)
+FIELDSCRIBE_STATUS siemens_mm4_reference_frequency_check(uint32_t raw)
+{ return fieldscribe_check_f32(raw, -2139095039, 2139095039); }
+static inline void siemens_mm4_reference_frequency_to_words(uint32_t raw, uint16_t words[2])
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
+static inline uint32_t siemens_mm4_reference_frequency_from_words(const uint16_t words[2])
+{ return fieldscribe_join32(words[0], words[1]); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS siemens_mm4_reference_frequency_encode(fieldscribe_real value, uint32_t *raw)
 {
-    const int32_t order = siemens_mm4_f32_order(raw);
-    if (order < -2139095040 || order > 2139095040) {
-        return SIEMENS_MM4_NOT_A_NUMBER;
-    }
-    return order >= -2139095039 && order <= 2139095039 ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_bits_of_f32(value);
+    return fieldscribe_keep_u32(fieldscribe_both(whole.status,
+        siemens_mm4_reference_frequency_check((uint32_t)whole.number)), (uint32_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline siemens_mm4_status siemens_mm4_reference_frequency_encode(siemens_mm4_real value, uint32_t *raw)
-{
-    uint32_t pattern = 0U;
-    siemens_mm4_status status = siemens_mm4_bits_of_f32(value, &pattern);
-    if (status == SIEMENS_MM4_OK) {
-        status = siemens_mm4_reference_frequency_check(pattern);
-    }
-    if (status == SIEMENS_MM4_OK) {
-        *raw = pattern;
-    }
-    return status;
-}
-
-static inline siemens_mm4_real siemens_mm4_reference_frequency_decode(uint32_t raw)
-{
-    return siemens_mm4_f32_of_bits(raw);
-}
+static inline fieldscribe_real siemens_mm4_reference_frequency_decode(uint32_t raw)
+{ return fieldscribe_f32_of_bits(raw); }
 #endif
 
-static inline void siemens_mm4_reference_frequency_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
-static inline uint32_t siemens_mm4_reference_frequency_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
-
-/* Uss normalisation */
 enum {
     SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY = 0,
     SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ = 1
 };
-
+static const char *const siemens_mm4_uss_normalisation_names[] = {
+    "by_reference_frequency", "hundredths_of_hertz"
+};
 static inline const char *siemens_mm4_uss_normalisation_name(int32_t raw)
-{
-    switch (raw) {
-    case SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY:
-        return "by_reference_frequency";
-    case SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ:
-        return "hundredths_of_hertz";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(siemens_mm4_uss_normalisation_names, raw); }
 
-/*
- * P2009: Uss normalisation rs485
- * 0, 1; read and write; default 0.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum normalisation_default (likely): printed: By failure the setpoint is normalised by P2000; taken: default:
- * 0.
- */
-#define SIEMENS_MM4_USS_NORMALISATION_RS485_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2009 uss normalisation rs485: 0, 1; rw; default 0 */
 #define SIEMENS_MM4_USS_NORMALISATION_RS485_ADDRESS 0x07D9U
 #define SIEMENS_MM4_USS_NORMALISATION_RS485_INDEX 0U
-#define SIEMENS_MM4_USS_NORMALISATION_RS485_CODE "P2009"
-#define SIEMENS_MM4_USS_NORMALISATION_RS485_WORDS 1U
 #define SIEMENS_MM4_USS_NORMALISATION_RS485_RAW_MIN 0
 #define SIEMENS_MM4_USS_NORMALISATION_RS485_RAW_MAX 1
+FIELDSCRIBE_STATUS siemens_mm4_uss_normalisation_rs485_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_normalisation_rs485_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t siemens_mm4_uss_normalisation_rs485_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_normalisation_rs485_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_NORMALISATION_RS485_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_UNKNOWN_VALUE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_normalisation_rs485_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_NORMALISATION_RS485_RAW_MIN || value > SIEMENS_MM4_USS_NORMALISATION_RS485_RAW_MAX) {
-        return SIEMENS_MM4_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_normalisation_rs485_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2009: Uss normalisation rs232
- * 0, 1; read and write; default 0.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum normalisation_default (likely): printed: By failure the setpoint is normalised by P2000; taken: default:
- * 0.
- */
-#define SIEMENS_MM4_USS_NORMALISATION_RS232_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2009 uss normalisation rs232: 0, 1; rw; default 0 */
 #define SIEMENS_MM4_USS_NORMALISATION_RS232_ADDRESS 0x07D9U
 #define SIEMENS_MM4_USS_NORMALISATION_RS232_INDEX 1U
-#define SIEMENS_MM4_USS_NORMALISATION_RS232_CODE "P2009"
-#define SIEMENS_MM4_USS_NORMALISATION_RS232_WORDS 1U
 #define SIEMENS_MM4_USS_NORMALISATION_RS232_RAW_MIN 0
 #define SIEMENS_MM4_USS_NORMALISATION_RS232_RAW_MAX 1
+FIELDSCRIBE_STATUS siemens_mm4_uss_normalisation_rs232_check(uint16_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_normalisation_rs232_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u16(value, 0, 1, raw)); }
+static inline int32_t siemens_mm4_uss_normalisation_rs232_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_normalisation_rs232_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_NORMALISATION_RS232_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_UNKNOWN_VALUE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_normalisation_rs232_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_NORMALISATION_RS232_RAW_MIN || value > SIEMENS_MM4_USS_NORMALISATION_RS232_RAW_MAX) {
-        return SIEMENS_MM4_UNKNOWN_VALUE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_normalisation_rs232_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2010: Uss baud rate index 0
- * 0..65535; read and write.
- * Erratum single_word_sign (likely): printed: The answers at lines 217 and 245 are single words; whether U16 or I16
- * is not said; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum baud_codes (unknown): printed: The parameter must equal the master's baud rate, at most 57600; the read
- * example answers 6; taken: A code, unchecked; no meanings.
- */
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2010 uss baud rate index 0: 0..65535; rw */
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_ADDRESS 0x07DAU
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_CODE "P2010"
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_WORDS 1U
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_uss_baud_rate_index_0_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_baud_rate_index_0_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_uss_baud_rate_index_0_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_baud_rate_index_0_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_baud_rate_index_0_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_RAW_MIN || value > SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_baud_rate_index_0_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2010: Uss baud rate index 1
- * 0..65535; read and write.
- * Erratum single_word_sign (likely): printed: The answers at lines 217 and 245 are single words; whether U16 or I16
- * is not said; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum baud_codes (unknown): printed: The parameter must equal the master's baud rate, at most 57600; the read
- * example answers 6; taken: A code, unchecked; no meanings.
- */
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2010 uss baud rate index 1: 0..65535; rw */
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_ADDRESS 0x07DAU
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_CODE "P2010"
-#define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_WORDS 1U
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_uss_baud_rate_index_1_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_baud_rate_index_1_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_uss_baud_rate_index_1_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_baud_rate_index_1_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_baud_rate_index_1_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_RAW_MIN || value > SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_baud_rate_index_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2011: Uss slave address index 0
- * 0..65535; read and write.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- */
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2011 uss slave address index 0: 0..65535; rw */
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_ADDRESS 0x07DBU
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_CODE "P2011"
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_WORDS 1U
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_uss_slave_address_index_0_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_slave_address_index_0_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_uss_slave_address_index_0_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_slave_address_index_0_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_slave_address_index_0_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_RAW_MIN || value > SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_slave_address_index_0_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2011: Uss slave address index 1
- * 0..65535; read and write.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- */
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2011 uss slave address index 1: 0..65535; rw */
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_ADDRESS 0x07DBU
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_CODE "P2011"
-#define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_WORDS 1U
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_RAW_MAX 65535
+FIELDSCRIBE_STATUS siemens_mm4_uss_slave_address_index_1_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_slave_address_index_1_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
+static inline int32_t siemens_mm4_uss_slave_address_index_1_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_slave_address_index_1_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_slave_address_index_1_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_RAW_MIN || value > SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_slave_address_index_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 0 mm410
- * 0..4; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 0 mm410: 0..4; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_INDEX 0U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_RAW_MAX 4
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm410_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm410_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 4, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm410_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm410_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm410_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm410_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 0 mm420
- * 0..4; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 0 mm420: 0..4; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_INDEX 0U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_RAW_MAX 4
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm420_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm420_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 4, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm420_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm420_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm420_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm420_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 0 mm430
- * 0..8; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 0 mm430: 0..8; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_INDEX 0U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_RAW_MAX 8
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm430_check(uint16_t raw) { return fieldscribe_check(raw, 0, 8); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm430_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 8, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm430_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm430_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm430_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm430_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 0 mm440
- * 0..8; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 0 mm440: 0..8; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_INDEX 0U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_RAW_MAX 8
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm440_check(uint16_t raw) { return fieldscribe_check(raw, 0, 8); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_0_mm440_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 8, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm440_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm440_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_0_mm440_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_0_mm440_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 1 mm410
- * 0..4; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 1 mm410: 0..4; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_INDEX 1U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_RAW_MAX 4
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm410_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm410_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 4, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm410_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm410_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm410_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm410_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 1 mm420
- * 0..4; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 1 mm420: 0..4; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_INDEX 1U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_RAW_MAX 4
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm420_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm420_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 4, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm420_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm420_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm420_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm420_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 1 mm430
- * 0..8; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 1 mm430: 0..8; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_INDEX 1U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_RAW_MAX 8
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm430_check(uint16_t raw) { return fieldscribe_check(raw, 0, 8); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm430_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 8, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm430_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm430_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm430_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm430_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2012: Uss pzd length index 1 mm440
- * 0..8; read and write; default 2.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pzd_length_range (certain): printed: 0 to 4 words; taken: 0..4 for MICROMASTER 410 and 420, 0..8 for
- * MICROMASTER 430 and 440.
- */
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2012 uss pzd length index 1 mm440: 0..8; rw; default 2 */
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_ADDRESS 0x07DCU
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_INDEX 1U
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_CODE "P2012"
-#define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_WORDS 1U
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_RAW_MIN 0
 #define SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_RAW_MAX 8
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm440_check(uint16_t raw) { return fieldscribe_check(raw, 0, 8); }
+FIELDSCRIBE_STATUS siemens_mm4_uss_pzd_length_index_1_mm440_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 8, raw); }
+static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm440_decode(uint16_t raw) { return raw; }
 
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm440_check(uint16_t raw)
-{
-    return raw <= SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_RAW_MAX ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_pzd_length_index_1_mm440_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_RAW_MIN || value > SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int32_t siemens_mm4_uss_pzd_length_index_1_mm440_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Uss pkw length */
 enum {
     SIEMENS_MM4_USS_PKW_LENGTH_NONE = 0,
     SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3 = 3,
     SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4 = 4,
     SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE = 127
 };
-
+static const fieldscribe_name siemens_mm4_uss_pkw_length_names[] = {
+    {SIEMENS_MM4_USS_PKW_LENGTH_NONE, "none"}, {SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3, "words_3"},
+    {SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4, "words_4"}, {SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE, "variable"}
+};
 static inline const char *siemens_mm4_uss_pkw_length_name(int32_t raw)
 {
-    switch (raw) {
-    case SIEMENS_MM4_USS_PKW_LENGTH_NONE:
-        return "none";
-    case SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3:
-        return "words_3";
-    case SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4:
-        return "words_4";
-    case SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE:
-        return "variable";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(siemens_mm4_uss_pkw_length_names, FIELDSCRIBE_COUNT(siemens_mm4_uss_pkw_length_names),
+        raw);
 }
 
-/*
- * P2013: Uss pkw length index 0
- * 0, 3, 4, 127; read and write; default 127.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pkw_length_wording (certain): printed: Setting 127 is the default or 4; line 487 calls 127 the default;
- * taken: default: 127.
- * Erratum pkw_length_0 (likely): printed: 0 is one of the four settings; the manual says nothing about it; taken: No
- * PKW part.
- */
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2013 uss pkw length index 0: 0, 3, 4, 127; rw; default 127 */
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_ADDRESS 0x07DDU
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_CODE "P2013"
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_WORDS 1U
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MAX 127
-
-static inline siemens_mm4_status siemens_mm4_uss_pkw_length_index_0_check(uint16_t raw)
+static const fieldscribe_range siemens_mm4_uss_pkw_length_index_0_ranges[] = {
+    {0, 0}, {3, 4}, {127, 127}
+};
+FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_check(uint16_t raw)
 {
-    return raw == 0U || (raw >= 3U && raw <= 4U) || raw == 127U ? SIEMENS_MM4_OK : SIEMENS_MM4_UNKNOWN_VALUE;
+    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_uss_pkw_length_index_0_ranges,
+        FIELDSCRIBE_COUNT(siemens_mm4_uss_pkw_length_index_0_ranges)));
 }
-
-static inline siemens_mm4_status siemens_mm4_uss_pkw_length_index_0_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_encode(int32_t value, uint16_t *raw)
 {
-    if (value < SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MIN || value > SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MAX) {
-        return SIEMENS_MM4_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const siemens_mm4_status status = siemens_mm4_uss_pkw_length_index_0_check(number);
-    if (status == SIEMENS_MM4_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 127)
+        ? fieldscribe_keep_u16(siemens_mm4_uss_pkw_length_index_0_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
+static inline int32_t siemens_mm4_uss_pkw_length_index_0_decode(uint16_t raw) { return raw; }
 
-static inline int32_t siemens_mm4_uss_pkw_length_index_0_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * P2013: Uss pkw length index 1
- * 0, 3, 4, 127; read and write; default 127.
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum pkw_length_wording (certain): printed: Setting 127 is the default or 4; line 487 calls 127 the default;
- * taken: default: 127.
- * Erratum pkw_length_0 (likely): printed: 0 is one of the four settings; the manual says nothing about it; taken: No
- * PKW part.
- */
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2013 uss pkw length index 1: 0, 3, 4, 127; rw; default 127 */
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_ADDRESS 0x07DDU
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_CODE "P2013"
-#define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_WORDS 1U
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MAX 127
-
-static inline siemens_mm4_status siemens_mm4_uss_pkw_length_index_1_check(uint16_t raw)
+FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_check(uint16_t raw)
 {
-    return raw == 0U || (raw >= 3U && raw <= 4U) || raw == 127U ? SIEMENS_MM4_OK : SIEMENS_MM4_UNKNOWN_VALUE;
+    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_uss_pkw_length_index_0_ranges,
+        FIELDSCRIBE_COUNT(siemens_mm4_uss_pkw_length_index_0_ranges)));
 }
-
-static inline siemens_mm4_status siemens_mm4_uss_pkw_length_index_1_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_encode(int32_t value, uint16_t *raw)
 {
-    if (value < SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MIN || value > SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MAX) {
-        return SIEMENS_MM4_UNKNOWN_VALUE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const siemens_mm4_status status = siemens_mm4_uss_pkw_length_index_1_check(number);
-    if (status == SIEMENS_MM4_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(value, 0, 127)
+        ? fieldscribe_keep_u16(siemens_mm4_uss_pkw_length_index_1_check((uint16_t)value), (uint16_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline int32_t siemens_mm4_uss_pkw_length_index_1_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t siemens_mm4_uss_pkw_length_index_1_decode(uint16_t raw) { return raw; }
 
 /*
- * P2014: Uss telegram off time index 0
- * 1..65535 ms, raw 1..65535; read and write; default monitoring_off.
- * Special code: 0 monitoring_off (may be written).
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum off_time_words (likely): printed: The name speaks of a lock time; taken: Telegram off time.
+ * P2014 uss telegram off time index 0: 1..65535 ms; rw; default monitoring_off; Special code: 0 monitoring_off (may be
+ * written)
  */
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_ADDRESS 0x07DEU
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_CODE "P2014"
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_WORDS 1U
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_RAW_MIN 1
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_RAW_MAX 65535
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF 0
-
-static inline bool siemens_mm4_uss_telegram_off_time_index_0_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool siemens_mm4_uss_telegram_off_time_index_0_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool siemens_mm4_uss_telegram_off_time_index_0_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool siemens_mm4_uss_telegram_off_time_index_0_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *siemens_mm4_uss_telegram_off_time_index_0_special_name(uint16_t raw)
+{ return (raw == 0U) ? "monitoring_off" : NULL; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_0_check(uint16_t raw)
 {
-    if (raw == 0U) {
-        return "monitoring_off";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (siemens_mm4_uss_telegram_off_time_index_0_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK));
 }
-
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_0_check(uint16_t raw)
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_0_encode(int32_t value, uint16_t *raw)
 {
-    if (raw == 0U) {
-        return SIEMENS_MM4_OK;
-    }
-    if (siemens_mm4_uss_telegram_off_time_index_0_is_special(raw)) {
-        return SIEMENS_MM4_SPECIAL;
-    }
-    (void)raw;
-    return SIEMENS_MM4_OK;
+    return fieldscribe_within(value, 0, 65535)
+        ? fieldscribe_keep_u16((siemens_mm4_uss_telegram_off_time_index_0_is_special((uint16_t)value)
+        ? FIELDSCRIBE_SPECIAL : siemens_mm4_uss_telegram_off_time_index_0_check((uint16_t)value)), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_0_encode(int32_t value, uint16_t *raw)
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_0_decode(uint16_t raw, int32_t *value)
 {
-    if (value < 0 || value > 65535) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const siemens_mm4_status status = siemens_mm4_uss_telegram_off_time_index_0_is_special(number) ? SIEMENS_MM4_SPECIAL : siemens_mm4_uss_telegram_off_time_index_0_check(number);
-    if (status == SIEMENS_MM4_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_0_decode(uint16_t raw, int32_t *value)
-{
-    if (siemens_mm4_uss_telegram_off_time_index_0_is_special(raw)) {
-        return SIEMENS_MM4_SPECIAL;
-    }
-    *value = raw;
-    return SIEMENS_MM4_OK;
+    return fieldscribe_keep_s32(siemens_mm4_uss_telegram_off_time_index_0_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, value);
 }
 
 /*
- * P2014: Uss telegram off time index 1
- * 1..65535 ms, raw 1..65535; read and write; default monitoring_off.
- * Special code: 0 monitoring_off (may be written).
- * Erratum integer_parameters_type (likely): printed: No type is printed at these parameters; only whole numbers are
- * shown as their values; taken: u16.
- * Erratum interface_indices (likely): printed: The parameters of the USS interface normally have two indices; which
- * ones do is not said; taken: Index 0 for RS485 and 1 for RS232 with P2009 to P2014.
- * Erratum off_time_words (likely): printed: The name speaks of a lock time; taken: Telegram off time.
+ * P2014 uss telegram off time index 1: 1..65535 ms; rw; default monitoring_off; Special code: 0 monitoring_off (may be
+ * written)
  */
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_ADDRESS 0x07DEU
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_CODE "P2014"
-#define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_WORDS 1U
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_RAW_MIN 1
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_RAW_MAX 65535
 #define SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF 0
-
-static inline bool siemens_mm4_uss_telegram_off_time_index_1_is_special(uint16_t raw)
-{
-    return raw == 0U;
-}
-
-static inline bool siemens_mm4_uss_telegram_off_time_index_1_is_no_value(uint16_t raw)
-{
-    (void)raw;
-    return false;
-}
-
+static inline bool siemens_mm4_uss_telegram_off_time_index_1_is_special(uint16_t raw) { return (raw == 0U); }
+static inline bool siemens_mm4_uss_telegram_off_time_index_1_is_no_value(uint16_t raw) { (void)raw; return false; }
 static inline const char *siemens_mm4_uss_telegram_off_time_index_1_special_name(uint16_t raw)
+{ return (raw == 0U) ? "monitoring_off" : NULL; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_1_check(uint16_t raw)
 {
-    if (raw == 0U) {
-        return "monitoring_off";
-    }
-    return NULL;
+    return (raw == 0U) ? FIELDSCRIBE_OK
+        : (siemens_mm4_uss_telegram_off_time_index_1_is_special(raw) ? FIELDSCRIBE_SPECIAL : (FIELDSCRIBE_OK));
+}
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_1_encode(int32_t value, uint16_t *raw)
+{
+    return fieldscribe_within(value, 0, 65535)
+        ? fieldscribe_keep_u16((siemens_mm4_uss_telegram_off_time_index_1_is_special((uint16_t)value)
+        ? FIELDSCRIBE_SPECIAL : siemens_mm4_uss_telegram_off_time_index_1_check((uint16_t)value)), (uint16_t)value, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
+}
+FIELDSCRIBE_STATUS siemens_mm4_uss_telegram_off_time_index_1_decode(uint16_t raw, int32_t *value)
+{
+    return fieldscribe_keep_s32(siemens_mm4_uss_telegram_off_time_index_1_is_special(raw) ? FIELDSCRIBE_SPECIAL
+        : FIELDSCRIBE_OK, raw, value);
 }
 
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_1_check(uint16_t raw)
-{
-    if (raw == 0U) {
-        return SIEMENS_MM4_OK;
-    }
-    if (siemens_mm4_uss_telegram_off_time_index_1_is_special(raw)) {
-        return SIEMENS_MM4_SPECIAL;
-    }
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_1_encode(int32_t value, uint16_t *raw)
-{
-    if (value < 0 || value > 65535) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)value;
-    const siemens_mm4_status status = siemens_mm4_uss_telegram_off_time_index_1_is_special(number) ? SIEMENS_MM4_SPECIAL : siemens_mm4_uss_telegram_off_time_index_1_check(number);
-    if (status == SIEMENS_MM4_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_1_decode(uint16_t raw, int32_t *value)
-{
-    if (siemens_mm4_uss_telegram_off_time_index_1_is_special(raw)) {
-        return SIEMENS_MM4_SPECIAL;
-    }
-    *value = raw;
-    return SIEMENS_MM4_OK;
-}
-
-/*
- * P2016: Uss rs232 answer source index 0
- * 0..4294967295; read and write; default 3407872.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2016 uss rs232 answer source index 0: 0..4294967295; rw; default 3407872 */
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_ADDRESS 0x07E0U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_CODE "P2016"
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_WORDS 2U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_RAW_MAX 4294967295
@@ -1823,65 +595,22 @@ static inline siemens_mm4_status siemens_mm4_uss_telegram_off_time_index_1_decod
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_0_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_0_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_RAW_MIN || value > SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs232_answer_source_index_0_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_0_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_0_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs232_answer_source_index_0_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_0_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_0_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs232_answer_source_index_0_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_0_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2016: Uss rs232 answer source index 1
- * 0..4294967295; read and write; default 1376256.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2016 uss rs232 answer source index 1: 0..4294967295; rw; default 1376256 */
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_ADDRESS 0x07E0U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_CODE "P2016"
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_WORDS 2U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_RAW_MAX 4294967295
@@ -1889,65 +618,22 @@ static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_0_from_words(co
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_1_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_1_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_RAW_MIN || value > SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs232_answer_source_index_1_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_1_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_1_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs232_answer_source_index_1_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_1_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_1_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs232_answer_source_index_1_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_1_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2016: Uss rs232 answer source index 2
- * 0..4294967295; read and write; default 0.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2016 uss rs232 answer source index 2: 0..4294967295; rw; default 0 */
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_ADDRESS 0x07E0U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_INDEX 2U
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_CODE "P2016"
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_WORDS 2U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_RAW_MAX 4294967295
@@ -1955,65 +641,22 @@ static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_1_from_words(co
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_2_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_2_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_RAW_MIN || value > SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs232_answer_source_index_2_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_2_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_2_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs232_answer_source_index_2_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_2_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_2_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs232_answer_source_index_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2016: Uss rs232 answer source index 3
- * 0..4294967295; read and write; default 0.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2016 uss rs232 answer source index 3: 0..4294967295; rw; default 0 */
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_ADDRESS 0x07E0U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_INDEX 3U
-#define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_CODE "P2016"
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_WORDS 2U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_RAW_MAX 4294967295
@@ -2021,65 +664,22 @@ static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_2_from_words(co
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_3_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs232_answer_source_index_3_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_RAW_MIN || value > SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs232_answer_source_index_3_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_3_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs232_answer_source_index_3_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs232_answer_source_index_3_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_3_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_3_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs232_answer_source_index_3_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_3_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2019: Uss rs485 answer source index 0
- * 0..4294967295; read and write; default 3407872.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2019 uss rs485 answer source index 0: 0..4294967295; rw; default 3407872 */
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_ADDRESS 0x07E3U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_INDEX 0U
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_CODE "P2019"
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_WORDS 2U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_RAW_MAX 4294967295
@@ -2087,65 +687,22 @@ static inline uint32_t siemens_mm4_uss_rs232_answer_source_index_3_from_words(co
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_0_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_0_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_RAW_MIN || value > SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs485_answer_source_index_0_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_0_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_0_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs485_answer_source_index_0_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_0_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_0_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs485_answer_source_index_0_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_0_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2019: Uss rs485 answer source index 1
- * 0..4294967295; read and write; default 1376256.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2019 uss rs485 answer source index 1: 0..4294967295; rw; default 1376256 */
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_ADDRESS 0x07E3U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_INDEX 1U
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_CODE "P2019"
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_WORDS 2U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_RAW_MAX 4294967295
@@ -2153,65 +710,22 @@ static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_0_from_words(co
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_1_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_1_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_RAW_MIN || value > SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs485_answer_source_index_1_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_1_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_1_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs485_answer_source_index_1_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_1_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_1_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs485_answer_source_index_1_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_1_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2019: Uss rs485 answer source index 2
- * 0..4294967295; read and write; default 0.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2019 uss rs485 answer source index 2: 0..4294967295; rw; default 0 */
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_ADDRESS 0x07E3U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_INDEX 2U
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_CODE "P2019"
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_WORDS 2U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_RAW_MAX 4294967295
@@ -2219,65 +733,22 @@ static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_1_from_words(co
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_2_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_2_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_RAW_MIN || value > SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs485_answer_source_index_2_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_2_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_2_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs485_answer_source_index_2_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_2_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_2_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs485_answer_source_index_2_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_2_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * P2019: Uss rs485 answer source index 3
- * 0..4294967295; read and write; default 0.
- * Erratum answer_source_type (likely): printed: The settings 52, 21, 0 and 27 are printed without a point, and no
- * type is; taken: u32, the number of the source in the high word.
- * Erratum answer_source_interfaces (likely): printed: Both serve RS232 or RS485; which serves which follows from the
- * order alone; taken: P2016 RS232, P2019 RS485.
- * Erratum answer_source_index_3 (certain): printed: With three PZD words the second actual value comes from index 3;
- * taken: From index 2; index 3 is the source of the second status word.
- * Erratum answer_source_count (unknown): printed: Four indices, while MICROMASTER 430 and 440 take eight words;
- * taken: indices: 0..3.
- */
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P2019 uss rs485 answer source index 3: 0..4294967295; rw; default 0 */
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_ADDRESS 0x07E3U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_INDEX 3U
-#define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_CODE "P2019"
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_WORDS 2U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_RAW_MIN 0
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_RAW_MAX 4294967295
@@ -2285,119 +756,39 @@ static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_2_from_words(co
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_SHIFT 16U
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_MASK 0x0000FFFFU
 #define SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_SHIFT 0U
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_3_check(uint32_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_uss_rs485_answer_source_index_3_encode(int64_t value, uint32_t *raw)
-{
-    if (value < SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_RAW_MIN || value > SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint32_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-static inline int64_t siemens_mm4_uss_rs485_answer_source_index_3_decode(uint32_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_3_check(uint32_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_uss_rs485_answer_source_index_3_encode(int64_t value, uint32_t *raw)
+{ return fieldscribe_encode_u32(value, 0, 4294967295, raw); }
+static inline int64_t siemens_mm4_uss_rs485_answer_source_index_3_decode(uint32_t raw) { return raw; }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_3_source_parameter(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0xFFFF0000U, 16U); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_3_source_bit(uint32_t raw)
-{
-    return (uint32_t)(((uint32_t)raw & SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_MASK) >> SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT_SHIFT);
-}
-
+{ return (uint32_t)fieldscribe_extract_wide(raw, 0x0000FFFFU, 0U); }
 static inline void siemens_mm4_uss_rs485_answer_source_index_3_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_3_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * r2036: Rs485 control word 1
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum source_numbers (likely): printed: The numbers 21, 27, 2036 and 2037 stand as sources, without a letter;
- * taken: Parameters that can be read only: r0021, r0027, r2036 and r2037.
- * Not generated (rs485_control_word_1): the manual does not settle its type.
- */
-#define SIEMENS_MM4_RS485_CONTROL_WORD_1_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r2036 rs485 control word 1: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_RS485_CONTROL_WORD_1_ADDRESS 0x07F4U
-#define SIEMENS_MM4_RS485_CONTROL_WORD_1_CODE "r2036"
 #define SIEMENS_MM4_RS485_CONTROL_WORD_1_WORDS 1U
 
-/*
- * r2037: Rs485 control word 2
- * read only.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Erratum source_numbers (likely): printed: The numbers 21, 27, 2036 and 2037 stand as sources, without a letter;
- * taken: Parameters that can be read only: r0021, r0027, r2036 and r2037.
- * Not generated (rs485_control_word_2): the manual does not settle its type.
- */
-#define SIEMENS_MM4_RS485_CONTROL_WORD_2_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* r2037 rs485 control word 2: r; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_RS485_CONTROL_WORD_2_ADDRESS 0x07F5U
-#define SIEMENS_MM4_RS485_CONTROL_WORD_2_CODE "r2037"
 #define SIEMENS_MM4_RS485_CONTROL_WORD_2_WORDS 1U
 
-/*
- * P3950: Secret password
- * read and write.
- * Erratum documented_only_types (unknown): printed: No type is printed, and no value on the wire; the parameter list
- * is another manual; taken: type: ~.
- * Not generated (secret_password): the manual does not settle its type.
- */
-#define SIEMENS_MM4_SECRET_PASSWORD_SPACE SIEMENS_MM4_SPACE_PARAMETER
+/* P3950 secret password: rw; not generated: the manual does not settle its type */
 #define SIEMENS_MM4_SECRET_PASSWORD_ADDRESS 0x0F6EU
-#define SIEMENS_MM4_SECRET_PASSWORD_CODE "P3950"
 #define SIEMENS_MM4_SECRET_PASSWORD_WORDS 1U
 
-/* ---- Task ---- */
+/* ---- task (telegram) ---- */
 
 /*
- * STW: Control word
- * 0..65535; write only.
- * Bit 1 (off2) is true when it is 0.
- * Bit 2 (off3) is true when it is 0.
- * Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.
- * Erratum stw_bit_2_order (certain): printed: Bit 2 names the operating condition first and AUS3 second; its
- * polarity column says 0 yes, 1 no; taken: 0 is OFF3, 1 the operating condition.
- * Erratum stw_bit_7_quote (certain): printed: A quotation mark stands behind the text of bit 7; taken: Nothing.
- * Erratum stw_bit_7_edge (unknown): printed: Bit 7 acknowledges at 1; whether by its edge or by its level is not
- * said; taken: As printed.
- * Erratum stw_bit_10_scope (certain): printed: Bit 10 is about the setpoints, line 526 adds the control by the PLC;
- * at line 338 it makes the inverter take or ignore the control word; taken: It makes the whole word count, and is
- * always written as 1.
- * Erratum stw_bit_15_order (likely): printed: Bit 15 has P0719 ind 0 and ind 1 in the polarity column instead of yes
- * and no; line 531 prints the same words without it; taken: 0 is remote control with index 0, 1 is local control
- * with index 1.
- * Erratum stw_bits_3_to_5_names (certain): printed: Bits 3, 4, 5 and 10 have other names in the comparison with
- * MICROMASTER 3 than in the table of STW; taken: The names of the table of STW.
- * Erratum stw_changed_bits (certain): printed: Bits 11 and 12 are said to have changed; the comparison also gives
- * bits 13, 14 and 15 a meaning that they had not; taken: The comparison table.
+ * STW control word: 0..65535; w, pzd 1; exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and
+ * back
  */
-#define SIEMENS_MM4_CONTROL_WORD_SPACE SIEMENS_MM4_SPACE_TELEGRAM
 #define SIEMENS_MM4_CONTROL_WORD_ADDRESS 0x0000U
 #define SIEMENS_MM4_CONTROL_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_TASK
-#define SIEMENS_MM4_CONTROL_WORD_CODE "STW"
-#define SIEMENS_MM4_CONTROL_WORD_PZD 1U
-#define SIEMENS_MM4_CONTROL_WORD_WORDS 1U
 #define SIEMENS_MM4_CONTROL_WORD_RAW_MIN 0
 #define SIEMENS_MM4_CONTROL_WORD_RAW_MAX 65535
 #define SIEMENS_MM4_CONTROL_WORD_FIXED_MASK 0x0400U
@@ -2419,134 +810,54 @@ static inline uint32_t siemens_mm4_uss_rs485_answer_source_index_3_from_words(co
 #define SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK 0x2000U
 #define SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK 0x4000U
 #define SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK 0x8000U
-
-static inline siemens_mm4_status siemens_mm4_control_word_check(uint16_t raw)
+FIELDSCRIBE_STATUS siemens_mm4_control_word_check(uint16_t raw)
+{ return (((uint32_t)raw & 0x0400U) == 0x0400U) ? (FIELDSCRIBE_OK) : FIELDSCRIBE_OUT_OF_RANGE; }
+FIELDSCRIBE_STATUS siemens_mm4_control_word_encode(int32_t value, uint16_t *raw)
 {
-    return ((uint32_t)raw & SIEMENS_MM4_CONTROL_WORD_FIXED_MASK) == SIEMENS_MM4_CONTROL_WORD_FIXED_BITS ? SIEMENS_MM4_OK : SIEMENS_MM4_OUT_OF_RANGE;
+    return fieldscribe_within(value, 0, 65535)
+        ? fieldscribe_keep_u16(siemens_mm4_control_word_check(fieldscribe_fix((uint16_t)value, 0x0400U, 0x0400U)),
+        fieldscribe_fix((uint16_t)value, 0x0400U, 0x0400U), raw) : FIELDSCRIBE_OUT_OF_RANGE;
 }
 
-static inline siemens_mm4_status siemens_mm4_control_word_encode(int32_t value, uint16_t *raw)
-{
-    if (value < 0 || value > 65535) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    const uint16_t number = (uint16_t)(((uint32_t)value & ~(uint32_t)SIEMENS_MM4_CONTROL_WORD_FIXED_MASK) | SIEMENS_MM4_CONTROL_WORD_FIXED_BITS);
-    const siemens_mm4_status status = siemens_mm4_control_word_check(number);
-    if (status == SIEMENS_MM4_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-/*
- * HSW: Main setpoint
- * raw 0..65535; write only.
- * Erratum hsw_sign (unknown): printed: No sign is shown; the direction comes from bit 11 of STW; taken: u16.
- * Erratum hsw_range (unknown): printed: No limits are printed; taken: Unchecked.
- * Erratum hsw_40_hertz (likely): printed: 3333h is 40.00 Hz; neither P2000 nor P2009 is said; taken: P2000 = 50 Hz
- * and P2009 = 0: 3333h is 13107 / 16384 of 50 Hz, 39.9994 Hz, which is 40.00 Hz rounded.
- * Erratum hsw_interface_source (likely): printed: The source is said to be the USS interface with a wrong article;
- * nothing says which index of P2009 counts; taken: The index of the interface in use.
- * Erratum hsw_number_words (certain): printed: The setpoint is said to be sent as a hexadecimal number with one
- * setting and as a decimal value with the other; taken: A binary word with both; only its unit differs.
- */
-#define SIEMENS_MM4_MAIN_SETPOINT_SPACE SIEMENS_MM4_SPACE_TELEGRAM
+/* HSW main setpoint: raw 0..65535; 0.00001 Hz a count; w, pzd 2 */
 #define SIEMENS_MM4_MAIN_SETPOINT_ADDRESS 0x0001U
 #define SIEMENS_MM4_MAIN_SETPOINT_TELEGRAM SIEMENS_MM4_TELEGRAM_TASK
-#define SIEMENS_MM4_MAIN_SETPOINT_CODE "HSW"
-#define SIEMENS_MM4_MAIN_SETPOINT_PZD 2U
-#define SIEMENS_MM4_MAIN_SETPOINT_WORDS 1U
 #define SIEMENS_MM4_MAIN_SETPOINT_RAW_MIN 0
 #define SIEMENS_MM4_MAIN_SETPOINT_RAW_MAX 65535
 #define SIEMENS_MM4_MAIN_SETPOINT_DECIMALS 5
-
-static inline siemens_mm4_status siemens_mm4_main_setpoint_check(uint16_t raw)
+/* The raw numbers of other points. */
+typedef struct siemens_mm4_main_setpoint_with {
+    uint16_t uss_normalisation_raw;
+    uint32_t reference_frequency_raw;
+} siemens_mm4_main_setpoint_with;
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+static inline fieldscribe_rule siemens_mm4_main_setpoint_rule(const siemens_mm4_main_setpoint_with *with)
 {
-    (void)raw;
-    return SIEMENS_MM4_OK;
+    return (with->uss_normalisation_raw == 0)
+        ? fieldscribe_rule_f32(fieldscribe_rule_of(16384, 1, 0, 1), with->reference_frequency_raw, true)
+        : ((with->uss_normalisation_raw == 1) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline siemens_mm4_status siemens_mm4_main_setpoint_rule(siemens_mm4_rule *rule, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw)
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode_count(
+    int64_t count, const siemens_mm4_main_setpoint_with *with, uint16_t *raw)
 {
-    int64_t mantissa = 0;
-    int32_t exponent = 0;
-    if (uss_normalisation_raw == 0) {
-        rule->num = 16384;
-        rule->den = 1;
-        rule->shift = 0;
-        if (!siemens_mm4_split_f32(reference_frequency_raw, &mantissa, &exponent)) {
-            return SIEMENS_MM4_ZERO_FACTOR;
-        }
-        rule->shift -= exponent;
-        rule->den *= mantissa;
-        return SIEMENS_MM4_OK;
-    }
-    if (uss_normalisation_raw == 1) {
-        rule->num = 100;
-        rule->den = 1;
-        rule->shift = 0;
-        return SIEMENS_MM4_OK;
-    }
-    return SIEMENS_MM4_NO_CASE;
+    return fieldscribe_store_u16(fieldscribe_ruled_count(siemens_mm4_main_setpoint_rule(with), count, 100000, 0, 65535),
+        raw);
 }
-
-static inline siemens_mm4_status siemens_mm4_main_setpoint_encode_count(int64_t count, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw, uint16_t *raw)
-{
-    siemens_mm4_rule rule;
-    int64_t whole = 0;
-    siemens_mm4_status status = siemens_mm4_main_setpoint_rule(&rule, uss_normalisation_raw, reference_frequency_raw);
-    if (status == SIEMENS_MM4_OK) {
-        status = siemens_mm4_raw_from_count(&rule, count, 100000, SIEMENS_MM4_MAIN_SETPOINT_RAW_MIN, SIEMENS_MM4_MAIN_SETPOINT_RAW_MAX, &whole);
-    }
-    if (status == SIEMENS_MM4_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline siemens_mm4_status siemens_mm4_main_setpoint_encode(double value, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw, uint16_t *raw)
-{
-    siemens_mm4_rule rule;
-    int64_t whole = 0;
-    siemens_mm4_status status = siemens_mm4_is_nan(value) ? SIEMENS_MM4_NOT_A_NUMBER : siemens_mm4_main_setpoint_rule(&rule, uss_normalisation_raw, reference_frequency_raw);
-    if (status == SIEMENS_MM4_OK) {
-        status = siemens_mm4_raw_from_value(&rule, value, SIEMENS_MM4_MAIN_SETPOINT_RAW_MIN, SIEMENS_MM4_MAIN_SETPOINT_RAW_MAX, &whole);
-    }
-    if (status == SIEMENS_MM4_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
+    double value, const siemens_mm4_main_setpoint_with *with, uint16_t *raw)
+{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_main_setpoint_rule(with), value, 0, 65535), raw); }
 #endif
 
-/*
- * HSW2: Second setpoint
- * 0..65535; write only.
- * Erratum second_words_scale (unknown): printed: No scale is said for the second setpoint and the second actual
- * value; taken: scale: ~.
- * Not generated (second_setpoint): the manual does not settle its scale.
- */
-#define SIEMENS_MM4_SECOND_SETPOINT_SPACE SIEMENS_MM4_SPACE_TELEGRAM
+/* HSW2 second setpoint: 0..65535; w, pzd 3; not generated: the manual does not settle its scale */
 #define SIEMENS_MM4_SECOND_SETPOINT_ADDRESS 0x0002U
 #define SIEMENS_MM4_SECOND_SETPOINT_TELEGRAM SIEMENS_MM4_TELEGRAM_TASK
-#define SIEMENS_MM4_SECOND_SETPOINT_CODE "HSW2"
-#define SIEMENS_MM4_SECOND_SETPOINT_PZD 3U
 #define SIEMENS_MM4_SECOND_SETPOINT_WORDS 1U
 
-/*
- * STW2: Second control word
- * 0..65535; write only.
- * Erratum external_fault_polarity (unknown): printed: Bit 13 is an external fault; no polarity is printed for the
- * bits of this list; taken: The name of the bit alone.
- */
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_SPACE SIEMENS_MM4_SPACE_TELEGRAM
+/* STW2 second control word: 0..65535; w, pzd 4 */
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_ADDRESS 0x0003U
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_TASK
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_CODE "STW2"
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_PZD 4U
-#define SIEMENS_MM4_SECOND_CONTROL_WORD_WORDS 1U
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_RAW_MIN 0
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_RAW_MAX 65535
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK 0x0001U
@@ -2555,59 +866,17 @@ static inline siemens_mm4_status siemens_mm4_main_setpoint_encode(double value, 
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK 0x0100U
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK 0x0200U
 #define SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK 0x2000U
+FIELDSCRIBE_STATUS siemens_mm4_second_control_word_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS siemens_mm4_second_control_word_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 65535, raw); }
 
-static inline siemens_mm4_status siemens_mm4_second_control_word_check(uint16_t raw)
-{
-    (void)raw;
-    return SIEMENS_MM4_OK;
-}
-
-static inline siemens_mm4_status siemens_mm4_second_control_word_encode(int32_t value, uint16_t *raw)
-{
-    if (value < SIEMENS_MM4_SECOND_CONTROL_WORD_RAW_MIN || value > SIEMENS_MM4_SECOND_CONTROL_WORD_RAW_MAX) {
-        return SIEMENS_MM4_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return SIEMENS_MM4_OK;
-}
-
-/* ---- Answer ---- */
+/* ---- answer (telegram) ---- */
 
 /*
- * ZSW: Status word
- * 0..65535; read only.
- * Bit 4 (off2_pending) is true when it is 0.
- * Bit 5 (off3_pending) is true when it is 0.
- * Bit 8 (deviation) is true when it is 0.
- * Bit 11 (current_limit_warning) is true when it is 0.
- * Bit 12 (holding_brake_active) is true when it is 0.
- * Bit 13 (motor_overload) is true when it is 0.
- * Bit 15 (inverter_overload) is true when it is 0.
- * Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.
- * Erratum zsw_bit_3_polarity (certain): printed: Bit 3 names the fault as its second meaning, that of 1, while its
- * polarity column says 0 yes, 1 no; taken: 1 is a fault.
- * Erratum zsw_bit_5_polarity (certain): printed: Bit 5 names the AUS3 command as its first meaning, that of 0, while
- * its polarity column says 0 no, 1 yes; taken: 0 is a pending OFF3.
- * Erratum zsw_bit_8_at_rest (unknown): printed: Bit 8 is a deviation at 0. FA31h has it at 0 after 047E 0000, where
- * setpoint and actual value are both 0; taken: As printed in the table: 0 is a deviation.
- * Erratum zsw_bit_12_at_rest (unknown): printed: Bit 12 is an active holding brake at 0; FA31h has it at 1 while the
- * motor stands; taken: As printed: 0 is an active brake.
- * Erratum zsw_bit_6_spelling (certain): printed: The word for switch-on inhibit lacks its last letter twice; taken:
- * Switch-on inhibit.
- * Erratum zsw_bit_9_words (likely): printed: Bit 9: control required, spelt as a verb; taken: Control requested.
- * Erratum zsw_bit_11_words (certain): printed: Bit 11 warns of the motor at its current limit, with a wrong article;
- * taken: Motor at its current limit.
- * Erratum jog_ready_words (likely): printed: The inverter is to stop and be ready to run, and answers FA31h, in
- * which bit 1, ready to run, is 0; taken: FA31h means ready to switch on, bit 0.
+ * ZSW status word: 0..65535; r, pzd 1; exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back
  */
-#define SIEMENS_MM4_STATUS_WORD_SPACE SIEMENS_MM4_SPACE_TELEGRAM
 #define SIEMENS_MM4_STATUS_WORD_ADDRESS 0x0000U
 #define SIEMENS_MM4_STATUS_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
-#define SIEMENS_MM4_STATUS_WORD_CODE "ZSW"
-#define SIEMENS_MM4_STATUS_WORD_PZD 1U
-#define SIEMENS_MM4_STATUS_WORD_WORDS 1U
-#define SIEMENS_MM4_STATUS_WORD_RAW_MIN 0
-#define SIEMENS_MM4_STATUS_WORD_RAW_MAX 65535
 #define SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK 0xB930U
 #define SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK 0x0001U
 #define SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK 0x0002U
@@ -2625,104 +894,33 @@ static inline siemens_mm4_status siemens_mm4_second_control_word_encode(int32_t 
 #define SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK 0x2000U /* true while 0 */
 #define SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK 0x4000U
 #define SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK 0x8000U /* true while 0 */
+static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw; }
 
-static inline int32_t siemens_mm4_status_word_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * HIW: Main actual value
- * raw 0..65535; read only.
- * Erratum hsw_sign (unknown): printed: No sign is shown; the direction comes from bit 11 of STW; taken: u16.
- * Erratum hsw_range (unknown): printed: No limits are printed; taken: Unchecked.
- * Erratum hiw_scale_with_other_source (likely): printed: The normalisation by P2009 also holds for this value; how a
- * current (source 27) is scaled is not said; taken: The scale holds for the default source, a frequency.
- */
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_SPACE SIEMENS_MM4_SPACE_TELEGRAM
+/* HIW main actual value: raw 0..65535; 0.00001 Hz a count; r, pzd 2 */
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_ADDRESS 0x0001U
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_CODE "HIW"
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_PZD 2U
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_WORDS 1U
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_RAW_MIN 0
-#define SIEMENS_MM4_MAIN_ACTUAL_VALUE_RAW_MAX 65535
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_DECIMALS 5
-
-/* The scale, as what the other points hold makes it. */
-static inline siemens_mm4_status siemens_mm4_main_actual_value_rule(siemens_mm4_rule *rule, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw)
-{
-    int64_t mantissa = 0;
-    int32_t exponent = 0;
-    if (uss_normalisation_raw == 0) {
-        rule->num = 16384;
-        rule->den = 1;
-        rule->shift = 0;
-        if (!siemens_mm4_split_f32(reference_frequency_raw, &mantissa, &exponent)) {
-            return SIEMENS_MM4_ZERO_FACTOR;
-        }
-        rule->shift -= exponent;
-        rule->den *= mantissa;
-        return SIEMENS_MM4_OK;
-    }
-    if (uss_normalisation_raw == 1) {
-        rule->num = 100;
-        rule->den = 1;
-        rule->shift = 0;
-        return SIEMENS_MM4_OK;
-    }
-    return SIEMENS_MM4_NO_CASE;
-}
-
-static inline siemens_mm4_status siemens_mm4_main_actual_value_decode_count(uint16_t raw, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw, int64_t *count)
-{
-    siemens_mm4_rule rule;
-    const siemens_mm4_status status = siemens_mm4_main_actual_value_rule(&rule, uss_normalisation_raw, reference_frequency_raw);
-    return status == SIEMENS_MM4_OK ? siemens_mm4_count_from_raw(&rule, (int64_t)raw, 100000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline siemens_mm4_status siemens_mm4_main_actual_value_decode(uint16_t raw, uint16_t uss_normalisation_raw, uint32_t reference_frequency_raw, double *value)
-{
-    siemens_mm4_rule rule;
-    const siemens_mm4_status status = siemens_mm4_main_actual_value_rule(&rule, uss_normalisation_raw, reference_frequency_raw);
-    return status == SIEMENS_MM4_OK ? siemens_mm4_value_from_raw(&rule, (int64_t)raw, value) : status;
-}
+FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
+    uint16_t raw, const siemens_mm4_main_setpoint_with *with, int64_t *count)
+{ return fieldscribe_decode_count(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 100000, count); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
+    uint16_t raw, const siemens_mm4_main_setpoint_with *with, double *value)
+{ return fieldscribe_decode_value(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, value); }
 #endif
 
 /*
- * HIW2: Second actual value
- * 0..65535; read only.
- * Erratum second_words_scale (unknown): printed: No scale is said for the second setpoint and the second actual
- * value; taken: scale: ~.
- * Erratum hiw2_position (likely): printed: pzd 4; taken: pzd 3.
- * Not generated (second_actual_value): the manual does not settle its scale.
+ * HIW2 second actual value: 0..65535; r, pzd 3; erratum hiw2_position; not generated: the manual does not settle its
+ * scale
  */
-#define SIEMENS_MM4_SECOND_ACTUAL_VALUE_SPACE SIEMENS_MM4_SPACE_TELEGRAM
 #define SIEMENS_MM4_SECOND_ACTUAL_VALUE_ADDRESS 0x0002U
 #define SIEMENS_MM4_SECOND_ACTUAL_VALUE_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
-#define SIEMENS_MM4_SECOND_ACTUAL_VALUE_CODE "HIW2"
-#define SIEMENS_MM4_SECOND_ACTUAL_VALUE_PZD 3U
 #define SIEMENS_MM4_SECOND_ACTUAL_VALUE_WORDS 1U
 
-/*
- * ZSW2: Second status word
- * 0..65535; read only.
- * Erratum zsw2_position (likely): printed: pzd 3; taken: pzd 4.
- */
-#define SIEMENS_MM4_SECOND_STATUS_WORD_SPACE SIEMENS_MM4_SPACE_TELEGRAM
+/* ZSW2 second status word: 0..65535; r, pzd 4; erratum zsw2_position */
 #define SIEMENS_MM4_SECOND_STATUS_WORD_ADDRESS 0x0003U
 #define SIEMENS_MM4_SECOND_STATUS_WORD_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
-#define SIEMENS_MM4_SECOND_STATUS_WORD_CODE "ZSW2"
-#define SIEMENS_MM4_SECOND_STATUS_WORD_PZD 4U
-#define SIEMENS_MM4_SECOND_STATUS_WORD_WORDS 1U
-#define SIEMENS_MM4_SECOND_STATUS_WORD_RAW_MIN 0
-#define SIEMENS_MM4_SECOND_STATUS_WORD_RAW_MAX 65535
-
-static inline int32_t siemens_mm4_second_status_word_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t siemens_mm4_second_status_word_decode(uint16_t raw) { return raw; }
 
 #ifdef __cplusplus
 }

@@ -5,8 +5,9 @@
  *
  * Siemens MICROMASTER 4: USS requests.
  *
- * A request is a small struct; fieldscribe_uss_build makes the telegram of it in a buffer of the caller, together with
- * the words of process data, and fieldscribe_uss_parse reads the answer.
+ * A parameter is what it is read with (`read`) and written with (`write`; with `..._eeprom_frame` into the EEPROM too),
+ * by fieldscribe_uss.h, which shows how. One that cannot be written has no `write`. One that shares its word with other
+ * points has `update`: read the word first. Words of process data are `heard` and `sent`.
  */
 #ifndef SIEMENS_MM4_USS_H
 #define SIEMENS_MM4_USS_H
@@ -14,7 +15,7 @@
 #include "siemens_mm4.h"
 #include "fieldscribe_uss.h"
 
-#if FIELDSCRIBE_USS_INTERFACE != 1
+#if FIELDSCRIBE_USS_INTERFACE != 2
 #error "fieldscribe_uss.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -243,961 +244,170 @@ static const fieldscribe_uss_profile siemens_mm4_uss_profile = {
     8U /* the most */
 };
 
-/* ---- Requests of the parameters: a written value goes to the RAM, or to the EEPROM too ---- */
-
-static inline fieldscribe_uss_request siemens_mm4_user_access_level_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USER_ACCESS_LEVEL_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_user_access_level_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_user_access_level_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_WORD, SIEMENS_MM4_USER_ACCESS_LEVEL_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_user_access_level_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_WORD, SIEMENS_MM4_USER_ACCESS_LEVEL_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_inverter_status_word_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_INVERTER_STATUS_WORD_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_inverter_status_word_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_command_source_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_COMMAND_SOURCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_command_source_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_command_source_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_WORD, SIEMENS_MM4_COMMAND_SOURCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_command_source_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_WORD, SIEMENS_MM4_COMMAND_SOURCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_p0731_source_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_P0731_SOURCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_p0731_source_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_p0731_source_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_DOUBLE_WORD, SIEMENS_MM4_P0731_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_p0731_source_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, SIEMENS_MM4_P0731_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_main_setpoint_source_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_MAIN_SETPOINT_SOURCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_main_setpoint_source_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_main_setpoint_source_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_WORD, SIEMENS_MM4_MAIN_SETPOINT_SOURCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_main_setpoint_source_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_WORD, SIEMENS_MM4_MAIN_SETPOINT_SOURCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_maximum_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_MAXIMUM_FREQUENCY_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_maximum_frequency_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_maximum_frequency_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_DOUBLE_WORD, SIEMENS_MM4_MAXIMUM_FREQUENCY_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_maximum_frequency_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, SIEMENS_MM4_MAXIMUM_FREQUENCY_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_jog_time_selection_source_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_jog_time_selection_source_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_jog_time_selection_source_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_DOUBLE_WORD, SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_jog_time_selection_source_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_dc_braking_source_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_DC_BRAKING_SOURCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_dc_braking_source_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_dc_braking_source_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_DOUBLE_WORD, SIEMENS_MM4_DC_BRAKING_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_dc_braking_source_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, SIEMENS_MM4_DC_BRAKING_SOURCE_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_output_phase_sequence_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_output_phase_sequence_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_output_phase_sequence_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_WORD, SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_output_phase_sequence_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_WORD, SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_ADDRESS, 0U, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_reference_frequency_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_REFERENCE_FREQUENCY_ADDRESS, 0U);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_reference_frequency_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_reference_frequency_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_DOUBLE_WORD, SIEMENS_MM4_REFERENCE_FREQUENCY_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_reference_frequency_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, SIEMENS_MM4_REFERENCE_FREQUENCY_ADDRESS, 0U, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs485_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_NORMALISATION_RS485_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS485_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_normalisation_rs485_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs485_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_NORMALISATION_RS485_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS485_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs485_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_NORMALISATION_RS485_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS485_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs232_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_NORMALISATION_RS232_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS232_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_normalisation_rs232_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs232_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_NORMALISATION_RS232_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS232_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_normalisation_rs232_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_NORMALISATION_RS232_ADDRESS, SIEMENS_MM4_USS_NORMALISATION_RS232_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_baud_rate_index_0_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_0_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_0_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_baud_rate_index_1_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_1_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_baud_rate_index_1_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_BAUD_RATE_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_slave_address_index_0_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_0_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_0_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_slave_address_index_1_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_1_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_slave_address_index_1_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_ADDRESS, SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm410_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_0_mm410_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm410_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm410_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm420_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_0_mm420_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm420_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm420_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm430_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_0_mm430_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm430_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm430_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm440_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_0_mm440_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm440_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_0_mm440_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm410_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_1_mm410_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm410_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm410_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm420_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_1_mm420_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm420_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm420_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm430_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_1_mm430_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm430_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm430_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm440_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pzd_length_index_1_mm440_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm440_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pzd_length_index_1_mm440_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_ADDRESS, SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pkw_length_index_0_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_0_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_0_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_pkw_length_index_1_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_1_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_pkw_length_index_1_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_ADDRESS, SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_telegram_off_time_index_0_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_0_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_0_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_telegram_off_time_index_1_from_reply(const fieldscribe_uss_reply *reply, uint16_t *raw)
-{
-    const uint16_t word = (uint16_t)(reply->value & 0xFFFFU);
-    if (reply->width != 1U) {
-        return false;
-    }
-    *raw = word;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_1_write_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_WORD, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_telegram_off_time_index_1_write_eeprom_request(uint8_t unit, uint16_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_WORD, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_ADDRESS, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_INDEX, 1U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs232_answer_source_index_0_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_0_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_0_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs232_answer_source_index_1_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_1_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_1_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_2_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs232_answer_source_index_2_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_2_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_2_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_3_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs232_answer_source_index_3_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_3_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs232_answer_source_index_3_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_0_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs485_answer_source_index_0_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_0_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_0_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_1_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs485_answer_source_index_1_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_1_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_1_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_2_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs485_answer_source_index_2_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_2_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_2_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_3_read_request(uint8_t unit)
-{
-    return fieldscribe_uss_read(unit, SIEMENS_MM4_TASK_READ_VALUE, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_INDEX);
-}
-
-/* The raw number that an answer brings; false when its value has another width. */
-static inline bool siemens_mm4_uss_rs485_answer_source_index_3_from_reply(const fieldscribe_uss_reply *reply, uint32_t *raw)
-{
-    if (reply->width != 2U) {
-        return false;
-    }
-    *raw = reply->value;
-    return true;
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_3_write_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_WRITE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_INDEX, 2U, raw);
-}
-
-static inline fieldscribe_uss_request siemens_mm4_uss_rs485_answer_source_index_3_write_eeprom_request(uint8_t unit, uint32_t raw)
-{
-    return fieldscribe_uss_write(unit, SIEMENS_MM4_TASK_STORE_ARRAY_DOUBLE_WORD, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_ADDRESS, SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_INDEX, 2U, raw);
-}
-
-/* ---- Words of process data: a link with fewer words than a telegram has carries the first ones ---- */
-
-/* The words before any point is put in: all 0, so that reading parameters commands nothing; no constant bit is set yet. */
-static inline void siemens_mm4_telegram_task_start(uint16_t words[SIEMENS_MM4_TELEGRAM_TASK_WORDS])
-{
-    size_t at;
-    for (at = 0U; at < SIEMENS_MM4_TELEGRAM_TASK_WORDS; ++at) {
-        words[at] = 0U;
-    }
-}
-
-static inline void siemens_mm4_control_word_to_pzd(uint16_t raw, uint16_t words[SIEMENS_MM4_TELEGRAM_TASK_WORDS])
-{
-    words[SIEMENS_MM4_CONTROL_WORD_ADDRESS] = (uint16_t)(((uint32_t)raw & ~(uint32_t)SIEMENS_MM4_CONTROL_WORD_FIXED_MASK) | SIEMENS_MM4_CONTROL_WORD_FIXED_BITS);
-}
-
-static inline void siemens_mm4_main_setpoint_to_pzd(uint16_t raw, uint16_t words[SIEMENS_MM4_TELEGRAM_TASK_WORDS])
-{
-    words[SIEMENS_MM4_MAIN_SETPOINT_ADDRESS] = raw;
-}
-
-static inline void siemens_mm4_second_control_word_to_pzd(uint16_t raw, uint16_t words[SIEMENS_MM4_TELEGRAM_TASK_WORDS])
-{
-    words[SIEMENS_MM4_SECOND_CONTROL_WORD_ADDRESS] = raw;
-}
-
-static inline uint16_t siemens_mm4_status_word_from_pzd(const uint16_t words[SIEMENS_MM4_TELEGRAM_ANSWER_WORDS])
-{
-    return words[SIEMENS_MM4_STATUS_WORD_ADDRESS];
-}
-
-static inline uint16_t siemens_mm4_main_actual_value_from_pzd(const uint16_t words[SIEMENS_MM4_TELEGRAM_ANSWER_WORDS])
-{
-    return words[SIEMENS_MM4_MAIN_ACTUAL_VALUE_ADDRESS];
-}
-
-static inline uint16_t siemens_mm4_second_status_word_from_pzd(const uint16_t words[SIEMENS_MM4_TELEGRAM_ANSWER_WORDS])
-{
-    return words[SIEMENS_MM4_SECOND_STATUS_WORD_ADDRESS];
-}
+/* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
+
+static const fieldscribe_layout siemens_mm4_layout_u16 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0000U, 0x0000U};
+static const fieldscribe_layout siemens_mm4_layout_u32_order_01 =
+    {FIELDSCRIBE_U32, 2U, 0x01U, false, 0U, 0xFFFFFFFFU, 0x0000U, 0x0000U};
+static const fieldscribe_layout siemens_mm4_layout_u16_fixed_0400_0400 =
+    {FIELDSCRIBE_U16, 1U, 0x00U, false, 0U, 0xFFFFU, 0x0400U, 0x0400U};
+
+/* ---- Parameters: what reads them, what writes them, also to the EEPROM (task, number, index, words) ---- */
+
+static const fieldscribe_uss_rw siemens_mm4_user_access_level_frame =
+    {&siemens_mm4_layout_u16, {1U, 3U, 0U, 1U}, {2U, 3U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_user_access_level_eeprom_frame =
+    {&siemens_mm4_layout_u16, {14U, 3U, 0U, 1U}};
+static const fieldscribe_uss_r siemens_mm4_inverter_status_word_frame = {&siemens_mm4_layout_u16, {1U, 52U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_command_source_frame =
+    {&siemens_mm4_layout_u16, {1U, 700U, 0U, 1U}, {2U, 700U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_command_source_eeprom_frame = {&siemens_mm4_layout_u16, {14U, 700U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_p0731_source_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 731U, 0U, 2U}, {3U, 731U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_p0731_source_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {13U, 731U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_main_setpoint_source_frame =
+    {&siemens_mm4_layout_u16, {1U, 1000U, 0U, 1U}, {2U, 1000U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_main_setpoint_source_eeprom_frame =
+    {&siemens_mm4_layout_u16, {14U, 1000U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_maximum_frequency_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 1082U, 0U, 2U}, {3U, 1082U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_maximum_frequency_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {13U, 1082U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_jog_time_selection_source_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 1124U, 0U, 2U}, {3U, 1124U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_jog_time_selection_source_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {13U, 1124U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_dc_braking_source_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 1230U, 0U, 2U}, {3U, 1230U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_dc_braking_source_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {13U, 1230U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_output_phase_sequence_frame =
+    {&siemens_mm4_layout_u16, {1U, 1820U, 0U, 1U}, {2U, 1820U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_output_phase_sequence_eeprom_frame =
+    {&siemens_mm4_layout_u16, {14U, 1820U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_reference_frequency_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2000U, 0U, 2U}, {3U, 2000U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_reference_frequency_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {13U, 2000U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_normalisation_rs485_frame =
+    {&siemens_mm4_layout_u16, {1U, 2009U, 0U, 1U}, {7U, 2009U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_normalisation_rs485_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2009U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_normalisation_rs232_frame =
+    {&siemens_mm4_layout_u16, {1U, 2009U, 1U, 1U}, {7U, 2009U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_normalisation_rs232_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2009U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_baud_rate_index_0_frame =
+    {&siemens_mm4_layout_u16, {1U, 2010U, 0U, 1U}, {7U, 2010U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_baud_rate_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2010U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_baud_rate_index_1_frame =
+    {&siemens_mm4_layout_u16, {1U, 2010U, 1U, 1U}, {7U, 2010U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_baud_rate_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2010U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_slave_address_index_0_frame =
+    {&siemens_mm4_layout_u16, {1U, 2011U, 0U, 1U}, {7U, 2011U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_slave_address_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2011U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_slave_address_index_1_frame =
+    {&siemens_mm4_layout_u16, {1U, 2011U, 1U, 1U}, {7U, 2011U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_slave_address_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2011U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm410_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm420_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm430_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_0_mm440_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 0U, 1U}, {7U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm410_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm420_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm430_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pzd_length_index_1_mm440_frame =
+    {&siemens_mm4_layout_u16, {1U, 2012U, 1U, 1U}, {7U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2012U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pkw_length_index_0_frame =
+    {&siemens_mm4_layout_u16, {1U, 2013U, 0U, 1U}, {7U, 2013U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pkw_length_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2013U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_pkw_length_index_1_frame =
+    {&siemens_mm4_layout_u16, {1U, 2013U, 1U, 1U}, {7U, 2013U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_pkw_length_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2013U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_telegram_off_time_index_0_frame =
+    {&siemens_mm4_layout_u16, {1U, 2014U, 0U, 1U}, {7U, 2014U, 0U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2014U, 0U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_telegram_off_time_index_1_frame =
+    {&siemens_mm4_layout_u16, {1U, 2014U, 1U, 1U}, {7U, 2014U, 1U, 1U}};
+static const fieldscribe_uss_w siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u16, {12U, 2014U, 1U, 1U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_0_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 0U, 2U}, {8U, 2016U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_1_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 1U, 2U}, {8U, 2016U, 1U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 1U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_2_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 2U, 2U}, {8U, 2016U, 2U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 2U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs232_answer_source_index_3_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2016U, 3U, 2U}, {8U, 2016U, 3U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2016U, 3U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_0_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 0U, 2U}, {8U, 2019U, 0U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 0U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_1_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 1U, 2U}, {8U, 2019U, 1U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 1U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_2_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 2U, 2U}, {8U, 2019U, 2U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 2U, 2U}};
+static const fieldscribe_uss_rw siemens_mm4_uss_rs485_answer_source_index_3_frame =
+    {&siemens_mm4_layout_u32_order_01, {1U, 2019U, 3U, 2U}, {8U, 2019U, 3U, 2U}};
+static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame =
+    {&siemens_mm4_layout_u32_order_01, {11U, 2019U, 3U, 2U}};
+
+/*
+ * ---- Words of process data: a link with fewer words than a telegram has carries the first ones ----
+ *
+ * Start with words that are all 0, so that reading parameters commands nothing: no constant bit is set yet.
+ */
+
+static const fieldscribe_uss_s siemens_mm4_control_word_frame = {&siemens_mm4_layout_u16_fixed_0400_0400, {0U}};
+static const fieldscribe_uss_s siemens_mm4_main_setpoint_frame = {&siemens_mm4_layout_u16, {1U}};
+static const fieldscribe_uss_s siemens_mm4_second_control_word_frame = {&siemens_mm4_layout_u16, {3U}};
+static const fieldscribe_uss_h siemens_mm4_status_word_frame = {&siemens_mm4_layout_u16, {0U}};
+static const fieldscribe_uss_h siemens_mm4_main_actual_value_frame = {&siemens_mm4_layout_u16, {1U}};
+static const fieldscribe_uss_h siemens_mm4_second_status_word_frame = {&siemens_mm4_layout_u16, {3U}};
 
 #ifdef __cplusplus
 }

@@ -8,31 +8,18 @@
  * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
  * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
  * and writes its result only when it returns WOODWARD_MPU2S_OK. Decoding takes whatever the device may send.
- *
- * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
- * FIELDSCRIBE_FLOAT32 makes woodward_mpu2s_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: the results are exact to the bit without them.
+ * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
  */
 #ifndef WOODWARD_MPU2S_H
 #define WOODWARD_MPU2S_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "fieldscribe.h"
 
-#if !defined(FIELDSCRIBE_NO_FLOAT) && \
-    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#if FIELDSCRIBE_INTERFACE != 1
+#error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-#include <float.h>
-#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
-#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_NO_FLOAT."
-#endif
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 /* 16 is about half floats alone */
-#error "The arithmetic here has excess precision (x87): compile with -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
-#endif
+#if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
+#error "A double has not 53 bits here, and values need them: define FIELDSCRIBE_NO_FLOAT."
 #endif
 
 #define WOODWARD_MPU2S_DESCRIPTION_VERSION "1.0.0"
@@ -42,23 +29,18 @@
 extern "C" {
 #endif
 
-/* What conversions answer. */
-typedef enum woodward_mpu2s_status {
-    WOODWARD_MPU2S_OK = 0,
-    WOODWARD_MPU2S_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
-    WOODWARD_MPU2S_NOT_A_NUMBER,  /* the value is NaN */
-    WOODWARD_MPU2S_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    WOODWARD_MPU2S_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    WOODWARD_MPU2S_NO_CASE,       /* no scale for what the other point holds */
-    WOODWARD_MPU2S_OVERFLOW,      /* the result does not fit */
-    WOODWARD_MPU2S_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
-} woodward_mpu2s_status;
-
-/* Where an address counts. */
-enum {
-    WOODWARD_MPU2S_SPACE_TELEGRAM = 0,
-    WOODWARD_MPU2S_SPACE_PARAMETER = 1
-};
+typedef fieldscribe_status woodward_mpu2s_status;
+#if !defined(FIELDSCRIBE_NO_FLOAT)
+typedef fieldscribe_real woodward_mpu2s_real;
+#endif
+#define WOODWARD_MPU2S_OK FIELDSCRIBE_OK
+#define WOODWARD_MPU2S_OUT_OF_RANGE FIELDSCRIBE_OUT_OF_RANGE
+#define WOODWARD_MPU2S_NOT_A_NUMBER FIELDSCRIBE_NOT_A_NUMBER
+#define WOODWARD_MPU2S_UNKNOWN_VALUE FIELDSCRIBE_UNKNOWN_VALUE
+#define WOODWARD_MPU2S_ZERO_FACTOR FIELDSCRIBE_ZERO_FACTOR
+#define WOODWARD_MPU2S_NO_CASE FIELDSCRIBE_NO_CASE
+#define WOODWARD_MPU2S_OVERFLOW FIELDSCRIBE_OVERFLOW
+#define WOODWARD_MPU2S_SPECIAL FIELDSCRIBE_SPECIAL
 
 /* The cyclic telegrams, and how many words each has. */
 enum {
@@ -66,804 +48,240 @@ enum {
 };
 #define WOODWARD_MPU2S_TELEGRAM_VISUALISATION_WORDS 69U
 
-/* The number whose two's complement pattern is in the low bits of `bits`; `sign` is the highest of them. */
-static inline int32_t woodward_mpu2s_signed(uint16_t bits, uint16_t sign)
-{
-    return (int32_t)(bits ^ sign) - (int32_t)sign;
-}
 
-/* The quotient to the nearest integer, halves away from zero; the divisor is above zero. */
-static inline int32_t woodward_mpu2s_divide(int32_t number, int32_t divisor)
-{
-    const int32_t half = divisor / 2;
-    return (number < 0 ? number - half : number + half) / divisor;
-}
+/* ---- visualisation data (telegram) ---- */
 
-/* A scale whose factors are known at run time: raw = value * num / den. */
-typedef struct woodward_mpu2s_rule {
-    int64_t num;
-    int64_t den;
-} woodward_mpu2s_rule;
-
-static inline uint64_t woodward_mpu2s_magnitude(int64_t number)
-{
-    return number < 0 ? (uint64_t)(-(number + 1)) + 1U : (uint64_t)number;
-}
-
-/* a * b; false when that is no int64_t. */
-static inline bool woodward_mpu2s_multiply(int64_t a, int64_t b, int64_t *product)
-{
-    const uint64_t size = woodward_mpu2s_magnitude(a);
-    if (size != 0U && woodward_mpu2s_magnitude(b) > (uint64_t)INT64_MAX / size) {
-        return false;
-    }
-    *product = a * b;
-    return true;
-}
-
-/* Multiplies a rule by ten to the power of `exponent`; false when that does not fit. */
-static inline bool woodward_mpu2s_times_ten_to(int64_t exponent, woodward_mpu2s_rule *rule)
-{
-    int64_t *const grows = exponent < 0 ? &rule->den : &rule->num;
-    uint64_t left = woodward_mpu2s_magnitude(exponent);
-    while (left > 0U) {
-        if (!woodward_mpu2s_multiply(*grows, 10, grows)) {
-            return false;
-        }
-        --left;
-    }
-    return true;
-}
-
-/* number * num / den to the nearest integer, halves away from zero, exact; false when that is no int64_t. */
-static inline bool woodward_mpu2s_ratio(int64_t number, int64_t num, int64_t den, int64_t *result)
-{
-    const bool negative = (number < 0) != ((num < 0) != (den < 0));
-    const uint64_t a = woodward_mpu2s_magnitude(number);
-    const uint64_t b = woodward_mpu2s_magnitude(num);
-    const uint64_t divisor = woodward_mpu2s_magnitude(den);
-    const uint64_t half_word = UINT64_C(0xFFFFFFFF);
-    /* the product has 128 bits: high, low */
-    const uint64_t lowest = (a & half_word) * (b & half_word);
-    const uint64_t cross = (a >> 32) * (b & half_word) + (lowest >> 32);
-    const uint64_t middle = (a & half_word) * (b >> 32) + (cross & half_word);
-    const uint64_t high = (a >> 32) * (b >> 32) + (cross >> 32) + (middle >> 32);
-    uint64_t low = ((middle & half_word) << 32) | (lowest & half_word);
-    uint64_t rest = high;
-    uint64_t quotient = 0U;
-    if (high >= divisor) {
-        return false;
-    }
-    if (high == 0U) {
-        quotient = low / divisor;
-        rest = low % divisor;
-    } else {
-        int bit;
-        for (bit = 0; bit < 64; ++bit) {
-            rest = (rest << 1) | (low >> 63); /* rest < divisor <= 2^63: no bit is lost */
-            low = (low & (uint64_t)INT64_MAX) << 1;
-            if (quotient > (uint64_t)INT64_MAX) {
-                return false;
-            }
-            quotient <<= 1;
-            if (rest >= divisor) {
-                rest -= divisor;
-                quotient |= 1U;
-            }
-        }
-    }
-    if (quotient > (uint64_t)INT64_MAX) {
-        return false;
-    }
-    if (rest >= divisor - rest) {
-        ++quotient;
-    }
-    if (quotient > (uint64_t)INT64_MAX) {
-        return false;
-    }
-    *result = negative ? -(int64_t)quotient : (int64_t)quotient;
-    return true;
-}
-
-/* The raw number of `count`, where `tens` counts are one unit; false when it does not fit. */
-static inline bool woodward_mpu2s_apply_rule(const woodward_mpu2s_rule *rule, int64_t count, int64_t tens, int64_t *raw)
-{
-    int64_t den = 0;
-    if (!woodward_mpu2s_multiply(rule->den, tens, &den)) {
-        return false;
-    }
-    return woodward_mpu2s_ratio(count, rule->num, den, raw);
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_raw_from_count(
-    const woodward_mpu2s_rule *rule, int64_t count, int64_t tens, int64_t low, int64_t high, int64_t *raw)
-{
-    if (!woodward_mpu2s_apply_rule(rule, count, tens, raw) || *raw < low || *raw > high) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_count_from_raw(
-    const woodward_mpu2s_rule *rule, int64_t raw, int64_t tens, int64_t *count)
-{
-    int64_t den = 0;
-    if (!woodward_mpu2s_multiply(rule->den, tens, &den) ||
-        !woodward_mpu2s_ratio(raw, den, rule->num, count)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-/* Machines that can multiply and add in one rounding. Of others than x86 and ARM clang does not tell, MSVC never. */
-#if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
-    defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
-    (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
-#define WOODWARD_MPU2S_MAY_FUSE
-#endif
-
-#if defined(FIELDSCRIBE_FLOAT32)
-typedef float woodward_mpu2s_real;
-#else
-typedef double woodward_mpu2s_real;
-#endif
-
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
-static inline woodward_mpu2s_real woodward_mpu2s_times(woodward_mpu2s_real value, woodward_mpu2s_real factor)
-{
-#if defined(WOODWARD_MPU2S_MAY_FUSE)
-    volatile woodward_mpu2s_real product = value * factor;
-    return product;
-#else
-    return value * factor;
-#endif
-}
-
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
-static inline double woodward_mpu2s_times_wide(double value, double factor)
-{
-#if defined(WOODWARD_MPU2S_MAY_FUSE)
-    volatile double product = value * factor;
-    return product;
-#else
-    return value * factor;
-#endif
-}
-
-/* The nearest integer, halves away from zero, if it lies in low..high (which stay below 2^31 - 1 in size). */
-static inline woodward_mpu2s_status woodward_mpu2s_round(woodward_mpu2s_real number, int32_t low, int32_t high, int32_t *whole)
-{
-    int32_t nearest;
-    woodward_mpu2s_real rest;
-    if (!(number > (woodward_mpu2s_real)(low - 1) && number < (woodward_mpu2s_real)(high + 1))) {
-        return number < 0 || number >= 0 ? WOODWARD_MPU2S_OUT_OF_RANGE : WOODWARD_MPU2S_NOT_A_NUMBER;
-    }
-    nearest = (int32_t)number;
-    rest = number - (woodward_mpu2s_real)nearest;
-    if (rest >= (woodward_mpu2s_real)0.5) {
-        ++nearest;
-    } else if (rest <= (woodward_mpu2s_real)-0.5) {
-        --nearest;
-    }
-    if (nearest < low || nearest > high) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *whole = nearest;
-    return WOODWARD_MPU2S_OK;
-}
-
-/* The nearest integer, halves away from zero, if it lies in low..high. */
-static inline woodward_mpu2s_status woodward_mpu2s_round_wide(double number, int64_t low, int64_t high, int64_t *whole)
-{
-    int64_t nearest;
-    double rest;
-    if (!(number >= -9223372036854775808.0 && number < 9223372036854775808.0)) {
-        return number < 0 || number >= 0 ? WOODWARD_MPU2S_OUT_OF_RANGE : WOODWARD_MPU2S_NOT_A_NUMBER;
-    }
-    nearest = (int64_t)number;
-    rest = number - (double)nearest;
-    if (rest >= 0.5) {
-        ++nearest;
-    } else if (rest <= -0.5) {
-        --nearest;
-    }
-    if (nearest < low || nearest > high) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *whole = nearest;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_is_nan(double value)
-{
-    return !(value < 0 || value >= 0);
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_raw_from_value(
-    const woodward_mpu2s_rule *rule, double value, int64_t low, int64_t high, int64_t *raw)
-{
-    double number = woodward_mpu2s_times_wide(value, (double)rule->num) / (double)rule->den;
-    return woodward_mpu2s_round_wide(number, low, high, raw);
-}
-
-/* One division of two exact integers gives the nearest double. */
-static inline woodward_mpu2s_status woodward_mpu2s_value_from_raw(const woodward_mpu2s_rule *rule, int64_t raw, double *value)
-{
-    int64_t number = 0;
-    const int64_t num = rule->num;
-    if (!woodward_mpu2s_multiply(raw, rule->den, &number)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    *value = num < 0 ? (double)-number / (double)-num : (double)number / (double)num;
-    return WOODWARD_MPU2S_OK;
-}
-#endif
-
-/* ---- Visualisation data ---- */
-
-/*
- * Telegram identification
- * 0..65535; read only.
- * Erratum telegram_identification_base (unknown): printed: The word is "1301", with no base; taken: A bare number
- * that is not checked.
- */
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* telegram identification: 0..65535; r, mux 0, word 1, nr 1 */
 #define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_ADDRESS 0x0000U
 #define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_MUX 0U
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_WORD 1U
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_NR 1U
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_WORDS 1U
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_RAW_MIN 0
-#define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_RAW_MAX 65535
+static inline int32_t woodward_mpu2s_telegram_identification_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_telegram_identification_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator frequency
- * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
- * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
- */
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator frequency: 0..655.35 Hz; 0.01 Hz a count; r, mux 0, word 2, nr 2 */
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_ADDRESS 0x0001U
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_MUX 0U
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_NR 2U
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_DECIMALS 2
-
-static inline int32_t woodward_mpu2s_generator_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_real woodward_mpu2s_generator_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 100;
-}
+static inline int32_t woodward_mpu2s_generator_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_generator_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * Generator active power
- * raw -32768..32767; read only.
- * Erratum telegram_signed_power (likely): printed: Nothing is said about a sign; taken: type: s16.
- * Erratum telegram_power_exponent_use (certain): printed: The remark speaks of the "Leistungsexponenten" without its
- * name; taken: PGNEXPO of word 4.
- */
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator active power: raw -32768..32767; 1 W a count; r, mux 0, word 3, nr 3 */
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_ADDRESS 0x0002U
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_MUX 0U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_WORD 3U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_NR 3U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_RAW_MIN (-32768)
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_RAW_MAX 32767
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_DECIMALS 0
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_active_power_rule(woodward_mpu2s_rule *rule, int8_t generator_power_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_generator_active_power_rule(int8_t generator_power_exponent_raw)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_power_exponent_raw < 0 || generator_power_exponent_raw > 5) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_power_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_power_exponent_raw, 0, 5), -(int64_t)generator_power_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_active_power_decode_count(int16_t raw, int8_t generator_power_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode_count(
+    int16_t raw, int8_t generator_power_exponent_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_active_power_rule(&rule, generator_power_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
+        (int64_t)raw, 1, count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_active_power_decode(int16_t raw, int8_t generator_power_exponent_raw, double *value)
+static inline void woodward_mpu2s_generator_active_power_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode(
+    int16_t raw, int8_t generator_power_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_active_power_rule(&rule, generator_power_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-static inline void woodward_mpu2s_generator_active_power_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * PGNEXPO: Generator power exponent
- * 0..5; read only.
- * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
- * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
- * voltages, -3..3 for the current.
- */
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* PGNEXPO generator power exponent: 0..5; r, mux 1, word 1, nr 4 */
 #define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_ADDRESS 0x0003U
 #define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_CODE "PGNEXPO"
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_MUX 1U
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_NR 4U
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_RAW_MAX 5
 #define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_SHIFT 8U
 #define WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_MASK 0xFF00U
-
-static inline int32_t woodward_mpu2s_generator_power_exponent_decode(int8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_generator_power_exponent_decode(int8_t raw) { return raw; }
 static inline int8_t woodward_mpu2s_generator_power_exponent_extract(uint16_t word)
-{
-    return (int8_t)woodward_mpu2s_signed((uint16_t)(((uint32_t)word & WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_MASK) >> WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_SHIFT), 0x80U);
-}
-
+{ return (int8_t)fieldscribe_signed(fieldscribe_extract(word, 0xFF00U, 8U), 0x80U); }
 static inline uint16_t woodward_mpu2s_generator_power_exponent_insert(uint16_t word, int8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_SHIFT) & WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT_MASK));
-}
+{ return fieldscribe_insert(word, 0xFF00U, 8U, (uint16_t)raw); }
 
-/*
- * UGNEXPO: Generator voltage exponent
- * -4..4; read only.
- * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
- * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
- * voltages, -3..3 for the current.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* UGNEXPO generator voltage exponent: -4..4; r, mux 1, word 1, nr 4 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_ADDRESS 0x0003U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_CODE "UGNEXPO"
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_MUX 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_NR 4U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_RAW_MIN (-4)
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_RAW_MAX 4
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_SHIFT 0U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_MASK 0x00FFU
-
-static inline int32_t woodward_mpu2s_generator_voltage_exponent_decode(int8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_generator_voltage_exponent_decode(int8_t raw) { return raw; }
 static inline int8_t woodward_mpu2s_generator_voltage_exponent_extract(uint16_t word)
-{
-    return (int8_t)woodward_mpu2s_signed((uint16_t)(word & WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_MASK), 0x80U);
-}
-
+{ return (int8_t)fieldscribe_signed(fieldscribe_extract(word, 0x00FFU, 0U), 0x80U); }
 static inline uint16_t woodward_mpu2s_generator_voltage_exponent_insert(uint16_t word, int8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT_MASK));
-}
+{ return fieldscribe_insert(word, 0x00FFU, 0U, (uint16_t)raw); }
 
-/*
- * Present active power setpoint
- * raw -32768..32767; read only.
- * Erratum telegram_signed_power (likely): printed: Nothing is said about a sign; taken: type: s16.
- */
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* present active power setpoint: raw -32768..32767; 0.0001 W a count; r, mux 1, word 2, nr 5 */
 #define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_ADDRESS 0x0004U
 #define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_MUX 1U
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_WORD 2U
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_NR 5U
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_WORDS 1U
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_RAW_MIN (-32768)
-#define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_RAW_MAX 32767
 #define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_present_active_power_setpoint_rule(woodward_mpu2s_rule *rule, uint16_t active_power_setpoint_factor_raw, int8_t generator_power_exponent_raw)
+/* The raw numbers of other points. */
+typedef struct woodward_mpu2s_present_active_power_setpoint_with {
+    uint16_t active_power_setpoint_factor_raw;
+    int8_t generator_power_exponent_raw;
+} woodward_mpu2s_present_active_power_setpoint_with;
+static inline fieldscribe_rule woodward_mpu2s_present_active_power_setpoint_rule(
+    const woodward_mpu2s_present_active_power_setpoint_with *with)
 {
-    rule->num = 2800;
-    rule->den = 1;
-    if ((int64_t)active_power_setpoint_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->den *= (int64_t)active_power_setpoint_factor_raw;
-    if (generator_power_exponent_raw < 0 || generator_power_exponent_raw > 5) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_power_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_over(fieldscribe_rule_of(2800, 1, 0, 1),
+        (int64_t)with->active_power_setpoint_factor_raw), (int64_t)with->generator_power_exponent_raw, 0, 5),
+        -(int64_t)with->generator_power_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_present_active_power_setpoint_decode_count(int16_t raw, uint16_t active_power_setpoint_factor_raw, int8_t generator_power_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode_count(
+    int16_t raw, const woodward_mpu2s_present_active_power_setpoint_with *with, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_present_active_power_setpoint_rule(&rule, active_power_setpoint_factor_raw, generator_power_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 10000,
+        count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_present_active_power_setpoint_decode(int16_t raw, uint16_t active_power_setpoint_factor_raw, int8_t generator_power_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_present_active_power_setpoint_rule(&rule, active_power_setpoint_factor_raw, generator_power_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
-}
+static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_present_active_power_setpoint_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode(
+    int16_t raw, const woodward_mpu2s_present_active_power_setpoint_with *with, double *value)
+{ return fieldscribe_decode_value(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, value); }
 #endif
 
-static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_present_active_power_setpoint_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * PGNWWD: Active power setpoint factor
- * 0..65535; read only.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* PGNWWD active power setpoint factor: 0..65535; r, mux 1, word 3, nr 6 */
 #define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_ADDRESS 0x0005U
 #define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_CODE "PGNWWD"
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_MUX 1U
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_WORD 3U
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_NR 6U
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_WORDS 1U
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_RAW_MIN 0
-#define WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR_RAW_MAX 65535
+static inline int32_t woodward_mpu2s_active_power_setpoint_factor_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_active_power_setpoint_factor_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Busbar voltage l1 l2
- * raw 0..65535; read only.
- * Erratum telegram_busbar_voltage_title (certain): printed: "Sammelschienenenspannung"; taken:
- * Sammelschienenspannung.
- */
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* busbar voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 2, word 1, nr 7 */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_ADDRESS 0x0006U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_MUX 2U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_WORD 1U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_NR 7U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_WORDS 1U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_RAW_MIN 0
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_RAW_MAX 65535
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_l1_l2_rule(woodward_mpu2s_rule *rule, int8_t busbar_voltage_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_busbar_voltage_l1_l2_rule(int8_t busbar_voltage_exponent_raw)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (busbar_voltage_exponent_raw < -4 || busbar_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)busbar_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)busbar_voltage_exponent_raw, -4, 4), -(int64_t)busbar_voltage_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_l1_l2_decode_count(uint16_t raw, int8_t busbar_voltage_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode_count(
+    uint16_t raw, int8_t busbar_voltage_exponent_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_busbar_voltage_l1_l2_rule(&rule, busbar_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_l1_l2_decode(uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
+    uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_busbar_voltage_l1_l2_rule(&rule, busbar_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains voltage l1 l2
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 2, word 2, nr 8 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_ADDRESS 0x0007U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_MUX 2U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_WORD 2U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_NR 8U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_l2_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l1_l2_rule(int8_t mains_voltage_exponent_raw)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_l2_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l1_l2_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_l2_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l1_l2_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Present fault classes
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- */
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* present fault classes: 0..65535; r, mux 2, word 3, nr 9 */
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_ADDRESS 0x0008U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_MUX 2U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_WORD 3U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_NR 9U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_WORDS 1U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_RAW_MIN 0
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_RAW_MAX 65535
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_MASK 0x00C0U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_SHIFT 6U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_INACTIVE 0U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_ACTIVE 3U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_MASK 0x0030U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_SHIFT 4U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_INACTIVE 0U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_ACTIVE 3U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_MASK 0x000CU
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_SHIFT 2U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_INACTIVE 0U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_ACTIVE 3U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_MASK 0x0003U
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_SHIFT 0U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_INACTIVE 0U
-#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_present_fault_classes_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_INACTIVE 0U
+#define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_ACTIVE 3U
+static inline int32_t woodward_mpu2s_present_fault_classes_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_present_fault_classes_fault_class_3(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_MASK) >> WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_3_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_present_fault_classes_fault_class_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_MASK) >> WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_present_fault_classes_fault_class_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_MASK) >> WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_present_fault_classes_fault_class_0(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_MASK) >> WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_FAULT_CLASS_0_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Control register 2
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_terminal_4_breaker (unknown): printed: "Klemme 4: LS ist aus" at bits 7 and 6, GLS at bits 15 to
- * 12; taken: A circuit breaker that is not named more closely.
- */
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* control register 2: 0..65535; r, mux 3, word 1, nr 10 */
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_ADDRESS 0x0009U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_MUX 3U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_WORD 1U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_NR 10U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_WORDS 1U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_RAW_MIN 0
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_RAW_MAX 65535
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_MASK 0xC000U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_SHIFT 14U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_ACTIVE 3U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_MASK 0x3000U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_SHIFT 12U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_ACTIVE 3U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_MASK 0x00C0U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_SHIFT 6U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_ACTIVE 3U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_MASK 0x0030U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_SHIFT 4U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_ACTIVE 3U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_MASK 0x000CU
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_SHIFT 2U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_control_register_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_CONTROL_REGISTER_2_INACTIVE 0U
+#define WOODWARD_MPU2S_CONTROL_REGISTER_2_ACTIVE 3U
+static inline int32_t woodward_mpu2s_control_register_2_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_control_register_2_terminal_3_generator_breaker_enable(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_3_GENERATOR_BREAKER_ENABLE_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_control_register_2_terminal_5_generator_breaker_closed(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_5_GENERATOR_BREAKER_CLOSED_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_control_register_2_terminal_4_breaker_open(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_4_BREAKER_OPEN_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_control_register_2_terminal_54_mains_parallel(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_54_MAINS_PARALLEL_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_control_register_2_terminal_6_synchronisation_on(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_2_TERMINAL_6_SYNCHRONISATION_ON_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 
-/*
- * Reserved word 11
- * 0..65535; read only.
- * Not generated (reserved_word_11): reserved by the maker.
- */
+/* reserved word 11: 0..65535; r, mux 3, word 2, nr 11; not generated: reserved by the maker */
 
-/*
- * Control register 1
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- */
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* control register 1: 0..65535; r, mux 3, word 3, nr 12 */
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_ADDRESS 0x000BU
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_MUX 3U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_WORD 3U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_NR 12U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_WORDS 1U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_RAW_MIN 0
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_RAW_MAX 65535
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_MASK 0x0C00U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_SHIFT 10U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_ACTIVE 3U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_MASK 0x0300U
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_SHIFT 8U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_INACTIVE 0U
-#define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_control_register_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_CONTROL_REGISTER_1_INACTIVE 0U
+#define WOODWARD_MPU2S_CONTROL_REGISTER_1_ACTIVE 3U
+static inline int32_t woodward_mpu2s_control_register_1_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_control_register_1_acknowledge_f2_f3(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F2_F3_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_control_register_1_acknowledge_f1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_MASK) >> WOODWARD_MPU2S_CONTROL_REGISTER_1_ACKNOWLEDGE_F1_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 
-/*
- * Internal faults 8
- * 0..65535; read only.
- * Erratum telegram_single_bits (likely): printed: What 0 and 1 of a bit mean is not said; taken: 1 means that the
- * fault is there.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 8: 0..65535; r, mux 4, word 1, nr 13 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_ADDRESS 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_MUX 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_WORD 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_NR 13U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_8_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_GENERATOR_OVERFREQUENCY_STAGE_2_MASK 0x8000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_GENERATOR_UNDERFREQUENCY_STAGE_2_MASK 0x4000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_GENERATOR_OVERVOLTAGE_STAGE_2_MASK 0x2000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_GENERATOR_UNDERVOLTAGE_STAGE_2_MASK 0x1000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_REACTIVE_POWER_INDUCTIVE_MASK 0x0800U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_8_REACTIVE_POWER_CAPACITIVE_MASK 0x0400U
+static inline int32_t woodward_mpu2s_internal_faults_8_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_internal_faults_8_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Internal faults 6
- * 0..65535; read only.
- * Erratum telegram_single_bits (likely): printed: What 0 and 1 of a bit mean is not said; taken: 1 means that the
- * fault is there.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 6: 0..65535; r, mux 4, word 2, nr 14 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ADDRESS 0x000DU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_MUX 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_WORD 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_NR 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_6_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_8_WIRE_BREAK_MASK 0x0080U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_7_WIRE_BREAK_MASK 0x0040U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_6_WIRE_BREAK_MASK 0x0020U
@@ -872,8781 +290,3826 @@ static inline int32_t woodward_mpu2s_internal_faults_8_decode(uint16_t raw)
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_3_WIRE_BREAK_MASK 0x0004U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_2_WIRE_BREAK_MASK 0x0002U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_1_WIRE_BREAK_MASK 0x0001U
+static inline int32_t woodward_mpu2s_internal_faults_6_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_internal_faults_6_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator voltage l2 l3
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l2 l3: raw 0..65535; 0.0001 V a count; r, mux 4, word 3, nr 15 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_ADDRESS 0x000EU
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_MUX 4U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_WORD 3U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_NR 15U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_l3_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l2_l3_rule(int8_t generator_voltage_exponent_raw)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_l3_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l2_l3_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_l3_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l2_l3_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator voltage l3 l1
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 5, word 1, nr 16 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_ADDRESS 0x000FU
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_MUX 5U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_NR 16U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_l1_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_l1_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l3_l1_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_l1_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l3_l1_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator voltage l1 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 2, nr 17 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_ADDRESS 0x0010U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_MUX 5U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_NR 17U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_n_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_n_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l1_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_n_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l1_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator voltage l2 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 3, nr 18 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_ADDRESS 0x0011U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_MUX 5U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_WORD 3U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_NR 18U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_n_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_n_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l2_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l2_n_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l2_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator voltage l3 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 6, word 1, nr 19 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_ADDRESS 0x0012U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_MUX 6U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_NR 19U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_n_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_n_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l3_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l3_n_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l3_n_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator voltage l1 l2
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 6, word 2, nr 20 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_ADDRESS 0x0013U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_MUX 6U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_NR 20U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_l2_rule(woodward_mpu2s_rule *rule, int8_t generator_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode_count(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_voltage_exponent_raw < -4 || generator_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, 10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_l2_decode_count(uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
+    uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l1_l2_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_l1_l2_decode(uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_l1_l2_rule(&rule, generator_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Reserved word 21
- * 0..65535; read only.
- * Not generated (reserved_word_21): reserved by the maker.
- */
+/* reserved word 21: 0..65535; r, mux 6, word 3, nr 21; not generated: reserved by the maker */
 
-/*
- * Generator current l1
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator current l1: raw 0..65535; 0.001 A a count; r, mux 7, word 1, nr 22 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_ADDRESS 0x0015U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_MUX 7U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_NR 22U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_DECIMALS 3
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l1_rule(woodward_mpu2s_rule *rule, int8_t generator_current_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_generator_current_l1_rule(int8_t generator_current_exponent_raw)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_current_exponent_raw < -3 || generator_current_exponent_raw > 3) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_current_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l1_decode_count(uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode_count(
+    uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l1_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, 1000, count);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l1_decode(uint16_t raw, int8_t generator_current_exponent_raw, double *value)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l1_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator current l2
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator current l2: raw 0..65535; 0.001 A a count; r, mux 7, word 2, nr 23 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_ADDRESS 0x0016U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_MUX 7U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_NR 23U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_DECIMALS 3
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l2_rule(woodward_mpu2s_rule *rule, int8_t generator_current_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode_count(
+    uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_current_exponent_raw < -3 || generator_current_exponent_raw > 3) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_current_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l2_decode_count(uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l2_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l2_decode(uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l2_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator current l3
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator current l3: raw 0..65535; 0.001 A a count; r, mux 7, word 3, nr 24 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_ADDRESS 0x0017U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_MUX 7U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_WORD 3U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_NR 24U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_DECIMALS 3
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l3_rule(woodward_mpu2s_rule *rule, int8_t generator_current_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode_count(
+    uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (generator_current_exponent_raw < -3 || generator_current_exponent_raw > 3) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)generator_current_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l3_decode_count(uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
+    uint16_t raw, int8_t generator_current_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l3_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l3_decode(uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_current_l3_rule(&rule, generator_current_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator reactive power
- * raw -32768..32767; read only.
- * Erratum telegram_reactive_power_exponent (unknown): printed: "Blindleistungsexponenten QGNEXPO" is said to come
- * over the bus; taken: scale: ~.
- * Erratum telegram_reactive_power_sign (likely): printed: Nothing is said about a sign; taken: type: s16.
- * Not generated (generator_reactive_power): the manual does not settle its scale.
+ * generator reactive power: raw -32768..32767; r, mux 8, word 1, nr 25; not generated: the manual does not settle its
+ * scale
  */
-#define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_ADDRESS 0x0018U
 #define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_MUX 8U
-#define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_NR 25U
 #define WOODWARD_MPU2S_GENERATOR_REACTIVE_POWER_WORDS 1U
 
-/*
- * Generator cos phi
- * -327.68..327.67, raw -32768..32767, in steps of 0.01; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator cos phi: -327.68..327.67; 0.01 a count; r, mux 8, word 2, nr 26 */
 #define WOODWARD_MPU2S_GENERATOR_COS_PHI_ADDRESS 0x0019U
 #define WOODWARD_MPU2S_GENERATOR_COS_PHI_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_MUX 8U
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_NR 26U
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_RAW_MIN (-32768)
-#define WOODWARD_MPU2S_GENERATOR_COS_PHI_RAW_MAX 32767
 #define WOODWARD_MPU2S_GENERATOR_COS_PHI_DECIMALS 2
-
-static inline int32_t woodward_mpu2s_generator_cos_phi_decode_count(int16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_real woodward_mpu2s_generator_cos_phi_decode(int16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 100;
-}
+static inline int32_t woodward_mpu2s_generator_cos_phi_decode_count(int16_t raw) { return raw; }
+static inline void woodward_mpu2s_generator_cos_phi_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_generator_cos_phi_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_generator_cos_phi_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-static inline void woodward_mpu2s_generator_cos_phi_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
+/* reserved word 27: 0..65535; r, mux 8, word 3, nr 27; not generated: reserved by the maker */
 
-static inline int16_t woodward_mpu2s_generator_cos_phi_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
+/* reserved word 28: 0..65535; r, mux 9, word 1, nr 28; not generated: reserved by the maker */
 
-/*
- * Reserved word 27
- * 0..65535; read only.
- * Not generated (reserved_word_27): reserved by the maker.
- */
-
-/*
- * Reserved word 28
- * 0..65535; read only.
- * Not generated (reserved_word_28): reserved by the maker.
- */
-
-/*
- * Load sharing participants
- * 0..65535; read only.
- */
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* load sharing participants: 0..65535; r, mux 9, word 2, nr 29 */
 #define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_ADDRESS 0x001CU
 #define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_MUX 9U
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_WORD 2U
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_NR 29U
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_WORDS 1U
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_RAW_MIN 0
-#define WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS_RAW_MAX 65535
+static inline int32_t woodward_mpu2s_load_sharing_participants_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_load_sharing_participants_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Supply presence */
 enum {
     WOODWARD_MPU2S_SUPPLY_PRESENCE_ABSENT = 0,
     WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT = 255
 };
-
+static const fieldscribe_name woodward_mpu2s_supply_presence_names[] = {
+    {WOODWARD_MPU2S_SUPPLY_PRESENCE_ABSENT, "absent"}, {WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT, "present"}
+};
 static inline const char *woodward_mpu2s_supply_presence_name(int32_t raw)
 {
-    switch (raw) {
-    case WOODWARD_MPU2S_SUPPLY_PRESENCE_ABSENT:
-        return "absent";
-    case WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT:
-        return "present";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(woodward_mpu2s_supply_presence_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_supply_presence_names), raw);
 }
 
-/*
- * Mains state
- * 0, 255; read only.
- * Erratum telegram_state_other_values (unknown): printed: Only FFh and 00h are given a meaning; taken: Other numbers
- * are read as bare numbers.
- */
-#define WOODWARD_MPU2S_MAINS_STATE_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains state: 0, 255; r, mux 9, word 3, nr 30 */
 #define WOODWARD_MPU2S_MAINS_STATE_ADDRESS 0x001DU
 #define WOODWARD_MPU2S_MAINS_STATE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_STATE_MUX 9U
-#define WOODWARD_MPU2S_MAINS_STATE_WORD 3U
-#define WOODWARD_MPU2S_MAINS_STATE_NR 30U
-#define WOODWARD_MPU2S_MAINS_STATE_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_STATE_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_STATE_RAW_MAX 255
 #define WOODWARD_MPU2S_MAINS_STATE_SHIFT 8U
 #define WOODWARD_MPU2S_MAINS_STATE_MASK 0xFF00U
-
-static inline int32_t woodward_mpu2s_mains_state_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_mains_state_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_mains_state_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_MAINS_STATE_MASK) >> WOODWARD_MPU2S_MAINS_STATE_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_mains_state_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_MAINS_STATE_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_MAINS_STATE_SHIFT) & WOODWARD_MPU2S_MAINS_STATE_MASK));
-}
+{ return fieldscribe_insert(word, 0xFF00U, 8U, raw); }
 
-/*
- * Generator state
- * 0, 255; read only.
- * Erratum telegram_state_other_values (unknown): printed: Only FFh and 00h are given a meaning; taken: Other numbers
- * are read as bare numbers.
- */
-#define WOODWARD_MPU2S_GENERATOR_STATE_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator state: 0, 255; r, mux 9, word 3, nr 30 */
 #define WOODWARD_MPU2S_GENERATOR_STATE_ADDRESS 0x001DU
 #define WOODWARD_MPU2S_GENERATOR_STATE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_STATE_MUX 9U
-#define WOODWARD_MPU2S_GENERATOR_STATE_WORD 3U
-#define WOODWARD_MPU2S_GENERATOR_STATE_NR 30U
-#define WOODWARD_MPU2S_GENERATOR_STATE_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_STATE_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_STATE_RAW_MAX 255
 #define WOODWARD_MPU2S_GENERATOR_STATE_SHIFT 0U
 #define WOODWARD_MPU2S_GENERATOR_STATE_MASK 0x00FFU
-
-static inline int32_t woodward_mpu2s_generator_state_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_generator_state_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_generator_state_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_GENERATOR_STATE_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x00FFU, 0U)); }
 static inline uint16_t woodward_mpu2s_generator_state_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_STATE_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_GENERATOR_STATE_MASK));
-}
+{ return fieldscribe_insert(word, 0x00FFU, 0U, raw); }
 
-/*
- * IGNEXPO: Generator current exponent
- * -3..3; read only.
- * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
- * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
- * voltages, -3..3 for the current.
- * Erratum telegram_current_exponent_name (certain): printed: "IGNEXPO (Leistung)"; taken: Current.
- */
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* IGNEXPO generator current exponent: -3..3; r, mux 10, word 1, nr 31 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_ADDRESS 0x001EU
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_CODE "IGNEXPO"
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_MUX 10U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_WORD 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_NR 31U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_RAW_MIN (-3)
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_RAW_MAX 3
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_SHIFT 8U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_MASK 0xFF00U
-
-static inline int32_t woodward_mpu2s_generator_current_exponent_decode(int8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_generator_current_exponent_decode(int8_t raw) { return raw; }
 static inline int8_t woodward_mpu2s_generator_current_exponent_extract(uint16_t word)
-{
-    return (int8_t)woodward_mpu2s_signed((uint16_t)(((uint32_t)word & WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_MASK) >> WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_SHIFT), 0x80U);
-}
-
+{ return (int8_t)fieldscribe_signed(fieldscribe_extract(word, 0xFF00U, 8U), 0x80U); }
 static inline uint16_t woodward_mpu2s_generator_current_exponent_insert(uint16_t word, int8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_SHIFT) & WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_MASK));
-}
+{ return fieldscribe_insert(word, 0xFF00U, 8U, (uint16_t)raw); }
 
-/*
- * Reserved word 31 low
- * 0..255; read only.
- * Not generated (reserved_word_31_low): reserved by the maker.
- */
+/* reserved word 31 low: 0..255; r, mux 10, word 1, nr 31; not generated: reserved by the maker */
 
-/*
- * Busbar frequency
- * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
- * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
- */
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* busbar frequency: 0..655.35 Hz; 0.01 Hz a count; r, mux 10, word 2, nr 32 */
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_ADDRESS 0x001FU
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_MUX 10U
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_WORD 2U
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_NR 32U
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_WORDS 1U
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_RAW_MIN 0
-#define WOODWARD_MPU2S_BUSBAR_FREQUENCY_RAW_MAX 65535
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_DECIMALS 2
-
-static inline int32_t woodward_mpu2s_busbar_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_real woodward_mpu2s_busbar_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 100;
-}
+static inline int32_t woodward_mpu2s_busbar_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_busbar_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * Busbar state
- * 0, 255; read only.
- * Erratum telegram_busbar_state_unit (certain): printed: The unit is 1, for two bytes; taken: Byte, as in word 30.
- * Erratum telegram_state_other_values (unknown): printed: Only FFh and 00h are given a meaning; taken: Other numbers
- * are read as bare numbers.
- */
-#define WOODWARD_MPU2S_BUSBAR_STATE_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* busbar state: 0, 255; r, mux 10, word 3, nr 33 */
 #define WOODWARD_MPU2S_BUSBAR_STATE_ADDRESS 0x0020U
 #define WOODWARD_MPU2S_BUSBAR_STATE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_BUSBAR_STATE_MUX 10U
-#define WOODWARD_MPU2S_BUSBAR_STATE_WORD 3U
-#define WOODWARD_MPU2S_BUSBAR_STATE_NR 33U
-#define WOODWARD_MPU2S_BUSBAR_STATE_WORDS 1U
-#define WOODWARD_MPU2S_BUSBAR_STATE_RAW_MIN 0
-#define WOODWARD_MPU2S_BUSBAR_STATE_RAW_MAX 255
 #define WOODWARD_MPU2S_BUSBAR_STATE_SHIFT 8U
 #define WOODWARD_MPU2S_BUSBAR_STATE_MASK 0xFF00U
-
-static inline int32_t woodward_mpu2s_busbar_state_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_busbar_state_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_busbar_state_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_BUSBAR_STATE_MASK) >> WOODWARD_MPU2S_BUSBAR_STATE_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_busbar_state_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_BUSBAR_STATE_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_BUSBAR_STATE_SHIFT) & WOODWARD_MPU2S_BUSBAR_STATE_MASK));
-}
+{ return fieldscribe_insert(word, 0xFF00U, 8U, raw); }
 
-/*
- * Reserved word 33 low
- * 0..255; read only.
- * Not generated (reserved_word_33_low): reserved by the maker.
- */
+/* reserved word 33 low: 0..255; r, mux 10, word 3, nr 33; not generated: reserved by the maker */
 
-/*
- * Mains voltage l2 l3
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l2 l3: raw 0..65535; 0.0001 V a count; r, mux 11, word 1, nr 34 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_ADDRESS 0x0021U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_MUX 11U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_WORD 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_NR 34U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_l3_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_l3_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l2_l3_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_l3_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l2_l3_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains voltage l3 l1
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 11, word 2, nr 35 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_ADDRESS 0x0022U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_MUX 11U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_WORD 2U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_NR 35U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_l1_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_l1_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l3_l1_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_l1_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l3_l1_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains voltage l1 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 11, word 3, nr 36 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_ADDRESS 0x0023U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_MUX 11U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_WORD 3U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_NR 36U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_n_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_n_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l1_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_n_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l1_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains voltage l2 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 1, nr 37 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_ADDRESS 0x0024U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_MUX 12U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_WORD 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_NR 37U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_n_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_n_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l2_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l2_n_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l2_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains voltage l3 n
- * raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 2, nr 38 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_ADDRESS 0x0025U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_MUX 12U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_WORD 2U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_NR 38U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_DECIMALS 4
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_n_rule(woodward_mpu2s_rule *rule, int8_t mains_voltage_exponent_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode_count(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 1;
-    if (mains_voltage_exponent_raw < -4 || mains_voltage_exponent_raw > 4) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    if (!woodward_mpu2s_times_ten_to(-(int64_t)mains_voltage_exponent_raw, rule)) {
-        return WOODWARD_MPU2S_OVERFLOW;
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        10000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_n_decode_count(uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
+    uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l3_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 10000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_n_decode(uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_voltage_l3_n_rule(&rule, mains_voltage_exponent_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+        value);
 }
 #endif
 
-/*
- * Mains frequency
- * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
- * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
- */
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* mains frequency: 0..655.35 Hz; 0.01 Hz a count; r, mux 12, word 3, nr 39 */
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_ADDRESS 0x0026U
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_MUX 12U
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_WORD 3U
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_NR 39U
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_DECIMALS 2
-
-static inline int32_t woodward_mpu2s_mains_frequency_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_real woodward_mpu2s_mains_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 100;
-}
+static inline int32_t woodward_mpu2s_mains_frequency_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_mains_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-/*
- * Reserved word 40
- * 0..65535; read only.
- * Not generated (reserved_word_40): reserved by the maker.
- */
+/* reserved word 40: 0..65535; r, mux 13, word 1, nr 40; not generated: reserved by the maker */
 
-/*
- * Reserved word 41
- * 0..65535; read only.
- * Not generated (reserved_word_41): reserved by the maker.
- */
+/* reserved word 41: 0..65535; r, mux 13, word 2, nr 41; not generated: reserved by the maker */
 
-/*
- * Reserved word 42
- * 0..65535; read only.
- * Not generated (reserved_word_42): reserved by the maker.
- */
+/* reserved word 42: 0..65535; r, mux 13, word 3, nr 42; not generated: reserved by the maker */
 
-/*
- * Reserved word 43 high
- * 0..255; read only.
- * Not generated (reserved_word_43_high): reserved by the maker.
- */
+/* reserved word 43 high: 0..255; r, mux 14, word 1, nr 43; not generated: reserved by the maker */
 
-/*
- * UNTEXPO: Mains voltage exponent
- * -4..4; read only.
- * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
- * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
- * voltages, -3..3 for the current.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* UNTEXPO mains voltage exponent: -4..4; r, mux 14, word 1, nr 43 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_ADDRESS 0x002AU
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_CODE "UNTEXPO"
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_MUX 14U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_WORD 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_NR 43U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_RAW_MIN (-4)
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_RAW_MAX 4
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_SHIFT 0U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_MASK 0x00FFU
-
-static inline int32_t woodward_mpu2s_mains_voltage_exponent_decode(int8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_mains_voltage_exponent_decode(int8_t raw) { return raw; }
 static inline int8_t woodward_mpu2s_mains_voltage_exponent_extract(uint16_t word)
-{
-    return (int8_t)woodward_mpu2s_signed((uint16_t)(word & WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_MASK), 0x80U);
-}
-
+{ return (int8_t)fieldscribe_signed(fieldscribe_extract(word, 0x00FFU, 0U), 0x80U); }
 static inline uint16_t woodward_mpu2s_mains_voltage_exponent_insert(uint16_t word, int8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT_MASK));
-}
+{ return fieldscribe_insert(word, 0x00FFU, 0U, (uint16_t)raw); }
 
-/*
- * Reserved word 44 high
- * 0..255; read only.
- * Not generated (reserved_word_44_high): reserved by the maker.
- */
+/* reserved word 44 high: 0..255; r, mux 14, word 2, nr 44; not generated: reserved by the maker */
 
-/*
- * USSEXPO: Busbar voltage exponent
- * -4..4; read only.
- * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
- * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
- * voltages, -3..3 for the current.
- */
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* USSEXPO busbar voltage exponent: -4..4; r, mux 14, word 2, nr 44 */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_ADDRESS 0x002BU
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_CODE "USSEXPO"
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_MUX 14U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_WORD 2U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_NR 44U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_WORDS 1U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_RAW_MIN (-4)
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_RAW_MAX 4
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_SHIFT 0U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_MASK 0x00FFU
-
-static inline int32_t woodward_mpu2s_busbar_voltage_exponent_decode(int8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_busbar_voltage_exponent_decode(int8_t raw) { return raw; }
 static inline int8_t woodward_mpu2s_busbar_voltage_exponent_extract(uint16_t word)
-{
-    return (int8_t)woodward_mpu2s_signed((uint16_t)(word & WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_MASK), 0x80U);
-}
-
+{ return (int8_t)fieldscribe_signed(fieldscribe_extract(word, 0x00FFU, 0U), 0x80U); }
 static inline uint16_t woodward_mpu2s_busbar_voltage_exponent_insert(uint16_t word, int8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT_MASK));
-}
+{ return fieldscribe_insert(word, 0x00FFU, 0U, (uint16_t)raw); }
 
-/*
- * Operating hours
- * 0..4294967295 h, raw 0..4294967295; read only.
- */
-#define WOODWARD_MPU2S_OPERATING_HOURS_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* operating hours: 0..4294967295 h; r, mux 14, word 3, nr 45 */
 #define WOODWARD_MPU2S_OPERATING_HOURS_ADDRESS 0x002CU
 #define WOODWARD_MPU2S_OPERATING_HOURS_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_OPERATING_HOURS_MUX 14U
-#define WOODWARD_MPU2S_OPERATING_HOURS_WORD 3U
-#define WOODWARD_MPU2S_OPERATING_HOURS_NR 45U
 #define WOODWARD_MPU2S_OPERATING_HOURS_WORDS 2U
-#define WOODWARD_MPU2S_OPERATING_HOURS_RAW_MIN 0
-#define WOODWARD_MPU2S_OPERATING_HOURS_RAW_MAX 4294967295
-
-static inline int64_t woodward_mpu2s_operating_hours_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t woodward_mpu2s_operating_hours_decode(uint32_t raw) { return raw; }
 static inline void woodward_mpu2s_operating_hours_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t woodward_mpu2s_operating_hours_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Hours until maintenance
- * 0..65535 h, raw 0..65535; read only.
- */
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* hours until maintenance: 0..65535 h; r, mux 15, word 2, nr 47 */
 #define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_ADDRESS 0x002EU
 #define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_MUX 15U
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_WORD 2U
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_NR 47U
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_WORDS 1U
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_RAW_MIN 0
-#define WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE_RAW_MAX 65535
+static inline int32_t woodward_mpu2s_hours_until_maintenance_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_hours_until_maintenance_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Engine start counter
- * 0..65535; read only.
- */
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* engine start counter: 0..65535; r, mux 15, word 3, nr 48 */
 #define WOODWARD_MPU2S_ENGINE_START_COUNTER_ADDRESS 0x002FU
 #define WOODWARD_MPU2S_ENGINE_START_COUNTER_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_MUX 15U
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_WORD 3U
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_NR 48U
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_WORDS 1U
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_RAW_MIN 0
-#define WOODWARD_MPU2S_ENGINE_START_COUNTER_RAW_MAX 65535
+static inline int32_t woodward_mpu2s_engine_start_counter_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_engine_start_counter_decode(uint16_t raw)
-{
-    return raw;
-}
+/* reserved word 49: 0..65535; r, mux 16, word 1, nr 49; not generated: reserved by the maker */
 
-/*
- * Reserved word 49
- * 0..65535; read only.
- * Not generated (reserved_word_49): reserved by the maker.
- */
-
-/*
- * Generator active energy
- * 0..4294967295 kWh, raw 0..4294967295; read only.
- */
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* generator active energy: 0..4294967295 kWh; r, mux 16, word 2, nr 50 */
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_ADDRESS 0x0031U
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_MUX 16U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_WORD 2U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_NR 50U
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_WORDS 2U
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY_RAW_MAX 4294967295
-
-static inline int64_t woodward_mpu2s_generator_active_energy_decode(uint32_t raw)
-{
-    return raw;
-}
-
+static inline int64_t woodward_mpu2s_generator_active_energy_decode(uint32_t raw) { return raw; }
 static inline void woodward_mpu2s_generator_active_energy_to_words(uint32_t raw, uint16_t words[2])
-{
-    const uint32_t bits = (uint32_t)raw;
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)(bits & 0xFFFFU);
-}
-
+{ fieldscribe_split32((uint32_t)raw, &words[0], &words[1]); }
 static inline uint32_t woodward_mpu2s_generator_active_energy_from_words(const uint16_t words[2])
-{
-    return ((uint32_t)words[0] << 16) | words[1];
-}
+{ return fieldscribe_join32(words[0], words[1]); }
 
-/*
- * Battery voltage
- * 0..6553.5 V, raw 0..65535, in steps of 0.1 V; read only.
- */
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* battery voltage: 0..6553.5 V; 0.1 V a count; r, mux 17, word 1, nr 52 */
 #define WOODWARD_MPU2S_BATTERY_VOLTAGE_ADDRESS 0x0033U
 #define WOODWARD_MPU2S_BATTERY_VOLTAGE_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_MUX 17U
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_WORD 1U
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_NR 52U
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_WORDS 1U
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_RAW_MIN 0
-#define WOODWARD_MPU2S_BATTERY_VOLTAGE_RAW_MAX 65535
 #define WOODWARD_MPU2S_BATTERY_VOLTAGE_DECIMALS 1
-
-static inline int32_t woodward_mpu2s_battery_voltage_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_real woodward_mpu2s_battery_voltage_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+static inline int32_t woodward_mpu2s_battery_voltage_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+static inline fieldscribe_real woodward_mpu2s_battery_voltage_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Internal faults 1
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 1: 0..65535; r, mux 17, word 2, nr 53 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_ADDRESS 0x0034U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_MUX 17U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_WORD 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_NR 53U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_MASK 0xC000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_SHIFT 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_MASK 0x3000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_SHIFT 12U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_MASK 0x0C00U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_SHIFT 10U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_MASK 0x0300U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_SHIFT 8U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_MASK 0x0030U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_SHIFT 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_MASK 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_SHIFT 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_MASK 0x0003U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_SHIFT 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_internal_faults_1_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_INACTIVE 0U
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_1_ACTIVE 3U
+static inline int32_t woodward_mpu2s_internal_faults_1_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_internal_faults_1_generator_overfrequency_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERFREQUENCY_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_generator_underfrequency_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERFREQUENCY_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_generator_overvoltage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_OVERVOLTAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_generator_undervoltage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_GENERATOR_UNDERVOLTAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_battery_undervoltage(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_BATTERY_UNDERVOLTAGE_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_overload(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_OVERLOAD_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_internal_faults_1_reverse_power(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_1_REVERSE_POWER_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Internal faults 2
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_mains_fault_titles (certain): printed: "Netzünterfrequenz", "Netzünterspannung"; taken:
- * Netzunterfrequenz, Netzunterspannung.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 2: 0..65535; r, mux 17, word 3, nr 54 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_ADDRESS 0x0035U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MUX 17U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_WORD 3U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_NR 54U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_MASK 0xC000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_SHIFT 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_MASK 0x3000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_SHIFT 12U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_MASK 0x0C00U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_SHIFT 10U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_MASK 0x0300U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_SHIFT 8U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_MASK 0x00C0U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_SHIFT 6U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_MASK 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_SHIFT 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_MASK 0x0003U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_SHIFT 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_internal_faults_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_INACTIVE 0U
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_2_ACTIVE 3U
+static inline int32_t woodward_mpu2s_internal_faults_2_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_internal_faults_2_mains_overfrequency(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERFREQUENCY_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_mains_underfrequency(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERFREQUENCY_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_mains_overvoltage(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_OVERVOLTAGE_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_mains_undervoltage(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_MAINS_UNDERVOLTAGE_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_interface_x1_x5_fault(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_INTERFACE_X1_X5_FAULT_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_frequency_gradient_fault(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_FREQUENCY_GRADIENT_FAULT_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_internal_faults_2_phase_shift(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_2_PHASE_SHIFT_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Internal faults 3
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_unbalanced_load_title (certain): printed: "Schiefast"; taken: Schieflast.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 3: 0..65535; r, mux 18, word 1, nr 55 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_ADDRESS 0x0036U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_MUX 18U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_WORD 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_NR 55U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_MASK 0xC000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_SHIFT 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_MASK 0x0300U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_SHIFT 8U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_MASK 0x00C0U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_SHIFT 6U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_MASK 0x0030U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_SHIFT 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_MASK 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_SHIFT 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_internal_faults_3_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_INACTIVE 0U
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_3_ACTIVE 3U
+static inline int32_t woodward_mpu2s_internal_faults_3_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_internal_faults_3_generator_overcurrent_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_internal_faults_3_unbalanced_load(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_3_UNBALANCED_LOAD_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_internal_faults_3_generator_overcurrent_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_3_GENERATOR_OVERCURRENT_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_internal_faults_3_interface_y1_y5_fault(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_3_INTERFACE_Y1_Y5_FAULT_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_internal_faults_3_maintenance_call(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_3_MAINTENANCE_CALL_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 
-/*
- * Internal faults 4
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 4: 0..65535; r, mux 18, word 2, nr 56 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ADDRESS 0x0037U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_MUX 18U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_WORD 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_NR 56U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_MASK 0xC000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_SHIFT 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_MASK 0x3000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_SHIFT 12U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_MASK 0x0C00U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_SHIFT 10U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_MASK 0x0300U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_SHIFT 8U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_MASK 0x00C0U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_SHIFT 6U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_MASK 0x0030U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_SHIFT 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_MASK 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_SHIFT 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_MASK 0x0003U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_SHIFT 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_internal_faults_4_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_INACTIVE 0U
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_4_ACTIVE 3U
+static inline int32_t woodward_mpu2s_internal_faults_4_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_1_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_1_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_1_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_2_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_2_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_2_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_3_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_3_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_3_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_4_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_4_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_4_ANALOG_INPUT_4_STAGE_2_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Internal faults 5
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 5: 0..65535; r, mux 18, word 3, nr 57 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ADDRESS 0x0038U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_MUX 18U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_WORD 3U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_NR 57U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_MASK 0xC000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_SHIFT 14U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_MASK 0x3000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_SHIFT 12U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_MASK 0x0C00U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_SHIFT 10U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_MASK 0x0300U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_SHIFT 8U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_MASK 0x00C0U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_SHIFT 6U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_MASK 0x0030U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_SHIFT 4U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_MASK 0x000CU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_SHIFT 2U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_ACTIVE 3U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_MASK 0x0003U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_SHIFT 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_INACTIVE 0U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_internal_faults_5_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_INACTIVE 0U
+#define WOODWARD_MPU2S_INTERNAL_FAULTS_5_ACTIVE 3U
+static inline int32_t woodward_mpu2s_internal_faults_5_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_5_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_5_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_5_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_6_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_6_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_6_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_7_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_7_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_7_STAGE_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_8_stage_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_8_stage_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_MASK) >> WOODWARD_MPU2S_INTERNAL_FAULTS_5_ANALOG_INPUT_8_STAGE_2_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Digital input faults 1 to 8
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_digital_input_count (unknown): printed: "Digitaleingang 16" is the last of them (line 556), as in
- * event 66 (line 2620); taken: 16 flags, as printed.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* digital input faults 1 to 8: 0..65535; r, mux 19, word 1, nr 58 */
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_ADDRESS 0x0039U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_MUX 19U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_WORD 1U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_NR 58U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_WORDS 1U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_RAW_MIN 0
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_RAW_MAX 65535
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_MASK 0xC000U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_SHIFT 14U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_MASK 0x3000U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_SHIFT 12U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_MASK 0x0C00U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_SHIFT 10U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_MASK 0x0300U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_SHIFT 8U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_MASK 0x00C0U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_SHIFT 6U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_MASK 0x0030U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_SHIFT 4U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_MASK 0x000CU
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_SHIFT 2U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_MASK 0x0003U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_SHIFT 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_digital_input_faults_1_to_8_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_INACTIVE 0U
+#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_ACTIVE 3U
+static inline int32_t woodward_mpu2s_digital_input_faults_1_to_8_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_1(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_1_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_2(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_2_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_3(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_3_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_4(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_4_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_5(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_5_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_6(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_6_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_7(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_7_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_8(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_DIGITAL_INPUT_8_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Digital input faults 9 to 16
- * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
- * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_digital_input_count (unknown): printed: "Digitaleingang 16" is the last of them (line 556), as in
- * event 66 (line 2620); taken: 16 flags, as printed.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* digital input faults 9 to 16: 0..65535; r, mux 19, word 2, nr 59 */
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_ADDRESS 0x003AU
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_MUX 19U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_WORD 2U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_NR 59U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_WORDS 1U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_RAW_MIN 0
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_RAW_MAX 65535
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_MASK 0xC000U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_SHIFT 14U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_MASK 0x3000U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_SHIFT 12U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_MASK 0x0C00U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_SHIFT 10U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_MASK 0x0300U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_SHIFT 8U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_MASK 0x00C0U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_SHIFT 6U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_MASK 0x0030U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_SHIFT 4U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_MASK 0x000CU
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_SHIFT 2U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_ACTIVE 3U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_MASK 0x0003U
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_SHIFT 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_INACTIVE 0U
-#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_ACTIVE 3U
-
-static inline int32_t woodward_mpu2s_digital_input_faults_9_to_16_decode(uint16_t raw)
-{
-    return raw;
-}
-
+#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_INACTIVE 0U
+#define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_ACTIVE 3U
+static inline int32_t woodward_mpu2s_digital_input_faults_9_to_16_decode(uint16_t raw) { return raw; }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_9(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_9_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0xC000U, 14U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_10(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_10_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x3000U, 12U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_11(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_11_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0C00U, 10U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_12(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_12_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0300U, 8U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_13(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_13_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x00C0U, 6U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_14(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_14_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x0030U, 4U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_15(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_15_SHIFT);
-}
-
+{ return fieldscribe_extract(raw, 0x000CU, 2U); }
 static inline uint16_t woodward_mpu2s_digital_input_faults_9_to_16_digital_input_16(uint16_t raw)
-{
-    return (uint16_t)(((uint32_t)raw & WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_DIGITAL_INPUT_16_SHIFT);
-}
+{ return fieldscribe_extract(raw, 0x0003U, 0U); }
 
-/*
- * Internal faults 7
- * 0..65535; read only.
- * Erratum telegram_single_bits (likely): printed: What 0 and 1 of a bit mean is not said; taken: 1 means that the
- * fault is there.
- */
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* internal faults 7: 0..65535; r, mux 19, word 3, nr 60 */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_7_ADDRESS 0x003BU
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_7_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_MUX 19U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_WORD 3U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_NR 60U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_WORDS 1U
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_RAW_MIN 0
-#define WOODWARD_MPU2S_INTERNAL_FAULTS_7_RAW_MAX 65535
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_7_EARTH_FAULT_MASK 0x2000U
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_7_OVERCURRENT_INVERSE_TIME_MASK 0x1000U
+static inline int32_t woodward_mpu2s_internal_faults_7_decode(uint16_t raw) { return raw; }
 
-static inline int32_t woodward_mpu2s_internal_faults_7_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Analog input 1
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_1): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 1: 0..65535; r, mux 20, word 1, nr 61; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_1_ADDRESS 0x003CU
 #define WOODWARD_MPU2S_ANALOG_INPUT_1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_1_MUX 20U
-#define WOODWARD_MPU2S_ANALOG_INPUT_1_WORD 1U
-#define WOODWARD_MPU2S_ANALOG_INPUT_1_NR 61U
 #define WOODWARD_MPU2S_ANALOG_INPUT_1_WORDS 1U
 
-/*
- * Analog input 2
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_2): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 2: 0..65535; r, mux 20, word 2, nr 62; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_2_ADDRESS 0x003DU
 #define WOODWARD_MPU2S_ANALOG_INPUT_2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_2_MUX 20U
-#define WOODWARD_MPU2S_ANALOG_INPUT_2_WORD 2U
-#define WOODWARD_MPU2S_ANALOG_INPUT_2_NR 62U
 #define WOODWARD_MPU2S_ANALOG_INPUT_2_WORDS 1U
 
-/*
- * Analog input 3
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_3): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 3: 0..65535; r, mux 20, word 3, nr 63; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_3_ADDRESS 0x003EU
 #define WOODWARD_MPU2S_ANALOG_INPUT_3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_3_MUX 20U
-#define WOODWARD_MPU2S_ANALOG_INPUT_3_WORD 3U
-#define WOODWARD_MPU2S_ANALOG_INPUT_3_NR 63U
 #define WOODWARD_MPU2S_ANALOG_INPUT_3_WORDS 1U
 
-/*
- * Analog input 4
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_4): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_4_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 4: 0..65535; r, mux 21, word 1, nr 64; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_4_ADDRESS 0x003FU
 #define WOODWARD_MPU2S_ANALOG_INPUT_4_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_4_MUX 21U
-#define WOODWARD_MPU2S_ANALOG_INPUT_4_WORD 1U
-#define WOODWARD_MPU2S_ANALOG_INPUT_4_NR 64U
 #define WOODWARD_MPU2S_ANALOG_INPUT_4_WORDS 1U
 
-/*
- * Analog input 5
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_5): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_5_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 5: 0..65535; r, mux 21, word 2, nr 65; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_5_ADDRESS 0x0040U
 #define WOODWARD_MPU2S_ANALOG_INPUT_5_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_5_MUX 21U
-#define WOODWARD_MPU2S_ANALOG_INPUT_5_WORD 2U
-#define WOODWARD_MPU2S_ANALOG_INPUT_5_NR 65U
 #define WOODWARD_MPU2S_ANALOG_INPUT_5_WORDS 1U
 
-/*
- * Analog input 6
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_6): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_6_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 6: 0..65535; r, mux 21, word 3, nr 66; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_6_ADDRESS 0x0041U
 #define WOODWARD_MPU2S_ANALOG_INPUT_6_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_6_MUX 21U
-#define WOODWARD_MPU2S_ANALOG_INPUT_6_WORD 3U
-#define WOODWARD_MPU2S_ANALOG_INPUT_6_NR 66U
 #define WOODWARD_MPU2S_ANALOG_INPUT_6_WORDS 1U
 
-/*
- * Analog input 7
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_7): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_7_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 7: 0..65535; r, mux 22, word 1, nr 67; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_7_ADDRESS 0x0042U
 #define WOODWARD_MPU2S_ANALOG_INPUT_7_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_7_MUX 22U
-#define WOODWARD_MPU2S_ANALOG_INPUT_7_WORD 1U
-#define WOODWARD_MPU2S_ANALOG_INPUT_7_NR 67U
 #define WOODWARD_MPU2S_ANALOG_INPUT_7_WORDS 1U
 
-/*
- * Analog input 8
- * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
- * the input and on its scaling; taken: scale: ~.
- * Not generated (analog_input_8): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_ANALOG_INPUT_8_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
+/* analog input 8: 0..65535; r, mux 22, word 2, nr 68; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_ANALOG_INPUT_8_ADDRESS 0x0043U
 #define WOODWARD_MPU2S_ANALOG_INPUT_8_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
-#define WOODWARD_MPU2S_ANALOG_INPUT_8_MUX 22U
-#define WOODWARD_MPU2S_ANALOG_INPUT_8_WORD 2U
-#define WOODWARD_MPU2S_ANALOG_INPUT_8_NR 68U
 #define WOODWARD_MPU2S_ANALOG_INPUT_8_WORDS 1U
 
-/*
- * Reserved word 69
- * 0..65535; read only.
- * Erratum telegram_word_69_remark (certain): printed: The remark on the kind and the "Skalierung" of the analog
- * inputs stands here too; taken: An internal word.
- * Not generated (reserved_word_69): reserved by the maker.
- */
+/* reserved word 69: 0..65535; r, mux 22, word 3, nr 69; not generated: reserved by the maker */
 
-/* ---- Parameters access ---- */
+/* ---- parameters access (parameter) ---- */
 
-/*
- * Password level 2
- * 0..9999; read and write.
- * Erratum password_use (unknown): printed: The password has to be written before anything else; whether it can be
- * read back, how long it opens the parameters, and whether reading needs it too, is not said; taken: access: rw, as
- * for every id of section 2.2; a condition of writing for all other points.
- */
-#define WOODWARD_MPU2S_PASSWORD_LEVEL_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* password level 2: 0..9999; rw */
 #define WOODWARD_MPU2S_PASSWORD_LEVEL_2_ADDRESS 0x01F4U
-#define WOODWARD_MPU2S_PASSWORD_LEVEL_2_WORDS 1U
 #define WOODWARD_MPU2S_PASSWORD_LEVEL_2_RAW_MIN 0
 #define WOODWARD_MPU2S_PASSWORD_LEVEL_2_RAW_MAX 9999
+FIELDSCRIBE_STATUS woodward_mpu2s_password_level_2_check(uint16_t raw) { return fieldscribe_check(raw, 0, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_password_level_2_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 9999, raw); }
+static inline int32_t woodward_mpu2s_password_level_2_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_password_level_2_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_PASSWORD_LEVEL_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
+/* ---- parameters general (parameter) ---- */
 
-static inline woodward_mpu2s_status woodward_mpu2s_password_level_2_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_PASSWORD_LEVEL_2_RAW_MIN || value > WOODWARD_MPU2S_PASSWORD_LEVEL_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_password_level_2_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* ---- Parameters general ---- */
-
-/*
- * Generator frequency setpoint
- * 40..70 Hz, raw 10240..17920, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator frequency setpoint: 40..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_ADDRESS 0x000BU
-#define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MIN 10240
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MAX 17920
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_frequency_setpoint_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 17920); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 70001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_frequency_setpoint_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 70001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_frequency_setpoint_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_frequency_setpoint_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MIN, WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_frequency_setpoint_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_frequency_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_frequency_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator rated frequency
- * 50..60 Hz, raw 12800..15360, in steps of 0.00390625 Hz; read and write.
- * Erratum generator_rated_frequency_title (certain): printed: "Generatorkennfrequenz" over the section,
- * "Generatornennfrequenz" in the contents (line 24); taken: Generatornennfrequenz.
- */
-#define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator rated frequency: 50..60 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS 0x000CU
-#define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MIN 12800
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MAX 15360
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_frequency_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 12800, 15360); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 49999, 60001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 49999 || count > 60001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_rated_frequency_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_frequency_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_rated_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 12800, 15360, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_rated_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator voltage transformer secondary 100v
- * 50..125 V, raw 50..125; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator voltage transformer secondary 100v: 50..125 V; rw */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS 0x0009U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN 50
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX 125
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_secondary_100v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 125, raw); }
+static inline int32_t woodward_mpu2s_generator_voltage_transformer_secondary_100v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_secondary_100v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_voltage_transformer_secondary_100v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator voltage transformer secondary 400v
- * 50..480 V, raw 50..480; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator voltage transformer secondary 400v: 50..480 V; rw */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS 0x0009U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN 50
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX 480
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_secondary_400v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 480); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 480, raw); }
+static inline int32_t woodward_mpu2s_generator_voltage_transformer_secondary_400v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_secondary_400v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_voltage_transformer_secondary_400v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator voltage transformer primary
- * 5..65000 V, raw 5..65000; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator voltage transformer primary: 5..65000 V; rw */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS 0x0001U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN 5
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX 65000
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_primary_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 65000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 5, 65000, raw); }
+static inline int32_t woodward_mpu2s_generator_voltage_transformer_primary_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_primary_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_voltage_transformer_primary_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Busbar voltage transformer secondary 100v
- * 50..125 V, raw 50..125; read and write.
- */
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* busbar voltage transformer secondary 100v: 50..125 V; rw */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS 0x01F2U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_WORDS 1U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN 50
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX 125
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_secondary_100v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 125, raw); }
+static inline int32_t woodward_mpu2s_busbar_voltage_transformer_secondary_100v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_secondary_100v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN && raw <= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN || value > WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_busbar_voltage_transformer_secondary_100v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Busbar voltage transformer secondary 400v
- * 50..480 V, raw 50..480; read and write.
- */
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* busbar voltage transformer secondary 400v: 50..480 V; rw */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS 0x01F2U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_WORDS 1U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN 50
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX 480
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_secondary_400v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 480); }
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 480, raw); }
+static inline int32_t woodward_mpu2s_busbar_voltage_transformer_secondary_400v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_secondary_400v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN && raw <= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN || value > WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_busbar_voltage_transformer_secondary_400v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Busbar voltage transformer primary
- * 5..65000 V, raw 5..65000; read and write.
- * Erratum busbar_transformer_title (certain): printed: "Sammelschienen Spannungswandler" over the section,
- * "Sammelschienenspannungswandler" in the contents (line 28); taken: Sammelschienenspannungswandler.
- */
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* busbar voltage transformer primary: 5..65000 V; rw */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS 0x01F3U
-#define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_WORDS 1U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN 5
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX 65000
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_primary_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 65000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 5, 65000, raw); }
+static inline int32_t woodward_mpu2s_busbar_voltage_transformer_primary_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_primary_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN && raw <= WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_busbar_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN || value > WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_busbar_voltage_transformer_primary_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Mains voltage transformer secondary 100v
- * 50..125 V, raw 50..125; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains voltage transformer secondary 100v: 50..125 V; rw */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS 0x011AU
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN 50
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX 125
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_secondary_100v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 125, raw); }
+static inline int32_t woodward_mpu2s_mains_voltage_transformer_secondary_100v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_secondary_100v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_secondary_100v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MIN || value > WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_voltage_transformer_secondary_100v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Mains voltage transformer secondary 400v
- * 50..480 V, raw 50..480; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains voltage transformer secondary 400v: 50..480 V; rw */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS 0x011AU
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN 50
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX 480
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_secondary_400v_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 480); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 50, 480, raw); }
+static inline int32_t woodward_mpu2s_mains_voltage_transformer_secondary_400v_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_secondary_400v_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_secondary_400v_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MIN || value > WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_voltage_transformer_secondary_400v_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Mains voltage transformer primary
- * 5..65000 V, raw 5..65000; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains voltage transformer primary: 5..65000 V; rw */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS 0x0003U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN 5
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX 65000
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_primary_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 65000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 5, 65000, raw); }
+static inline int32_t woodward_mpu2s_mains_voltage_transformer_primary_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_primary_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_transformer_primary_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MIN || value > WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_voltage_transformer_primary_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * KWUGNSEK: Generator voltage factor
- * 0..65535; read only.
- * Erratum voltage_factors (likely): printed: The factor is a "16-Bit Wort" and depends on the transformer ratios;
- * its range, its sign, whether it can be written, and which of the transformer parameters change it is not said;
- * taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to 4.2.9 and
- * 4.2.12.
- */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* KWUGNSEK generator voltage factor: 0..65535; r */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_ADDRESS 0x01FBU
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_CODE "KWUGNSEK"
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_WORDS 1U
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_RAW_MIN 0
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_RAW_MAX 65535
-
-static inline int32_t woodward_mpu2s_generator_voltage_factor_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t woodward_mpu2s_generator_voltage_factor_decode(uint16_t raw) { return raw; }
 
 /*
- * Generator voltage setpoint 100v
- * raw generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125); read and write.
+ * generator voltage setpoint 100v: raw generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x
+ * 0.3125); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_ADDRESS 0x000AU
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX 20480
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 16);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 5, 16);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 16),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 5, 16));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_setpoint_100v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_voltage_setpoint_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator voltage setpoint 400v
- * raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; read and write.
+ * generator voltage setpoint 400v: raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; 0.001
+ * V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_ADDRESS 0x000AU
-#define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 8);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 6, 5);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 8),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 6, 5), 65535));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_voltage_setpoint_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_voltage_setpoint_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator rated voltage 100v
- * raw generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125); read and write.
+ * generator rated voltage 100v: raw generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x
+ * 0.3125); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_ADDRESS 0x0128U
-#define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX 20480
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_voltage_setpoint_100v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 16);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 5, 16);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_rated_voltage_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator rated voltage 400v
- * raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; read and write.
+ * generator rated voltage 400v: raw generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2; 0.001 V a
+ * count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_ADDRESS 0x0128U
-#define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_voltage_setpoint_400v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 8);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 6, 5);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_rated_voltage_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_rated_voltage_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator current transformer ratio
- * 10..7000 A, raw 10..7000; read and write.
- * Erratum current_transformer_unit (likely): printed: "Primärstromwandlerverhältnis" in the title; range and formula
- * count ampere; taken: unit: A.
- */
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator current transformer ratio: 10..7000 A; rw */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_ADDRESS 0x0002U
-#define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MIN 10
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MAX 7000
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_transformer_ratio_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10, 7000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_transformer_ratio_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 10, 7000, raw); }
+static inline int32_t woodward_mpu2s_generator_current_transformer_ratio_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_transformer_ratio_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_current_transformer_ratio_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_current_transformer_ratio_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Power measurement phases */
 enum {
     WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SINGLE_PHASE = 0,
     WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_THREE_PHASE = 1
 };
-
+static const char *const woodward_mpu2s_power_measurement_phases_names[] = {
+    "single_phase", "three_phase"
+};
 static inline const char *woodward_mpu2s_power_measurement_phases_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SINGLE_PHASE:
-        return "single_phase";
-    case WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_THREE_PHASE:
-        return "three_phase";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_power_measurement_phases_names, raw); }
 
-/*
- * Power measurement phases
- * 0, 1; read and write.
- * Erratum power_measurement_bit_row (certain): printed: "Bit 11 (Zählung bei 0 beginnend)" stands in the row of the
- * kind; taken: bits: 11.
- */
-#define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* power measurement phases: 0, 1; rw */
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_ADDRESS 0x0015U
-#define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_WORDS 1U
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_RAW_MIN 0
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_RAW_MAX 1
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SHIFT 11U
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_MASK 0x0800U
-
-static inline woodward_mpu2s_status woodward_mpu2s_power_measurement_phases_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_power_measurement_phases_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_RAW_MIN || value > WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_power_measurement_phases_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_power_measurement_phases_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_power_measurement_phases_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_power_measurement_phases_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_power_measurement_phases_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0800U, 11U) != 0U; }
 static inline uint16_t woodward_mpu2s_power_measurement_phases_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SHIFT) & WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_MASK));
-}
+{ return fieldscribe_insert(word, 0x0800U, 11U, raw ? 1U : 0U); }
 
-/*
- * Generator rated power
- * 5..9999 kW, raw 5..9999; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_RATED_POWER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator rated power: 5..9999 kW; rw */
 #define WOODWARD_MPU2S_GENERATOR_RATED_POWER_ADDRESS 0x0007U
-#define WOODWARD_MPU2S_GENERATOR_RATED_POWER_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MIN 5
 #define WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MAX 9999
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_power_check(uint16_t raw) { return fieldscribe_check(raw, 5, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_power_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 5, 9999, raw); }
+static inline int32_t woodward_mpu2s_generator_rated_power_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_power_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_power_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_RATED_POWER_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_rated_power_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator rated current
- * 0..7000 A, raw 0..7000; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator rated current: 0..7000 A; rw */
 #define WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_ADDRESS 0x0047U
-#define WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_RAW_MAX 7000
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_current_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 7000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_current_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 7000, raw); }
+static inline int32_t woodward_mpu2s_generator_rated_current_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_current_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_current_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_rated_current_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator power setpoint 1
- * -9999..9999 kW, raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- */
-#define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator power setpoint 1: -9999..9999 kW; rw */
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_ADDRESS 0x0045U
-#define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MAX 9999
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_power_setpoint_1_check(int16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_power_setpoint_1_encode(int32_t value, int16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (int16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_power_setpoint_1_decode(int16_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_power_setpoint_1_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_power_setpoint_1_encode(int32_t value, int16_t *raw)
+{ return fieldscribe_encode_s16(value, -9999, 9999, raw); }
+static inline int32_t woodward_mpu2s_generator_power_setpoint_1_decode(int16_t raw) { return raw; }
 static inline void woodward_mpu2s_generator_power_setpoint_1_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
+{ words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_power_setpoint_1_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
-/*
- * Generator power setpoint 2
- * -9999..9999 kW, raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- */
-#define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator power setpoint 2: -9999..9999 kW; rw */
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_ADDRESS 0x0046U
-#define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MAX 9999
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_power_setpoint_2_check(int16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_power_setpoint_2_encode(int32_t value, int16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (int16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_power_setpoint_2_decode(int16_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_power_setpoint_2_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_power_setpoint_2_encode(int32_t value, int16_t *raw)
+{ return fieldscribe_encode_s16(value, -9999, 9999, raw); }
+static inline int32_t woodward_mpu2s_generator_power_setpoint_2_decode(int16_t raw) { return raw; }
 static inline void woodward_mpu2s_generator_power_setpoint_2_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
+{ words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_power_setpoint_2_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 
-/* ---- Parameters controllers ---- */
+/* ---- parameters controllers (parameter) ---- */
 
-/* Switch2 */
 enum {
     WOODWARD_MPU2S_SWITCH2_OFF = 0,
     WOODWARD_MPU2S_SWITCH2_ON = 3
 };
-
+static const fieldscribe_name woodward_mpu2s_switch2_names[] = {
+    {WOODWARD_MPU2S_SWITCH2_OFF, "off"}, {WOODWARD_MPU2S_SWITCH2_ON, "on"}
+};
 static inline const char *woodward_mpu2s_switch2_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_SWITCH2_OFF:
-        return "off";
-    case WOODWARD_MPU2S_SWITCH2_ON:
-        return "on";
-    default:
-        return NULL;
-    }
-}
+{ return fieldscribe_name_of(woodward_mpu2s_switch2_names, FIELDSCRIBE_COUNT(woodward_mpu2s_switch2_names), raw); }
 
-/*
- * Frequency controller
- * 0, 3; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller: 0, 3; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_ADDRESS 0x0013U
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAW_MIN 0
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAW_MAX 3
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_SHIFT 14U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_MASK 0xC000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_frequency_controller_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAW_MIN || value > WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_frequency_controller_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_frequency_controller_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_frequency_controller_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_frequency_controller_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_FREQUENCY_CONTROLLER_MASK) >> WOODWARD_MPU2S_FREQUENCY_CONTROLLER_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xC000U, 14U)); }
 static inline uint16_t woodward_mpu2s_frequency_controller_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_FREQUENCY_CONTROLLER_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_FREQUENCY_CONTROLLER_SHIFT) & WOODWARD_MPU2S_FREQUENCY_CONTROLLER_MASK));
-}
+{ return fieldscribe_insert(word, 0xC000U, 14U, raw); }
 
-/*
- * Frequency controller start frequency
- * 0..70 Hz, raw 0..17920, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller start frequency: 0..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_ADDRESS 0x0039U
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_RAW_MIN 0
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_RAW_MAX 17920
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_frequency_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 17920); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, -1, 70001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < -1 || count > 70001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_frequency_controller_start_frequency_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_frequency_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_RAW_MIN, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_frequency_controller_start_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 0, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Frequency controller start delay
- * 0..999 s, raw 0..49950, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller start delay: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_ADDRESS 0x01F1U
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_RAW_MIN 0
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_RAW_MAX 49950
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 49950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 99900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 99900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_frequency_controller_start_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_start_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_RAW_MIN, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_frequency_controller_start_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_start_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_start_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Frequency controller ramp
- * raw 102..5120; read and write.
- * Erratum frequency_ramp_factor (unknown): printed: Raw 102 to 5120 is said to be 1 to 50 Hz/s, the formula
- * multiplies by 1024; taken: scale: ~.
- * Not generated (frequency_controller_ramp): the manual does not settle its scale.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAMP_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller ramp: raw 102..5120; rw; not generated: the manual does not settle its scale */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAMP_ADDRESS 0x0044U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_RAMP_WORDS 1U
 
-/*
- * Frequency controller dead band
- * 0.01953125..1 Hz, raw 5..256, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller dead band: 0.01953125..1 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_ADDRESS 0x002CU
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MIN 5
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MAX 256
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_dead_band_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 256); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MIN && raw <= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 18, 1001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 67109, 17U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 18 || count > 1001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_frequency_controller_dead_band_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_dead_band_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MIN, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_frequency_controller_dead_band_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 5, 256, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Frequency controller pulse time
- * 10..250 ms, raw 5..125, in steps of 2 ms; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller pulse time: 10..250 ms; in steps of 2 ms; 1 ms a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_ADDRESS 0x002DU
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MIN 5
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MAX 125
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_DECIMALS 0
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_pulse_time_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MIN && raw <= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 9, 250)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_pulse_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 9 || count > 250) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_frequency_controller_pulse_time_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_pulse_time_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(value / 2, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MIN, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_frequency_controller_pulse_time_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)((int32_t)raw * 2);
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 5, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
 #endif
 
-/*
- * Frequency controller proportional gain
- * 0.1..99.9, raw 1..999, in steps of 0.1; read and write.
- */
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* frequency controller proportional gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS 0x002EU
-#define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_WORDS 1U
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN 1
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX 999
 #define WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_proportional_gain_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN && raw <= WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 999) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_frequency_controller_proportional_gain_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_frequency_controller_proportional_gain_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_frequency_controller_proportional_gain_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_proportional_gain_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 999, raw); }
+static inline int32_t woodward_mpu2s_frequency_controller_proportional_gain_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_frequency_controller_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_frequency_controller_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Voltage controller
- * 0, 3; read and write.
- */
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* voltage controller: 0, 3; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_ADDRESS 0x0013U
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_WORDS 1U
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_RAW_MIN 0
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_RAW_MAX 3
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_SHIFT 10U
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_MASK 0x0C00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_voltage_controller_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_VOLTAGE_CONTROLLER_RAW_MIN || value > WOODWARD_MPU2S_VOLTAGE_CONTROLLER_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_voltage_controller_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_voltage_controller_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_voltage_controller_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_voltage_controller_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_VOLTAGE_CONTROLLER_MASK) >> WOODWARD_MPU2S_VOLTAGE_CONTROLLER_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0C00U, 10U)); }
 static inline uint16_t woodward_mpu2s_voltage_controller_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_VOLTAGE_CONTROLLER_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_VOLTAGE_CONTROLLER_SHIFT) & WOODWARD_MPU2S_VOLTAGE_CONTROLLER_MASK));
-}
+{ return fieldscribe_insert(word, 0x0C00U, 10U, raw); }
 
-/*
- * Voltage controller dead band
- * 0.1..15 %, raw 4..600, in steps of 0.025 %; read and write.
- */
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* voltage controller dead band: 0.1..15 %; in steps of 0.025 %; 0.01 % a count; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_ADDRESS 0x0025U
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_WORDS 1U
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MIN 4
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MAX 600
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_dead_band_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_check(uint16_t raw)
+{ return fieldscribe_check(raw, 4, 600); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MIN && raw <= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 9, 1501)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 3277, 12U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 9 || count > 1501) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 2, 5);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_voltage_controller_dead_band_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 5, 2);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_dead_band_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 40), WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MIN, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_voltage_controller_dead_band_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 40;
-}
+{ return fieldscribe_halves((int32_t)raw * 5, 1U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
 #endif
 
-/*
- * Voltage controller pulse time
- * 20..250 ms, raw 10..125, in steps of 2 ms; read and write.
- */
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* voltage controller pulse time: 20..250 ms; in steps of 2 ms; 1 ms a count; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_ADDRESS 0x0026U
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_WORDS 1U
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MIN 10
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MAX 125
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_DECIMALS 0
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_pulse_time_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MIN && raw <= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 19, 250)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_pulse_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 19 || count > 250) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_voltage_controller_pulse_time_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_pulse_time_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(value / 2, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MIN, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_voltage_controller_pulse_time_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)((int32_t)raw * 2);
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_round_u16(value / (fieldscribe_real)2, 10, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio((int32_t)raw * 2, 1); }
 #endif
 
-/*
- * Voltage controller proportional gain
- * 0.1..99.9, raw 1..999, in steps of 0.1; read and write.
- */
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* voltage controller proportional gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS 0x0027U
-#define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_WORDS 1U
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN 1
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX 999
 #define WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_proportional_gain_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN && raw <= WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 999) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_voltage_controller_proportional_gain_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_voltage_controller_proportional_gain_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_voltage_controller_proportional_gain_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_proportional_gain_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 999, raw); }
+static inline int32_t woodward_mpu2s_voltage_controller_proportional_gain_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_voltage_controller_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_voltage_controller_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Cos phi controller
- * 0, 3; read and write.
- */
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* cos phi controller: 0, 3; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_ADDRESS 0x0013U
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_WORDS 1U
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_RAW_MIN 0
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_RAW_MAX 3
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SHIFT 8U
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_MASK 0x0300U
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_cos_phi_controller_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_COS_PHI_CONTROLLER_RAW_MIN || value > WOODWARD_MPU2S_COS_PHI_CONTROLLER_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_cos_phi_controller_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_cos_phi_controller_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_cos_phi_controller_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_cos_phi_controller_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_COS_PHI_CONTROLLER_MASK) >> WOODWARD_MPU2S_COS_PHI_CONTROLLER_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0300U, 8U)); }
 static inline uint16_t woodward_mpu2s_cos_phi_controller_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_COS_PHI_CONTROLLER_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_COS_PHI_CONTROLLER_SHIFT) & WOODWARD_MPU2S_COS_PHI_CONTROLLER_MASK));
-}
+{ return fieldscribe_insert(word, 0x0300U, 8U, raw); }
 
-/*
- * Cos phi controller setpoint
- * -0.99..-0.7 or 0.7..1, raw -99..-70 or 70..100, in steps of 0.01; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum cos_phi_range_order (certain): printed: "-70 bis -99", beginning with the larger number; taken: -99..-70.
- */
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* cos phi controller setpoint: -0.99..-0.7 or 0.7..1; 0.01 a count; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_ADDRESS 0x000DU
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_WORDS 1U
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MIN (-99)
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MAX 100
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_setpoint_check(int16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_setpoint_check(int16_t raw)
 {
-    return (raw >= -99 && raw <= -70) || (raw >= 70 && raw <= 100) ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return (((raw >= -99) && (raw <= -70)) || ((raw >= 70) && (raw <= 100))) ? FIELDSCRIBE_OK
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_setpoint_encode_count(int32_t count, int16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_setpoint_encode_count(int32_t count, int16_t *raw)
 {
-    if (count < -99 || count > 100) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    const int16_t number = (int16_t)count;
-    const woodward_mpu2s_status status = woodward_mpu2s_cos_phi_controller_setpoint_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
+    return fieldscribe_within(count, -99, 100)
+        ? fieldscribe_keep_s16(woodward_mpu2s_cos_phi_controller_setpoint_check((int16_t)count), (int16_t)count, raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline int32_t woodward_mpu2s_cos_phi_controller_setpoint_decode_count(int16_t raw)
+static inline int32_t woodward_mpu2s_cos_phi_controller_setpoint_decode_count(int16_t raw) { return raw; }
+static inline void woodward_mpu2s_cos_phi_controller_setpoint_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_cos_phi_controller_setpoint_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_setpoint_encode(fieldscribe_real value, int16_t *raw)
 {
-    return raw;
+    const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 100),
+        WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MAX);
+    return fieldscribe_keep_s16(fieldscribe_both(whole.status,
+        woodward_mpu2s_cos_phi_controller_setpoint_check((int16_t)whole.number)), (int16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_setpoint_encode(woodward_mpu2s_real value, int16_t *raw)
-{
-    int32_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 100), WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_cos_phi_controller_setpoint_check((int16_t)whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_cos_phi_controller_setpoint_decode(int16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 100;
-}
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_setpoint_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 100); }
 #endif
 
-static inline void woodward_mpu2s_cos_phi_controller_setpoint_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_cos_phi_controller_setpoint_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * Cos phi controller dead band
- * 0.5..25 %, raw 5..250, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* cos phi controller dead band: 0.5..25 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_ADDRESS 0x0028U
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_WORDS 1U
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MIN 5
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MAX 250
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_dead_band_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MIN && raw <= WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 5 || count > 250) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_cos_phi_controller_dead_band_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_dead_band_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_cos_phi_controller_dead_band_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 250); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 5, 250, raw); }
+static inline int32_t woodward_mpu2s_cos_phi_controller_dead_band_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 5, 250, raw); }
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Cos phi controller proportional gain
- * 0.1..99.9, raw 1..999, in steps of 0.1; read and write.
- */
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* cos phi controller proportional gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS 0x002AU
-#define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_WORDS 1U
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN 1
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX 999
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_proportional_gain_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN && raw <= WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 999) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_cos_phi_controller_proportional_gain_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_cos_phi_controller_proportional_gain_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN, WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_cos_phi_controller_proportional_gain_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_proportional_gain_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 999, raw); }
+static inline int32_t woodward_mpu2s_cos_phi_controller_proportional_gain_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_cos_phi_controller_proportional_gain_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_cos_phi_controller_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Active power controller
- * 0, 3; read and write.
- * Erratum active_power_controller_text (certain): printed: "Wirkleistungsregler" in the title, "Leistungsregler ist
- * aus" and "Leistungsregler ist ein" at the switch; taken: Wirkleistungsregler.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller: 0, 3; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS 0x0013U
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAW_MIN 0
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAW_MAX 3
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SHIFT 12U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MASK 0x3000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_active_power_controller_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAW_MIN || value > WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_active_power_controller_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_active_power_controller_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_active_power_controller_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_active_power_controller_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MASK) >> WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x3000U, 12U)); }
 static inline uint16_t woodward_mpu2s_active_power_controller_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SHIFT) & WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MASK));
-}
+{ return fieldscribe_insert(word, 0x3000U, 12U, raw); }
 
-/*
- * Active power controller ramp
- * 0..100 %/s, raw 0..100; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller ramp: 0..100 %/s; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_ADDRESS 0x0043U
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_RAW_MIN 0
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_RAW_MAX 100
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_ramp_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 100); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_ramp_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 100, raw); }
+static inline int32_t woodward_mpu2s_active_power_controller_ramp_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_ramp_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_ramp_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_RAW_MIN || value > WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_active_power_controller_ramp_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Active power controller maximum
- * 10..120 %, raw 100..1200, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller maximum: 10..120 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_ADDRESS 0x0049U
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MIN 100
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MAX 1200
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_maximum_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_maximum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 100 || count > 1200) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_active_power_controller_maximum_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_maximum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MIN, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_active_power_controller_maximum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 100, 1200); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 100, 1200, raw); }
+static inline int32_t woodward_mpu2s_active_power_controller_maximum_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_maximum_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 100, 1200, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Active power controller minimum
- * 0..50 %, raw 0..500, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller minimum: 0..50 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_ADDRESS 0x004AU
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_RAW_MIN 0
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_RAW_MAX 500
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_minimum_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_minimum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 500) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_active_power_controller_minimum_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_minimum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_RAW_MIN, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_active_power_controller_minimum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 500); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 500, raw); }
+static inline int32_t woodward_mpu2s_active_power_controller_minimum_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_minimum_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 500, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_minimum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Active power controller dead band
- * 0.1..25 %, raw 1..250, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller dead band: 0.1..25 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_ADDRESS 0x002FU
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MIN 1
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MAX 250
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_dead_band_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MIN && raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 250) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_active_power_controller_dead_band_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_dead_band_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MIN, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_active_power_controller_dead_band_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 250); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 250, raw); }
+static inline int32_t woodward_mpu2s_active_power_controller_dead_band_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_dead_band_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 250, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_dead_band_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Active power controller proportional gain
- * 0.1..99.9, raw 1..999, in steps of 0.1; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller proportional gain: 0.1..99.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS 0x0031U
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN 1
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX 999
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_proportional_gain_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN && raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 999) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_proportional_gain_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_proportional_gain_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1, 999, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_proportional_gain_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_proportional_gain_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MIN, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_active_power_controller_proportional_gain_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+{ return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_proportional_gain_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 1, 999, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_proportional_gain_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Active power controller sensitivity reduction
- * 1..9.9, raw 10..99, in steps of 0.1; read and write.
- */
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* active power controller sensitivity reduction: 1..9.9; 0.1 a count; rw */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_ADDRESS 0x0032U
-#define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_WORDS 1U
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MIN 10
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MAX 99
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_sensitivity_reduction_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MIN && raw <= WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_sensitivity_reduction_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 10 || count > 99) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_sensitivity_reduction_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10, 99); }
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_sensitivity_reduction_encode_count(
+    int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 10, 99, raw); }
 static inline int32_t woodward_mpu2s_active_power_controller_sensitivity_reduction_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_active_power_controller_sensitivity_reduction_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MIN, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_active_power_controller_sensitivity_reduction_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+{ return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_active_power_controller_sensitivity_reduction_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 10, 99, raw); }
+static inline fieldscribe_real woodward_mpu2s_active_power_controller_sensitivity_reduction_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Part load lead setpoint
- * 5..110 %, raw 50..1100, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* part load lead setpoint: 5..110 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_ADDRESS 0x004CU
-#define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_WORDS 1U
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MIN 50
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MAX 1100
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_setpoint_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MIN && raw <= WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_setpoint_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 50 || count > 1100) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_part_load_lead_setpoint_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_setpoint_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MIN, WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_part_load_lead_setpoint_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 1100); }
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 50, 1100, raw); }
+static inline int32_t woodward_mpu2s_part_load_lead_setpoint_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_setpoint_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 50, 1100, raw); }
+static inline fieldscribe_real woodward_mpu2s_part_load_lead_setpoint_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Part load lead time
- * 0..600 s, raw 0..30000, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* part load lead time: 0..600 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_ADDRESS 0x004BU
-#define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_WORDS 1U
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_RAW_MIN 0
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_RAW_MAX 30000
 #define WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_time_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_check(uint16_t raw) { return fieldscribe_check(raw, 0, 30000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 60000)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 60000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_part_load_lead_time_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_part_load_lead_time_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_RAW_MIN, WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_part_load_lead_time_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_part_load_lead_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_part_load_lead_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 30000, raw); }
+static inline fieldscribe_real woodward_mpu2s_part_load_lead_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/* ---- Parameters breaker ---- */
+/* ---- parameters breaker (parameter) ---- */
 
-/*
- * Control by interface x1 x5
- * 0, 3; read and write.
- * Erratum interface_control_text (certain): printed: "11 = ist ein", with no subject; taken: 11 is on.
- */
-#define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* control by interface x1 x5: 0, 3; rw */
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_ADDRESS 0x00C9U
-#define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_WORDS 1U
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_RAW_MIN 0
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_RAW_MAX 3
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_SHIFT 6U
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_MASK 0x00C0U
-
-static inline woodward_mpu2s_status woodward_mpu2s_control_by_interface_x1_x5_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_control_by_interface_x1_x5_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_control_by_interface_x1_x5_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_control_by_interface_x1_x5_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_control_by_interface_x1_x5_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_RAW_MIN || value > WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_control_by_interface_x1_x5_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_control_by_interface_x1_x5_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_control_by_interface_x1_x5_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_control_by_interface_x1_x5_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_MASK) >> WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x00C0U, 6U)); }
 static inline uint16_t woodward_mpu2s_control_by_interface_x1_x5_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_SHIFT) & WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_MASK));
-}
+{ return fieldscribe_insert(word, 0x00C0U, 6U, raw); }
 
-/* Breaker logic */
 enum {
     WOODWARD_MPU2S_BREAKER_LOGIC_EXTERNAL = 0,
     WOODWARD_MPU2S_BREAKER_LOGIC_PARALLEL = 1
 };
-
+static const char *const woodward_mpu2s_breaker_logic_names[] = {
+    "external", "parallel"
+};
 static inline const char *woodward_mpu2s_breaker_logic_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_BREAKER_LOGIC_EXTERNAL:
-        return "external";
-    case WOODWARD_MPU2S_BREAKER_LOGIC_PARALLEL:
-        return "parallel";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_breaker_logic_names, raw); }
 
-/*
- * Breaker logic
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_BREAKER_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* breaker logic: 0, 1; rw */
 #define WOODWARD_MPU2S_BREAKER_LOGIC_ADDRESS 0x0010U
-#define WOODWARD_MPU2S_BREAKER_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_BREAKER_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_BREAKER_LOGIC_RAW_MAX 1
 #define WOODWARD_MPU2S_BREAKER_LOGIC_SHIFT 8U
 #define WOODWARD_MPU2S_BREAKER_LOGIC_MASK 0x0F00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_breaker_logic_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_BREAKER_LOGIC_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_breaker_logic_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_BREAKER_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_BREAKER_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_breaker_logic_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_breaker_logic_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 1)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_breaker_logic_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 0, 1, raw)); }
+static inline int32_t woodward_mpu2s_breaker_logic_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_breaker_logic_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_BREAKER_LOGIC_MASK) >> WOODWARD_MPU2S_BREAKER_LOGIC_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0F00U, 8U)); }
 static inline uint16_t woodward_mpu2s_breaker_logic_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_BREAKER_LOGIC_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_BREAKER_LOGIC_SHIFT) & WOODWARD_MPU2S_BREAKER_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x0F00U, 8U, raw); }
 
-/*
- * Load ramp maximum time
- * 0..999 s, raw 0..49950, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* load ramp maximum time: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_ADDRESS 0x008DU
-#define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_WORDS 1U
 #define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_RAW_MIN 0
 #define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_RAW_MAX 49950
 #define WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_load_ramp_maximum_time_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 49950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 99900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_load_ramp_maximum_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 99900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_load_ramp_maximum_time_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_load_ramp_maximum_time_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_RAW_MIN, WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_load_ramp_maximum_time_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_load_ramp_maximum_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_load_ramp_maximum_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_load_ramp_maximum_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/* Generator breaker signal logic */
 enum {
     WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_PULSE = 0,
     WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_CONSTANT = 1
 };
-
+static const char *const woodward_mpu2s_generator_breaker_signal_logic_names[] = {
+    "pulse", "constant"
+};
 static inline const char *woodward_mpu2s_generator_breaker_signal_logic_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_PULSE:
-        return "pulse";
-    case WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_CONSTANT:
-        return "constant";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_generator_breaker_signal_logic_names, raw); }
 
-/*
- * Generator breaker signal logic
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator breaker signal logic: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_ADDRESS 0x0015U
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_SHIFT 3U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_MASK 0x0008U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_signal_logic_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_signal_logic_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_breaker_signal_logic_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_signal_logic_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_signal_logic_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_breaker_signal_logic_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_breaker_signal_logic_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0008U, 3U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_breaker_signal_logic_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_SHIFT) & WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x0008U, 3U, raw ? 1U : 0U); }
 
-/* Contact logic */
 enum {
     WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_CLOSED = 0,
     WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_OPEN = 1
 };
-
+static const char *const woodward_mpu2s_contact_logic_names[] = {
+    "normally_closed", "normally_open"
+};
 static inline const char *woodward_mpu2s_contact_logic_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_CLOSED:
-        return "normally_closed";
-    case WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_OPEN:
-        return "normally_open";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_contact_logic_names, raw); }
 
-/*
- * Generator breaker open relay logic
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator breaker open relay logic: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_SHIFT 2U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_MASK 0x0004U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_open_relay_logic_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_open_relay_logic_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_open_relay_logic_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_breaker_open_relay_logic_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_open_relay_logic_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_breaker_open_relay_logic_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_breaker_open_relay_logic_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0004U, 2U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_breaker_open_relay_logic_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_SHIFT) & WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x0004U, 2U, raw ? 1U : 0U); }
 
-/* ---- Parameters synchronisation ---- */
+/* ---- parameters synchronisation (parameter) ---- */
 
 /*
- * Synchronisation frequency difference maximum
- * 0.01953125..0.48828125 Hz, raw 5..125, in steps of 0.00390625 Hz; read and write.
+ * synchronisation frequency difference maximum: 0.01953125..0.48828125 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count;
+ * rw
  */
-#define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS 0x001AU
-#define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN 5
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX 125
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_maximum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_maximum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 5, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_maximum_encode_count(
+    int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 18, 490)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 33555, 16U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_maximum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 18 || count > 490) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_synchronisation_frequency_difference_maximum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_maximum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_synchronisation_frequency_difference_maximum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_maximum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 5, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Synchronisation frequency difference minimum
- * 0..0.48828125 Hz, raw 0..125, in steps of 0.00390625 Hz; read and write.
- * Erratum synchronisation_minimum_sign (unknown): printed: The title has -df min, the range is 0 to 125, called
- * 0,00Hz to 0,49Hz; dU min has the same positive range as dU max; taken: Positive numbers, as printed.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation frequency difference minimum: 0..0.48828125 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_ADDRESS 0x001BU
-#define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_RAW_MIN 0
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_RAW_MAX 125
 #define WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_minimum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_minimum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 125); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_minimum_encode_count(
+    int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, -1, 490)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 33555, 16U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_minimum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < -1 || count > 490) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_synchronisation_frequency_difference_minimum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_frequency_difference_minimum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_RAW_MIN, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_synchronisation_frequency_difference_minimum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_frequency_difference_minimum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 0, 125, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_frequency_difference_minimum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Synchronisation voltage difference maximum
- * 0.1..15 %, raw 4..600, in steps of 0.025 %; read and write.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation voltage difference maximum: 0.1..15 %; in steps of 0.025 %; 0.01 % a count; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS 0x001CU
-#define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN 4
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX 600
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_maximum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_maximum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 4, 600); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_maximum_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 9, 1501)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 3277, 12U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_maximum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 9 || count > 1501) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 2, 5);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_synchronisation_voltage_difference_maximum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 5, 2);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_maximum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 40), WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_synchronisation_voltage_difference_maximum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 40;
-}
+{ return fieldscribe_halves((int32_t)raw * 5, 1U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_maximum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
 #endif
 
-/*
- * Synchronisation voltage difference minimum
- * 0.1..15 %, raw 4..600, in steps of 0.025 %; read and write.
- * Erratum synchronisation_minimum_sign (unknown): printed: The title has -df min, the range is 0 to 125, called
- * 0,00Hz to 0,49Hz; dU min has the same positive range as dU max; taken: Positive numbers, as printed.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation voltage difference minimum: 0.1..15 %; in steps of 0.025 %; 0.01 % a count; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_ADDRESS 0x0135U
-#define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MIN 4
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MAX 600
 #define WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_minimum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_minimum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 4, 600); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_minimum_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 9, 1501)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 3277, 12U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_minimum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 9 || count > 1501) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 2, 5);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_synchronisation_voltage_difference_minimum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 5, 2);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_voltage_difference_minimum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 40), WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MIN, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_synchronisation_voltage_difference_minimum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 40;
-}
+{ return fieldscribe_halves((int32_t)raw * 5, 1U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_voltage_difference_minimum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 40, 4, 600, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_voltage_difference_minimum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
 #endif
 
-/*
- * Synchronisation pulse time
- * 0.02..0.26 s, raw 1..13, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation pulse time: 0.02..0.26 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_ADDRESS 0x001FU
-#define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MIN 1
 #define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MAX 13
 #define WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_pulse_time_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 13); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MIN && raw <= WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 26)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_pulse_time_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 26) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_synchronisation_pulse_time_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_pulse_time_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MIN, WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_synchronisation_pulse_time_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_synchronisation_pulse_time_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_pulse_time_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 13, raw); }
+static inline fieldscribe_real woodward_mpu2s_synchronisation_pulse_time_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator breaker pick up time
- * 40..300 ms, raw 40..300; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator breaker pick up time: 40..300 ms; rw */
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_ADDRESS 0x0020U
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MIN 40
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MAX 300
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_pick_up_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 40, 300); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_pick_up_time_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 40, 300, raw); }
+static inline int32_t woodward_mpu2s_generator_breaker_pick_up_time_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_pick_up_time_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_pick_up_time_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_generator_breaker_pick_up_time_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Off on */
 enum {
     WOODWARD_MPU2S_OFF_ON_OFF = 0,
     WOODWARD_MPU2S_OFF_ON_ON = 1
 };
-
+static const char *const woodward_mpu2s_off_on_names[] = {
+    "off", "on"
+};
 static inline const char *woodward_mpu2s_off_on_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_OFF_ON_OFF:
-        return "off";
-    case WOODWARD_MPU2S_OFF_ON_ON:
-        return "on";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_off_on_names, raw); }
 
-/*
- * Synchronisation time monitoring
- * 0, 1; read and write.
- * Erratum synchronisation_bit_note (certain): printed: The sentence on reading the word and changing single bits is
- * missing; taken: Bit 0 is changed as all other bits.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation time monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_ADDRESS 0x0015U
-#define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_SHIFT 0U
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_MASK 0x0001U
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_time_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_time_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_synchronisation_time_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_time_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_time_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_synchronisation_time_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_synchronisation_time_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0001U, 0U) != 0U; }
 static inline uint16_t woodward_mpu2s_synchronisation_time_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U)) & WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0001U, 0U, raw ? 1U : 0U); }
 
-/*
- * Synchronisation time monitoring delay
- * 10..999 s, raw 10..999; read and write.
- */
-#define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* synchronisation time monitoring delay: 10..999 s; rw */
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_ADDRESS 0x0022U
-#define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MIN 10
 #define WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MAX 999
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_time_monitoring_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_synchronisation_time_monitoring_delay_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 10, 999, raw); }
+static inline int32_t woodward_mpu2s_synchronisation_time_monitoring_delay_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_time_monitoring_delay_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_synchronisation_time_monitoring_delay_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MIN || value > WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_synchronisation_time_monitoring_delay_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Dead bus start
- * 0, 3; read and write.
- */
-#define WOODWARD_MPU2S_DEAD_BUS_START_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* dead bus start: 0, 3; rw */
 #define WOODWARD_MPU2S_DEAD_BUS_START_ADDRESS 0x0013U
-#define WOODWARD_MPU2S_DEAD_BUS_START_WORDS 1U
 #define WOODWARD_MPU2S_DEAD_BUS_START_RAW_MIN 0
 #define WOODWARD_MPU2S_DEAD_BUS_START_RAW_MAX 3
 #define WOODWARD_MPU2S_DEAD_BUS_START_SHIFT 4U
 #define WOODWARD_MPU2S_DEAD_BUS_START_MASK 0x0030U
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_check(uint8_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_check(uint8_t raw)
+{ return fieldscribe_known(((raw == 0U) || (raw == 3U)) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_encode(int32_t value, uint8_t *raw)
 {
-    return raw == 0U || raw == 3U ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
+    return fieldscribe_within(value, 0, 3)
+        ? fieldscribe_keep_u8(woodward_mpu2s_dead_bus_start_check((uint8_t)value), (uint8_t)value, raw)
+        : FIELDSCRIBE_UNKNOWN_VALUE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DEAD_BUS_START_RAW_MIN || value > WOODWARD_MPU2S_DEAD_BUS_START_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    const uint8_t number = (uint8_t)value;
-    const woodward_mpu2s_status status = woodward_mpu2s_dead_bus_start_check(number);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = number;
-    }
-    return status;
-}
-
-static inline int32_t woodward_mpu2s_dead_bus_start_decode(uint8_t raw)
-{
-    return raw;
-}
-
+static inline int32_t woodward_mpu2s_dead_bus_start_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_dead_bus_start_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_DEAD_BUS_START_MASK) >> WOODWARD_MPU2S_DEAD_BUS_START_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0030U, 4U)); }
 static inline uint16_t woodward_mpu2s_dead_bus_start_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DEAD_BUS_START_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_DEAD_BUS_START_SHIFT) & WOODWARD_MPU2S_DEAD_BUS_START_MASK));
-}
+{ return fieldscribe_insert(word, 0x0030U, 4U, raw); }
 
-/*
- * Dead bus start frequency difference maximum
- * 0.05078125..5 Hz, raw 13..1280, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* dead bus start frequency difference maximum: 0.05078125..5 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS 0x001DU
-#define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_WORDS 1U
 #define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN 13
 #define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX 1280
 #define WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_frequency_difference_maximum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_maximum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 13, 1280); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_maximum_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 49, 5001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 67109, 17U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_frequency_difference_maximum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 49 || count > 5001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_dead_bus_start_frequency_difference_maximum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_frequency_difference_maximum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MIN, WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_dead_bus_start_frequency_difference_maximum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_frequency_difference_maximum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 13, 1280, raw); }
+static inline fieldscribe_real woodward_mpu2s_dead_bus_start_frequency_difference_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Dead bus start voltage difference maximum
- * 0.1..20 %, raw 4..800, in steps of 0.025 %; read and write.
- */
-#define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* dead bus start voltage difference maximum: 0.1..20 %; in steps of 0.025 %; 0.01 % a count; rw */
 #define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS 0x001EU
-#define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_WORDS 1U
 #define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN 4
 #define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX 800
 #define WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_voltage_difference_maximum_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_maximum_check(uint16_t raw)
+{ return fieldscribe_check(raw, 4, 800); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_maximum_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN && raw <= WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 9, 2001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 0, 3277, 12U, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_voltage_difference_maximum_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 9 || count > 2001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 2, 5);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_dead_bus_start_voltage_difference_maximum_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 5, 2);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_voltage_difference_maximum_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 40), WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MIN, WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_dead_bus_start_voltage_difference_maximum_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 40;
-}
+{ return fieldscribe_halves((int32_t)raw * 5, 1U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_voltage_difference_maximum_encode(
+    fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 40, 4, 800, raw); }
+static inline fieldscribe_real woodward_mpu2s_dead_bus_start_voltage_difference_maximum_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 40); }
 #endif
 
-/*
- * Dead bus start maximum time
- * 0..999 s, raw 0..999; read and write.
- */
-#define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* dead bus start maximum time: 0..999 s; rw */
 #define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_ADDRESS 0x008EU
-#define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_WORDS 1U
 #define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_RAW_MIN 0
 #define WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_RAW_MAX 999
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_maximum_time_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_dead_bus_start_maximum_time_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 999, raw); }
+static inline int32_t woodward_mpu2s_dead_bus_start_maximum_time_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_maximum_time_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_dead_bus_start_maximum_time_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_RAW_MIN || value > WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_dead_bus_start_maximum_time_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator breaker monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator breaker monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_ADDRESS 0x0011U
-#define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_SHIFT 12U
 #define WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_MASK 0x1000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_breaker_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_breaker_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_breaker_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_breaker_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_breaker_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x1000U, 12U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_breaker_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x1000U, 12U, raw ? 1U : 0U); }
 
-/*
- * Automatic breaker unlocking
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* automatic breaker unlocking: 0, 1; rw */
 #define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_WORDS 1U
 #define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_RAW_MIN 0
 #define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_RAW_MAX 1
 #define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_SHIFT 1U
 #define WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_MASK 0x0002U
-
-static inline woodward_mpu2s_status woodward_mpu2s_automatic_breaker_unlocking_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_automatic_breaker_unlocking_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_RAW_MIN || value > WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_automatic_breaker_unlocking_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_automatic_breaker_unlocking_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_automatic_breaker_unlocking_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_automatic_breaker_unlocking_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_automatic_breaker_unlocking_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0002U, 1U) != 0U; }
 static inline uint16_t woodward_mpu2s_automatic_breaker_unlocking_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_SHIFT) & WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0002U, 1U, raw ? 1U : 0U); }
 
-/* ---- Parameters monitoring generator ---- */
+/* ---- parameters monitoring generator (parameter) ---- */
 
-/*
- * Generator overload monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overload monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_SHIFT 11U
 #define WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_MASK 0x0800U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overload_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overload_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_overload_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overload_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overload_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_overload_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_overload_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0800U, 11U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_overload_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0800U, 11U, raw ? 1U : 0U); }
 
-/*
- * Overload threshold parallel operation
- * 80..150 %, raw 800..1500, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overload threshold parallel operation: 80..150 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_ADDRESS 0x0070U
-#define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_WORDS 1U
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MIN 800
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MAX 1500
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_parallel_operation_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MIN && raw <= WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_parallel_operation_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 800 || count > 1500) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overload_threshold_parallel_operation_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_parallel_operation_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MIN, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overload_threshold_parallel_operation_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_check(uint16_t raw)
+{ return fieldscribe_check(raw, 800, 1500); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 800, 1500, raw); }
+static inline int32_t woodward_mpu2s_overload_threshold_parallel_operation_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 800, 1500, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_threshold_parallel_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Overload delay parallel operation
- * 0..99 s, raw 0..4950, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overload delay parallel operation: 0..99 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_ADDRESS 0x0071U
-#define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_WORDS 1U
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_RAW_MIN 0
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_RAW_MAX 4950
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_parallel_operation_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 9900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_parallel_operation_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 9900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_overload_delay_parallel_operation_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_parallel_operation_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_RAW_MIN, WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overload_delay_parallel_operation_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_parallel_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_delay_parallel_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Overload threshold isolated operation
- * 80..150 %, raw 800..1500, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overload threshold isolated operation: 80..150 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_ADDRESS 0x019EU
-#define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_WORDS 1U
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MIN 800
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MAX 1500
 #define WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_isolated_operation_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MIN && raw <= WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_isolated_operation_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 800 || count > 1500) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overload_threshold_isolated_operation_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overload_threshold_isolated_operation_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MIN, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overload_threshold_isolated_operation_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_check(uint16_t raw)
+{ return fieldscribe_check(raw, 800, 1500); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 800, 1500, raw); }
+static inline int32_t woodward_mpu2s_overload_threshold_isolated_operation_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_threshold_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 800, 1500, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_threshold_isolated_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Overload delay isolated operation
- * 0..99 s, raw 0..4950, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overload delay isolated operation: 0..99 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_ADDRESS 0x007EU
-#define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_WORDS 1U
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_RAW_MIN 0
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_RAW_MAX 4950
 #define WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_isolated_operation_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 4950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 9900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_isolated_operation_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 9900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_overload_delay_isolated_operation_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overload_delay_isolated_operation_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_RAW_MIN, WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overload_delay_isolated_operation_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overload_delay_isolated_operation_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_overload_delay_isolated_operation_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator reverse power monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator reverse power monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_SHIFT 5U
 #define WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_MASK 0x0020U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_reverse_power_monitoring_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_reverse_power_monitoring_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_reverse_power_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_reverse_power_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_reverse_power_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_reverse_power_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_reverse_power_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0020U, 5U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_reverse_power_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0020U, 5U, raw ? 1U : 0U); }
 
-/*
- * Reverse power threshold
- * -99..99 %, raw -990..990, in steps of 0.1 %; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- */
-#define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reverse power threshold: -99..99 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_ADDRESS 0x0072U
-#define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MIN (-990)
 #define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MAX 990
 #define WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_threshold_check(int16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_threshold_encode_count(int32_t count, int16_t *raw)
-{
-    if (count < -990 || count > 990) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (int16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_reverse_power_threshold_decode_count(int16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_threshold_encode(woodward_mpu2s_real value, int16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reverse_power_threshold_decode(int16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_threshold_check(int16_t raw)
+{ return fieldscribe_check(raw, -990, 990); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_threshold_encode_count(int32_t count, int16_t *raw)
+{ return fieldscribe_encode_s16(count, -990, 990, raw); }
+static inline int32_t woodward_mpu2s_reverse_power_threshold_decode_count(int16_t raw) { return raw; }
+static inline void woodward_mpu2s_reverse_power_threshold_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_reverse_power_threshold_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_threshold_encode(fieldscribe_real value, int16_t *raw)
+{ return fieldscribe_scale_s16(value, 10, -990, 990, raw); }
+static inline fieldscribe_real woodward_mpu2s_reverse_power_threshold_decode(int16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-static inline void woodward_mpu2s_reverse_power_threshold_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_reverse_power_threshold_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * Reverse power delay
- * 0..99.9 s, raw 0..4995, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_REVERSE_POWER_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reverse power delay: 0..99.9 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_REVERSE_POWER_DELAY_ADDRESS 0x0073U
-#define WOODWARD_MPU2S_REVERSE_POWER_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_REVERSE_POWER_DELAY_RAW_MIN 0
 #define WOODWARD_MPU2S_REVERSE_POWER_DELAY_RAW_MAX 4995
 #define WOODWARD_MPU2S_REVERSE_POWER_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_check(uint16_t raw) { return fieldscribe_check(raw, 0, 4995); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_REVERSE_POWER_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 9990)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 9990) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_reverse_power_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reverse_power_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_REVERSE_POWER_DELAY_RAW_MIN, WOODWARD_MPU2S_REVERSE_POWER_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reverse_power_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_reverse_power_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reverse_power_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 4995, raw); }
+static inline fieldscribe_real woodward_mpu2s_reverse_power_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator unbalanced load monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator unbalanced load monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_SHIFT 10U
 #define WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_MASK 0x0400U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_unbalanced_load_monitoring_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_unbalanced_load_monitoring_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_unbalanced_load_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_unbalanced_load_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_unbalanced_load_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_unbalanced_load_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_unbalanced_load_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0400U, 10U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_unbalanced_load_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0400U, 10U, raw ? 1U : 0U); }
 
-/*
- * Unbalanced load threshold
- * 0..100 %, raw 0..1000, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* unbalanced load threshold: 0..100 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_ADDRESS 0x0074U
-#define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_RAW_MIN 0
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_RAW_MAX 1000
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_threshold_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 1000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_unbalanced_load_threshold_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_unbalanced_load_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 1000, raw); }
+static inline int32_t woodward_mpu2s_unbalanced_load_threshold_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_unbalanced_load_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Unbalanced load delay
- * 0.02..99.98 s, raw 1..4999, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* unbalanced load delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_ADDRESS 0x0075U
-#define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MAX 4999
 #define WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 4999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 9998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_unbalanced_load_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_unbalanced_load_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MIN, WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_unbalanced_load_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_unbalanced_load_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_unbalanced_load_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_unbalanced_load_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator overcurrent monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overcurrent monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_SHIFT 4U
 #define WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_MASK 0x0010U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overcurrent_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overcurrent_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_overcurrent_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overcurrent_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overcurrent_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_overcurrent_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_overcurrent_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0010U, 4U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_overcurrent_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0010U, 4U, raw ? 1U : 0U); }
 
-/*
- * Overcurrent 1 threshold
- * 0..300 %, raw 0..3000, in steps of 0.1 %; read and write.
- * Erratum overcurrent_1_title (certain): printed: "Überstrom 2 Ansprechwert", in the contents too, and again over
- * 4.2.75 (lines 95 and 1194); taken: Überstrom 1 Ansprechwert.
- */
-#define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overcurrent 1 threshold: 0..300 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_ADDRESS 0x0076U
-#define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_RAW_MIN 0
 #define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_RAW_MAX 3000
 #define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_threshold_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 3000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overcurrent_1_threshold_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overcurrent_1_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 3000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 3000, raw); }
+static inline int32_t woodward_mpu2s_overcurrent_1_threshold_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Overcurrent 1 delay
- * 0.02..99.98 s, raw 1..4999, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overcurrent 1 delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_ADDRESS 0x0077U
-#define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MAX 4999
 #define WOODWARD_MPU2S_OVERCURRENT_1_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 4999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 9998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overcurrent_1_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_1_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MIN, WOODWARD_MPU2S_OVERCURRENT_1_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overcurrent_1_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_overcurrent_1_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Overcurrent 2 threshold
- * 0..300 %, raw 0..3000, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overcurrent 2 threshold: 0..300 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_ADDRESS 0x01ACU
-#define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_RAW_MIN 0
 #define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_RAW_MAX 3000
 #define WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_threshold_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 3000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overcurrent_2_threshold_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overcurrent_2_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 3000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 0, 3000, raw); }
+static inline int32_t woodward_mpu2s_overcurrent_2_threshold_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 0, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Overcurrent 2 delay
- * 0.02..99.98 s, raw 1..4999, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* overcurrent 2 delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_ADDRESS 0x01ADU
-#define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MAX 4999
 #define WOODWARD_MPU2S_OVERCURRENT_2_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 4999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 9998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_overcurrent_2_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_overcurrent_2_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MIN, WOODWARD_MPU2S_OVERCURRENT_2_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_overcurrent_2_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_overcurrent_2_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_overcurrent_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_overcurrent_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Inverse time overcurrent
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent: 0, 1; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_RAW_MIN 0
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_RAW_MAX 1
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_SHIFT 10U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_MASK 0x0400U
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_RAW_MIN || value > WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_inverse_time_overcurrent_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_inverse_time_overcurrent_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_inverse_time_overcurrent_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0400U, 10U) != 0U; }
 static inline uint16_t woodward_mpu2s_inverse_time_overcurrent_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_SHIFT) & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_MASK));
-}
+{ return fieldscribe_insert(word, 0x0400U, 10U, raw ? 1U : 0U); }
 
-/* Inverse time overcurrent characteristic */
 enum {
     WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_NORMAL_INVERSE = 0,
     WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_VERY_INVERSE = 1,
     WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_EXTREMELY_INVERSE = 2
 };
-
+static const char *const woodward_mpu2s_inverse_time_overcurrent_characteristic_names[] = {
+    "normal_inverse", "very_inverse", "extremely_inverse"
+};
 static inline const char *woodward_mpu2s_inverse_time_overcurrent_characteristic_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_NORMAL_INVERSE:
-        return "normal_inverse";
-    case WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_VERY_INVERSE:
-        return "very_inverse";
-    case WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_EXTREMELY_INVERSE:
-        return "extremely_inverse";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_inverse_time_overcurrent_characteristic_names, raw); }
 
-/*
- * Inverse time overcurrent characteristic
- * 0..2; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent characteristic: 0..2; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_ADDRESS 0x012AU
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_RAW_MIN 0
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_RAW_MAX 2
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_SHIFT 0U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_MASK 0x0003U
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_characteristic_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_characteristic_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_RAW_MIN || value > WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_inverse_time_overcurrent_characteristic_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_characteristic_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 0, 2)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_characteristic_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 0, 2, raw)); }
+static inline int32_t woodward_mpu2s_inverse_time_overcurrent_characteristic_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_inverse_time_overcurrent_characteristic_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0003U, 0U)); }
 static inline uint16_t woodward_mpu2s_inverse_time_overcurrent_characteristic_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x0003U, 0U, raw); }
 
-/*
- * Inverse time overcurrent tp
- * 0..1.98 s, raw 0..99, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent tp: 0..1.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_ADDRESS 0x012BU
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_RAW_MIN 0
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_RAW_MAX 99
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_tp_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 99); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 198)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_tp_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 198) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_inverse_time_overcurrent_tp_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_tp_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_RAW_MIN, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_inverse_time_overcurrent_tp_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_inverse_time_overcurrent_tp_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_tp_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 99, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_tp_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Inverse time overcurrent ip
- * 0.1..3, raw 100..3000, in steps of 0.001; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent ip: 0.1..3; 0.001 a count; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_ADDRESS 0x012CU
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MIN 100
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MAX 3000
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_ip_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MIN && raw <= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_ip_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 100 || count > 3000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_inverse_time_overcurrent_ip_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_ip_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 1000), WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MIN, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_inverse_time_overcurrent_ip_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 1000;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_check(uint16_t raw)
+{ return fieldscribe_check(raw, 100, 3000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 100, 3000, raw); }
+static inline int32_t woodward_mpu2s_inverse_time_overcurrent_ip_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_ip_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 1000, 100, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_ip_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 1000); }
 #endif
 
-/*
- * Inverse time overcurrent istart
- * 1..3, raw 1000..3000, in steps of 0.001; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent istart: 1..3; 0.001 a count; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_ADDRESS 0x012DU
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MIN 1000
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MAX 3000
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_istart_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MIN && raw <= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_istart_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1000 || count > 3000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_inverse_time_overcurrent_istart_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_istart_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 1000), WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MIN, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_inverse_time_overcurrent_istart_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 1000;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1000, 3000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 1000, 3000, raw); }
+static inline int32_t woodward_mpu2s_inverse_time_overcurrent_istart_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_istart_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 1000, 1000, 3000, raw); }
+static inline fieldscribe_real woodward_mpu2s_inverse_time_overcurrent_istart_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 1000); }
 #endif
 
-/*
- * Inverse time overcurrent voltage dependence
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent voltage dependence: 0, 1; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_RAW_MIN 0
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_RAW_MAX 1
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_SHIFT 11U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_MASK 0x0800U
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_RAW_MIN || value > WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0800U, 11U) != 0U; }
 static inline uint16_t woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_SHIFT) & WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_MASK));
-}
+{ return fieldscribe_insert(word, 0x0800U, 11U, raw ? 1U : 0U); }
 
-/*
- * Inverse time overcurrent voltage knee
- * 10..90 %, raw 10..90; read and write.
- */
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* inverse time overcurrent voltage knee: 10..90 %; rw */
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_ADDRESS 0x012EU
-#define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_WORDS 1U
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MIN 10
 #define WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MAX 90
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_voltage_knee_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10, 90); }
+FIELDSCRIBE_STATUS woodward_mpu2s_inverse_time_overcurrent_voltage_knee_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 10, 90, raw); }
+static inline int32_t woodward_mpu2s_inverse_time_overcurrent_voltage_knee_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_voltage_knee_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MIN && raw <= WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_inverse_time_overcurrent_voltage_knee_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MIN || value > WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_inverse_time_overcurrent_voltage_knee_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Generator overfrequency monitoring
- * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
- * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
- * Erratum generator_overfrequency_bit (unknown): printed: Bit 12, while the other three switches of the word are
- * bits 3, 1 and 0 (lines 1304, 1341 and 1404); taken: As printed.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overfrequency monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_ADDRESS 0x0136U
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_SHIFT 12U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_MASK 0x1000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_monitoring_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_monitoring_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_overfrequency_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_overfrequency_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_overfrequency_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x1000U, 12U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_overfrequency_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x1000U, 12U, raw ? 1U : 0U); }
 
-/*
- * Generator overfrequency 1 threshold
- * 40..85 Hz, raw 10240..21760, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overfrequency 1 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_ADDRESS 0x0068U
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MAX 21760
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 21760); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 85001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 85001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overfrequency_1_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overfrequency_1_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator overfrequency 1 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overfrequency 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_ADDRESS 0x0069U
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overfrequency_1_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_1_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overfrequency_1_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator overfrequency 2 threshold
- * 40..85 Hz, raw 10240..21760, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overfrequency 2 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_ADDRESS 0x0120U
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MAX 21760
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 21760); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 85001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 85001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overfrequency_2_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overfrequency_2_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator overfrequency 2 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overfrequency 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_ADDRESS 0x0121U
-#define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overfrequency_2_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overfrequency_2_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overfrequency_2_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overfrequency_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator underfrequency monitoring
- * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
- * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator underfrequency monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_ADDRESS 0x0136U
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_SHIFT 3U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_MASK 0x0008U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_monitoring_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_monitoring_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_underfrequency_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_underfrequency_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_underfrequency_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0008U, 3U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_underfrequency_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0008U, 3U, raw ? 1U : 0U); }
 
-/*
- * Generator underfrequency 1 threshold
- * 40..85 Hz, raw 10240..21760, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator underfrequency 1 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_ADDRESS 0x006AU
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MAX 21760
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 21760); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 85001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 85001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_underfrequency_1_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_underfrequency_1_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator underfrequency 1 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator underfrequency 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_ADDRESS 0x006BU
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_underfrequency_1_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_1_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_underfrequency_1_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator underfrequency 2 threshold
- * 40..85 Hz, raw 10240..21760, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator underfrequency 2 threshold: 40..85 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_ADDRESS 0x0122U
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MAX 21760
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 21760); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 85001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 85001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_underfrequency_2_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_underfrequency_2_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 21760, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Generator underfrequency 2 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator underfrequency 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_ADDRESS 0x0123U
-#define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_underfrequency_2_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_underfrequency_2_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_underfrequency_2_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_underfrequency_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_underfrequency_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator overvoltage monitoring
- * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
- * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overvoltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_ADDRESS 0x0136U
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_SHIFT 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_MASK 0x0002U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_overvoltage_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_overvoltage_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_overvoltage_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0002U, 1U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_overvoltage_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_SHIFT) & WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0002U, 1U, raw ? 1U : 0U); }
 
 /*
- * Generator overvoltage 1 threshold 100v
- * raw generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375); read and write.
+ * generator overvoltage 1 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
+ * generator_voltage_factor.raw x 0.375); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_ADDRESS 0x006CU
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator overvoltage 1 threshold 400v
- * raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3; read and write.
+ * generator overvoltage 1 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_ADDRESS 0x006CU
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator overvoltage 1 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overvoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_ADDRESS 0x006DU
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overvoltage_1_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overvoltage_1_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
 /*
- * Generator overvoltage 2 threshold 100v
- * raw generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375); read and write.
+ * generator overvoltage 2 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
+ * generator_voltage_factor.raw x 0.375); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_ADDRESS 0x0124U
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator overvoltage 2 threshold 400v
- * raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3; read and write.
+ * generator overvoltage 2 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_ADDRESS 0x0124U
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator overvoltage 2 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator overvoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_ADDRESS 0x0125U
-#define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_overvoltage_2_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_overvoltage_2_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Generator undervoltage monitoring
- * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
- * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator undervoltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_ADDRESS 0x0136U
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_SHIFT 0U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_MASK 0x0001U
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_monitoring_check(bool raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_monitoring_check(bool raw)
 {
     (void)raw;
-    return WOODWARD_MPU2S_OK;
+    return FIELDSCRIBE_OK;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_generator_undervoltage_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_generator_undervoltage_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_generator_undervoltage_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0001U, 0U) != 0U; }
 static inline uint16_t woodward_mpu2s_generator_undervoltage_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U)) & WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0001U, 0U, raw ? 1U : 0U); }
 
 /*
- * Generator undervoltage 1 threshold 100v
- * raw generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375); read and write.
+ * generator undervoltage 1 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
+ * generator_voltage_factor.raw x 0.375); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_ADDRESS 0x006EU
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator undervoltage 1 threshold 400v
- * raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3; read and write.
+ * generator undervoltage 1 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_ADDRESS 0x006EU
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator undervoltage 1 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator undervoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_ADDRESS 0x006FU
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_undervoltage_1_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_undervoltage_1_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_1_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
 /*
- * Generator undervoltage 2 threshold 100v
- * raw generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375); read and write.
+ * generator undervoltage 2 threshold 100v: raw generator_voltage_factor.raw x 0.05..min(24576,
+ * generator_voltage_factor.raw x 0.375); 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_ADDRESS 0x0126U
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Generator undervoltage 2 threshold 400v
- * raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3; read and write.
+ * generator undervoltage 2 threshold 400v: raw generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3;
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_ADDRESS 0x0126U
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(
+    uint16_t raw, uint16_t generator_voltage_factor_raw)
+{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode_count(
+    int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t generator_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode_count(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)generator_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)generator_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode_count(int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
+    double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
+        generator_voltage_factor_raw)), (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode_count(uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(
+    uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole, generator_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(&rule, generator_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Generator undervoltage 2 delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* generator undervoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_ADDRESS 0x0127U
-#define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_generator_undervoltage_2_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MIN, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_generator_undervoltage_2_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_2_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/* ---- Parameters monitoring mains ---- */
+/* ---- parameters monitoring mains (parameter) ---- */
 
-/*
- * Mains frequency monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains frequency monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_SHIFT 14U
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_MASK 0x4000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_frequency_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_frequency_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_mains_frequency_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_frequency_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_frequency_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_mains_frequency_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_mains_frequency_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x4000U, 14U) != 0U; }
 static inline uint16_t woodward_mpu2s_mains_frequency_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_SHIFT) & WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x4000U, 14U, raw ? 1U : 0U); }
 
-/*
- * Mains overfrequency threshold
- * 40..70 Hz, raw 10240..17920, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains overfrequency threshold: 40..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_ADDRESS 0x0057U
-#define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MAX 17920
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 17920); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 70001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 70001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_mains_overfrequency_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_overfrequency_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Mains overfrequency delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains overfrequency delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_ADDRESS 0x0058U
-#define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_overfrequency_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overfrequency_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_overfrequency_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_mains_overfrequency_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overfrequency_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Mains underfrequency threshold
- * 40..70 Hz, raw 10240..17920, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains underfrequency threshold: 40..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_ADDRESS 0x0059U
-#define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MIN 10240
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MAX 17920
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_threshold_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 10240, 17920); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 39999, 70001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 39999 || count > 70001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_mains_underfrequency_threshold_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_underfrequency_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 10240, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
-/*
- * Mains underfrequency delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains underfrequency delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_ADDRESS 0x005AU
-#define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_underfrequency_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_underfrequency_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_underfrequency_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_mains_underfrequency_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_underfrequency_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_underfrequency_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Mains voltage monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains voltage monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_SHIFT 15U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_MASK 0x8000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_mains_voltage_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_mains_voltage_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_mains_voltage_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x8000U, 15U) != 0U; }
 static inline uint16_t woodward_mpu2s_mains_voltage_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_SHIFT) & WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x8000U, 15U, raw ? 1U : 0U); }
 
-/*
- * KWUNTSEK: Mains voltage factor
- * 0..65535; read only.
- * Erratum voltage_factors (likely): printed: The factor is a "16-Bit Wort" and depends on the transformer ratios;
- * its range, its sign, whether it can be written, and which of the transformer parameters change it is not said;
- * taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to 4.2.9 and
- * 4.2.12.
- */
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* KWUNTSEK mains voltage factor: 0..65535; r */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_ADDRESS 0x01FCU
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_CODE "KWUNTSEK"
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_WORDS 1U
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_RAW_MIN 0
-#define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_RAW_MAX 65535
-
-static inline int32_t woodward_mpu2s_mains_voltage_factor_decode(uint16_t raw)
-{
-    return raw;
-}
+static inline int32_t woodward_mpu2s_mains_voltage_factor_decode(uint16_t raw) { return raw; }
 
 /*
- * Mains overvoltage threshold 100v
- * raw mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375); read and write.
+ * mains overvoltage threshold 100v: raw mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375);
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_ADDRESS 0x005BU
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_check(
+    uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 3, 8));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t mains_voltage_factor_raw)
+static inline fieldscribe_rule woodward_mpu2s_mains_overvoltage_threshold_100v_rule(uint16_t mains_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
+    int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)mains_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)mains_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_encode(double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_mains_overvoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_decode(uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Mains overvoltage threshold 400v
- * raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; read and write.
+ * mains overvoltage threshold 400v: raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; 0.001 V a
+ * count; rw
  */
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_ADDRESS 0x005BU
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_check(
+    uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 13, 10), 65535));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
+    int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)mains_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)mains_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_encode(double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_mains_overvoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_decode(uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_overvoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Mains overvoltage delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains overvoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_ADDRESS 0x005CU
-#define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_overvoltage_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MIN, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_overvoltage_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_mains_overvoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_overvoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
 /*
- * Mains undervoltage threshold 100v
- * raw mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375); read and write.
+ * mains undervoltage threshold 100v: raw mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375);
+ * 0.001 V a count; rw
  */
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_ADDRESS 0x005DU
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX 24576
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_check(
+    uint16_t raw, uint16_t mains_voltage_factor_raw)
+{ return woodward_mpu2s_mains_overvoltage_threshold_100v_check(raw, mains_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count(
+    int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 3, 8);
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_rule(woodward_mpu2s_rule *rule, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)mains_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)mains_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count(int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count(uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_encode(double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_mains_undervoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_decode(uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_100v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
 /*
- * Mains undervoltage threshold 400v
- * raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; read and write.
+ * mains undervoltage threshold 400v: raw mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3; 0.001 V a
+ * count; rw
  */
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_ADDRESS 0x005DU
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN 0
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX 65535
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_check(
+    uint16_t raw, uint16_t mains_voltage_factor_raw)
+{ return woodward_mpu2s_mains_overvoltage_threshold_400v_check(raw, mains_voltage_factor_raw); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count(
+    int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const int32_t number = raw;
-    int32_t low;
-    int32_t high;
-    low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
-    high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 13, 10);
-    if (high > 65535) {
-        high = 65535;
-    }
-    return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    const fieldscribe_whole whole = fieldscribe_ruled_count(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_rule(woodward_mpu2s_rule *rule, uint16_t mains_voltage_factor_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    rule->num = 1;
-    rule->den = 400;
-    if ((int64_t)mains_voltage_factor_raw == 0) {
-        return WOODWARD_MPU2S_ZERO_FACTOR;
-    }
-    rule->num *= (int64_t)mains_voltage_factor_raw;
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, 1000, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count(int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
+    double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 1000, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
+    const fieldscribe_whole whole = fieldscribe_ruled_value(
+        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
+    return fieldscribe_keep_u16(fieldscribe_both(whole.status,
+        woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
+        (uint16_t)whole.number, raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count(uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode(
+    uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 1000, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_encode(double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_mains_undervoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole, mains_voltage_factor_raw);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_decode(uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_mains_undervoltage_threshold_400v_rule(&rule, mains_voltage_factor_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-/*
- * Mains undervoltage delay
- * 0.02..9.98 s, raw 1..499, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* mains undervoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_ADDRESS 0x005EU
-#define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MAX 499
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 499); }
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_mains_undervoltage_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MIN, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_mains_undervoltage_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_mains_undervoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 499, raw); }
+static inline fieldscribe_real woodward_mpu2s_mains_undervoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Phase shift monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* phase shift monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_ADDRESS 0x000FU
-#define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_SHIFT 1U
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_MASK 0x0002U
-
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_phase_shift_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_phase_shift_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_phase_shift_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0002U, 1U) != 0U; }
 static inline uint16_t woodward_mpu2s_phase_shift_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_SHIFT) & WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0002U, 1U, raw ? 1U : 0U); }
 
-/* Phase shift monitoring phases */
 enum {
     WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_THREE_PHASE = 0,
     WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SINGLE_AND_THREE_PHASE = 1
 };
-
+static const char *const woodward_mpu2s_phase_shift_monitoring_phases_names[] = {
+    "three_phase", "single_and_three_phase"
+};
 static inline const char *woodward_mpu2s_phase_shift_monitoring_phases_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_THREE_PHASE:
-        return "three_phase";
-    case WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SINGLE_AND_THREE_PHASE:
-        return "single_and_three_phase";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_phase_shift_monitoring_phases_names, raw); }
 
-/*
- * Phase shift monitoring phases
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* phase shift monitoring phases: 0, 1; rw */
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_ADDRESS 0x0015U
-#define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_WORDS 1U
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_RAW_MIN 0
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_RAW_MAX 1
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SHIFT 13U
 #define WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_MASK 0x2000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_monitoring_phases_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_monitoring_phases_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_RAW_MIN || value > WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_phase_shift_monitoring_phases_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_monitoring_phases_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_monitoring_phases_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_phase_shift_monitoring_phases_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_phase_shift_monitoring_phases_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x2000U, 13U) != 0U; }
 static inline uint16_t woodward_mpu2s_phase_shift_monitoring_phases_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SHIFT) & WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_MASK));
-}
+{ return fieldscribe_insert(word, 0x2000U, 13U, raw ? 1U : 0U); }
 
-/*
- * Phase shift threshold single phase
- * 3..30 °, raw 3..30; read and write.
- */
-#define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* phase shift threshold single phase: 3..30 °; rw */
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_ADDRESS 0x0055U
-#define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_WORDS 1U
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MIN 3
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MAX 30
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_threshold_single_phase_check(uint16_t raw)
+{ return fieldscribe_check(raw, 3, 30); }
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_threshold_single_phase_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 3, 30, raw); }
+static inline int32_t woodward_mpu2s_phase_shift_threshold_single_phase_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_threshold_single_phase_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MIN && raw <= WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_threshold_single_phase_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MIN || value > WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_phase_shift_threshold_single_phase_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Phase shift threshold three phase
- * 3..30 °, raw 3..30; read and write.
- */
-#define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* phase shift threshold three phase: 3..30 °; rw */
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_ADDRESS 0x0056U
-#define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_WORDS 1U
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MIN 3
 #define WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MAX 30
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_threshold_three_phase_check(uint16_t raw)
+{ return fieldscribe_check(raw, 3, 30); }
+FIELDSCRIBE_STATUS woodward_mpu2s_phase_shift_threshold_three_phase_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 3, 30, raw); }
+static inline int32_t woodward_mpu2s_phase_shift_threshold_three_phase_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_threshold_three_phase_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MIN && raw <= WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
+/* ---- parameters monitoring power (parameter) ---- */
 
-static inline woodward_mpu2s_status woodward_mpu2s_phase_shift_threshold_three_phase_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MIN || value > WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_phase_shift_threshold_three_phase_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* ---- Parameters monitoring power ---- */
-
-/*
- * Reactive power monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reactive power monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_SHIFT 12U
 #define WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_MASK 0x1000U
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_reactive_power_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_reactive_power_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_reactive_power_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x1000U, 12U) != 0U; }
 static inline uint16_t woodward_mpu2s_reactive_power_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_SHIFT) & WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x1000U, 12U, raw ? 1U : 0U); }
 
-/*
- * Reactive power threshold inductive
- * 5..100 %, raw 50..1000, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reactive power threshold inductive: 5..100 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_ADDRESS 0x012FU
-#define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_WORDS 1U
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MIN 50
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MAX 1000
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_inductive_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MIN && raw <= WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_inductive_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 50 || count > 1000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_reactive_power_threshold_inductive_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_inductive_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MIN, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reactive_power_threshold_inductive_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 50, 1000, raw); }
+static inline int32_t woodward_mpu2s_reactive_power_threshold_inductive_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_inductive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_inductive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Reactive power delay inductive
- * 0..999 s, raw 0..49950, in steps of 0.02 s; read and write.
- * Erratum reactive_power_delay_ids (unknown): printed: The thresholds have ids 303 and 304, inductive and
- * capacitive; the delays 306 and 305 (lines 1607, 1621, 1614 and 1628); taken: As printed.
- */
-#define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reactive power delay inductive: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_ADDRESS 0x0132U
-#define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_WORDS 1U
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_RAW_MIN 0
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_RAW_MAX 49950
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_inductive_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 49950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 99900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_inductive_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 99900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_reactive_power_delay_inductive_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_inductive_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_RAW_MIN, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reactive_power_delay_inductive_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_inductive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_inductive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Reactive power threshold capacitive
- * 5..100 %, raw 50..1000, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reactive power threshold capacitive: 5..100 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_ADDRESS 0x0130U
-#define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_WORDS 1U
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MIN 50
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MAX 1000
 #define WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_capacitive_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MIN && raw <= WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_capacitive_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 50 || count > 1000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_reactive_power_threshold_capacitive_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_threshold_capacitive_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MIN, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reactive_power_threshold_capacitive_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_check(uint16_t raw)
+{ return fieldscribe_check(raw, 50, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 50, 1000, raw); }
+static inline int32_t woodward_mpu2s_reactive_power_threshold_capacitive_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_threshold_capacitive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_threshold_capacitive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Reactive power delay capacitive
- * 0..999 s, raw 0..49950, in steps of 0.02 s; read and write.
- * Erratum reactive_power_delay_ids (unknown): printed: The thresholds have ids 303 and 304, inductive and
- * capacitive; the delays 306 and 305 (lines 1607, 1621, 1614 and 1628); taken: As printed.
- */
-#define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* reactive power delay capacitive: 0..999 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_ADDRESS 0x0131U
-#define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_WORDS 1U
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_RAW_MIN 0
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_RAW_MAX 49950
 #define WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_capacitive_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_check(uint16_t raw)
+{ return fieldscribe_check(raw, 0, 49950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw <= WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 0, 99900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_capacitive_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 0 || count > 99900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_reactive_power_delay_capacitive_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_reactive_power_delay_capacitive_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_RAW_MIN, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_reactive_power_delay_capacitive_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+{ return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_reactive_power_delay_capacitive_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 0, 49950, raw); }
+static inline fieldscribe_real woodward_mpu2s_reactive_power_delay_capacitive_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Earth fault monitoring
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* earth fault monitoring: 0, 1; rw */
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_ADDRESS 0x00F8U
-#define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_WORDS 1U
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_RAW_MIN 0
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_RAW_MAX 1
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_SHIFT 9U
 #define WOODWARD_MPU2S_EARTH_FAULT_MONITORING_MASK 0x0200U
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_monitoring_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_monitoring_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_EARTH_FAULT_MONITORING_RAW_MIN || value > WOODWARD_MPU2S_EARTH_FAULT_MONITORING_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_earth_fault_monitoring_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_monitoring_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_monitoring_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_earth_fault_monitoring_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_earth_fault_monitoring_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_EARTH_FAULT_MONITORING_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0200U, 9U) != 0U; }
 static inline uint16_t woodward_mpu2s_earth_fault_monitoring_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_EARTH_FAULT_MONITORING_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_EARTH_FAULT_MONITORING_SHIFT) & WOODWARD_MPU2S_EARTH_FAULT_MONITORING_MASK));
-}
+{ return fieldscribe_insert(word, 0x0200U, 9U, raw ? 1U : 0U); }
 
-/*
- * Earth fault threshold
- * 5..100 %, raw 50..1000, in steps of 0.1 %; read and write.
- */
-#define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* earth fault threshold: 5..100 %; 0.1 % a count; rw */
 #define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_ADDRESS 0x0133U
-#define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MIN 50
 #define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MAX 1000
 #define WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_threshold_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 50 || count > 1000) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_earth_fault_threshold_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_earth_fault_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_check(uint16_t raw) { return fieldscribe_check(raw, 50, 1000); }
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 50, 1000, raw); }
+static inline int32_t woodward_mpu2s_earth_fault_threshold_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 50, 1000, raw); }
+static inline fieldscribe_real woodward_mpu2s_earth_fault_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
-/*
- * Earth fault delay
- * 0.02..99.98 s, raw 1..4999, in steps of 0.02 s; read and write.
- */
-#define WOODWARD_MPU2S_EARTH_FAULT_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* earth fault delay: 0.02..99.98 s; in steps of 0.02 s; 0.01 s a count; rw */
 #define WOODWARD_MPU2S_EARTH_FAULT_DELAY_ADDRESS 0x0134U
-#define WOODWARD_MPU2S_EARTH_FAULT_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MAX 4999
 #define WOODWARD_MPU2S_EARTH_FAULT_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 4999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 9998)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9998) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_earth_fault_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_earth_fault_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MIN, WOODWARD_MPU2S_EARTH_FAULT_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_earth_fault_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_earth_fault_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_earth_fault_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 4999, raw); }
+static inline fieldscribe_real woodward_mpu2s_earth_fault_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/*
- * Battery undervoltage threshold
- * 9.5..30 V, raw 95..300, in steps of 0.1 V; read and write.
- */
-#define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* battery undervoltage threshold: 9.5..30 V; 0.1 V a count; rw */
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_ADDRESS 0x0089U
-#define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_WORDS 1U
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MIN 95
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MAX 300
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_DECIMALS 1
-
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_threshold_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MIN && raw <= WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_threshold_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 95 || count > 300) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)count;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_battery_undervoltage_threshold_decode_count(uint16_t raw)
-{
-    return raw;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_threshold_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 10), WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MIN, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_battery_undervoltage_threshold_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 10;
-}
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_check(uint16_t raw)
+{ return fieldscribe_check(raw, 95, 300); }
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_encode_count(int32_t count, uint16_t *raw)
+{ return fieldscribe_encode_u16(count, 95, 300, raw); }
+static inline int32_t woodward_mpu2s_battery_undervoltage_threshold_decode_count(uint16_t raw) { return raw; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_threshold_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 10, 95, 300, raw); }
+static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_threshold_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 10); }
 #endif
 
 /*
- * Battery undervoltage delay
- * 0.02..99 s, raw 1..4950, in steps of 0.02 s; read and write.
- * Erratum battery_undervoltage_delay_minimum (likely): printed: range in units 0..99; taken: range in units
- * 0.02..99.
+ * battery undervoltage delay: 0.02..99 s; in steps of 0.02 s; 0.01 s a count; rw; erratum
+ * battery_undervoltage_delay_minimum
  */
-#define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_ADDRESS 0x01A3U
-#define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MAX 4950
 #define WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_check(uint16_t raw)
+{ return fieldscribe_check(raw, 1, 4950); }
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 1, 9900)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_halves(count, 1U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_delay_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 1 || count > 9900) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count, 2);
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_battery_undervoltage_delay_decode_count(uint16_t raw)
-{
-    return (int32_t)raw * 2;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_battery_undervoltage_delay_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 50), WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MIN, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_battery_undervoltage_delay_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 50;
-}
+static inline int32_t woodward_mpu2s_battery_undervoltage_delay_decode_count(uint16_t raw) { return (int32_t)raw * 2; }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_battery_undervoltage_delay_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 50, 1, 4950, raw); }
+static inline fieldscribe_real woodward_mpu2s_battery_undervoltage_delay_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 50); }
 #endif
 
-/* ---- Parameters inputs ---- */
+/* ---- parameters inputs (parameter) ---- */
 
-/*
- * Digital inputs 1 to 4 logic
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 1 to 4 logic: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_ADDRESS 0x007DU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_SHIFT 8U
@@ -9655,37 +4118,16 @@ static inline woodward_mpu2s_real woodward_mpu2s_battery_undervoltage_delay_deco
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_INPUT_2_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_INPUT_3_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_INPUT_4_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_logic_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_logic_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_1_to_4_logic_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_logic_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_logic_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_1_to_4_logic_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_1_to_4_logic_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0F00U, 8U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_1_to_4_logic_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_SHIFT) & WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x0F00U, 8U, raw); }
 
-/* Input delay */
 enum {
     WOODWARD_MPU2S_INPUT_DELAY_MS_100 = 0, /* 100 ms */
     WOODWARD_MPU2S_INPUT_DELAY_MS_200 = 1, /* 200 ms */
@@ -9698,98 +4140,38 @@ enum {
     WOODWARD_MPU2S_INPUT_DELAY_S_50 = 8, /* 50 s */
     WOODWARD_MPU2S_INPUT_DELAY_S_100 = 9 /* 100 s */
 };
-
+static const fieldscribe_name woodward_mpu2s_input_delay_names[] = {
+    {WOODWARD_MPU2S_INPUT_DELAY_MS_100, "ms_100"}, {WOODWARD_MPU2S_INPUT_DELAY_MS_200, "ms_200"},
+    {WOODWARD_MPU2S_INPUT_DELAY_MS_500, "ms_500"}, {WOODWARD_MPU2S_INPUT_DELAY_S_1, "s_1"},
+    {WOODWARD_MPU2S_INPUT_DELAY_S_2, "s_2"}, {WOODWARD_MPU2S_INPUT_DELAY_S_5, "s_5"},
+    {WOODWARD_MPU2S_INPUT_DELAY_S_10, "s_10"}, {WOODWARD_MPU2S_INPUT_DELAY_S_20, "s_20"},
+    {WOODWARD_MPU2S_INPUT_DELAY_S_50, "s_50"}, {WOODWARD_MPU2S_INPUT_DELAY_S_100, "s_100"}
+};
 static inline const char *woodward_mpu2s_input_delay_name(int32_t raw)
 {
-    switch (raw) {
-    case WOODWARD_MPU2S_INPUT_DELAY_MS_100:
-        return "ms_100";
-    case WOODWARD_MPU2S_INPUT_DELAY_MS_200:
-        return "ms_200";
-    case WOODWARD_MPU2S_INPUT_DELAY_MS_500:
-        return "ms_500";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_1:
-        return "s_1";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_2:
-        return "s_2";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_5:
-        return "s_5";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_10:
-        return "s_10";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_20:
-        return "s_20";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_50:
-        return "s_50";
-    case WOODWARD_MPU2S_INPUT_DELAY_S_100:
-        return "s_100";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(woodward_mpu2s_input_delay_names, FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names),
+        raw);
 }
 
-/*
- * Digital inputs 1 to 4 delay
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 1 to 4 delay: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_ADDRESS 0x0194U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_delay_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 9U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_delay_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_delay_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 9U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_1_to_4_delay_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_1_to_4_delay_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
-
-/*
- * Digital inputs 1 to 4 engine delay
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 1 to 4 engine delay: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_ADDRESS 0x007FU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_SHIFT 8U
@@ -9798,125 +4180,53 @@ static inline void woodward_mpu2s_digital_inputs_1_to_4_delay_decode(uint16_t ra
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_INPUT_2_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_INPUT_3_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_INPUT_4_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_engine_delay_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_engine_delay_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_1_to_4_engine_delay_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_engine_delay_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_engine_delay_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_1_to_4_engine_delay_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_1_to_4_engine_delay_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0F00U, 8U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_1_to_4_engine_delay_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_SHIFT) & WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_MASK));
-}
+{ return fieldscribe_insert(word, 0x0F00U, 8U, raw); }
 
-/* Fault class */
 enum {
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_0 = 0,
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_1 = 1,
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_2 = 2,
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_3 = 3
 };
-
+static const fieldscribe_name woodward_mpu2s_fault_class_names[] = {
+    {WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_0, "fault_class_0"},
+    {WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_1, "fault_class_1"},
+    {WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_2, "fault_class_2"},
+    {WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_3, "fault_class_3"}
+};
 static inline const char *woodward_mpu2s_fault_class_name(int32_t raw)
 {
-    switch (raw) {
-    case WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_0:
-        return "fault_class_0";
-    case WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_1:
-        return "fault_class_1";
-    case WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_2:
-        return "fault_class_2";
-    case WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_3:
-        return "fault_class_3";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(woodward_mpu2s_fault_class_names, FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names),
+        raw);
 }
 
-/*
- * Digital inputs 1 to 4 fault class
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
- * 1725, 1787 and 1849); taken: Fault classes.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 1 to 4 fault class: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_ADDRESS 0x0082U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_fault_class_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_fault_class_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 3U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_1_to_4_fault_class_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_1_to_4_fault_class_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 3U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_1_to_4_fault_class_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_1_to_4_fault_class_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
-
-/*
- * Digital inputs 5 to 8 logic
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 5 to 8 logic: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_ADDRESS 0x007DU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_SHIFT 4U
@@ -9925,99 +4235,35 @@ static inline void woodward_mpu2s_digital_inputs_1_to_4_fault_class_decode(uint1
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_INPUT_6_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_INPUT_7_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_INPUT_8_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_logic_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_logic_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_5_to_8_logic_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_logic_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_logic_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_5_to_8_logic_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_5_to_8_logic_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x00F0U, 4U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_5_to_8_logic_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_SHIFT) & WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x00F0U, 4U, raw); }
 
-/*
- * Digital inputs 5 to 8 delay
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 5 to 8 delay: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_ADDRESS 0x0195U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_delay_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 9U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_delay_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_delay_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 9U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_5_to_8_delay_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_5_to_8_delay_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
-
-/*
- * Digital inputs 5 to 8 engine delay
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 5 to 8 engine delay: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_ADDRESS 0x007FU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_SHIFT 4U
@@ -10026,103 +4272,35 @@ static inline void woodward_mpu2s_digital_inputs_5_to_8_delay_decode(uint16_t ra
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_INPUT_6_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_INPUT_7_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_INPUT_8_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_engine_delay_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_engine_delay_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_5_to_8_engine_delay_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_engine_delay_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_engine_delay_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_5_to_8_engine_delay_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_5_to_8_engine_delay_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_MASK) >> WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x00F0U, 4U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_5_to_8_engine_delay_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_SHIFT) & WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_MASK));
-}
+{ return fieldscribe_insert(word, 0x00F0U, 4U, raw); }
 
-/*
- * Digital inputs 5 to 8 fault class
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
- * 1725, 1787 and 1849); taken: Fault classes.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 5 to 8 fault class: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_ADDRESS 0x0087U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_fault_class_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_fault_class_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 3U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_5_to_8_fault_class_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_5_to_8_fault_class_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 3U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_5_to_8_fault_class_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_5_to_8_fault_class_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
-
-/*
- * Digital inputs 9 to 12 logic
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- * Erratum input_9_12_title (certain): printed: "9-12 Arbeits/Ruhestrom", in the contents (line 159) too; taken:
- * Digitaleingänge 9-12 Arbeits/Ruhestrom.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 9 to 12 logic: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_ADDRESS 0x007DU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_SHIFT 0U
@@ -10131,99 +4309,35 @@ static inline void woodward_mpu2s_digital_inputs_5_to_8_fault_class_decode(uint1
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_INPUT_10_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_INPUT_11_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_INPUT_12_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_logic_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_logic_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_9_to_12_logic_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_logic_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_logic_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_9_to_12_logic_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_9_to_12_logic_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x000FU, 0U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_9_to_12_logic_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_MASK));
-}
+{ return fieldscribe_insert(word, 0x000FU, 0U, raw); }
 
-/*
- * Digital inputs 9 to 12 delay
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 9 to 12 delay: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_ADDRESS 0x0196U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_delay_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_delay_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 9U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_delay_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_delay_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 9U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_input_delay_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_input_delay_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_9_to_12_delay_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_9_to_12_delay_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
-
-/*
- * Digital inputs 9 to 12 engine delay
- * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
- * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 9 to 12 engine delay: 0..15; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_ADDRESS 0x007FU
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_RAW_MIN 0
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_RAW_MAX 15
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_SHIFT 0U
@@ -10232,697 +4346,181 @@ static inline void woodward_mpu2s_digital_inputs_9_to_12_delay_decode(uint16_t r
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_INPUT_10_MASK 0x04U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_INPUT_11_MASK 0x02U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_INPUT_12_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_engine_delay_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_engine_delay_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_RAW_MIN || value > WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_digital_inputs_9_to_12_engine_delay_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_engine_delay_check(uint8_t raw)
+{ return fieldscribe_check(raw, 0, 15); }
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_engine_delay_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 15, raw); }
+static inline int32_t woodward_mpu2s_digital_inputs_9_to_12_engine_delay_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_digital_inputs_9_to_12_engine_delay_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x000FU, 0U)); }
 static inline uint16_t woodward_mpu2s_digital_inputs_9_to_12_engine_delay_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_MASK));
-}
+{ return fieldscribe_insert(word, 0x000FU, 0U, raw); }
 
-/*
- * Digital inputs 9 to 12 fault class
- * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
- * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
- * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
- * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
- * 1725, 1787 and 1849); taken: Fault classes.
- */
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* digital inputs 9 to 12 fault class: 4 digits, the highest first; rw */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_ADDRESS 0x0088U
-#define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_WORDS 1U
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_DIGITS 4U
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_fault_class_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_fault_class_check(uint16_t raw)
 {
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_DIGITS; at > 0U; --at) {
-        const uint16_t digit = (uint16_t)(at > 1U ? rest % 10U : rest);
-        if (!(digit <= 3U)) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-        rest = (uint16_t)(rest / 10U);
-    }
-    return WOODWARD_MPU2S_OK;
+    return fieldscribe_check_digits(raw, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_digital_inputs_9_to_12_fault_class_encode(const uint8_t digits[4], uint16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_digital_inputs_9_to_12_fault_class_encode(const uint16_t digits[4], uint16_t *raw)
 {
-    uint32_t number = 0U;
-    unsigned at;
-    for (at = 0U; at < WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_DIGITS; ++at) {
-        const uint8_t digit = digits[at];
-        number = number * 10U + digit;
-        if (!(digit <= 3U) || number > 0xFFFFU) {
-            return WOODWARD_MPU2S_UNKNOWN_VALUE;
-        }
-    }
-    *raw = (uint16_t)number;
-    return WOODWARD_MPU2S_OK;
+    const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, 4U, woodward_mpu2s_fault_class_names,
+        FIELDSCRIBE_COUNT(woodward_mpu2s_fault_class_names));
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, raw);
 }
+static inline void woodward_mpu2s_digital_inputs_9_to_12_fault_class_decode(uint16_t raw, uint16_t digits[4])
+{ fieldscribe_digits_of(raw, digits, 4U); }
 
-/* The highest digit comes first, and takes all that is left. */
-static inline void woodward_mpu2s_digital_inputs_9_to_12_fault_class_decode(uint16_t raw, uint8_t digits[4])
-{
-    uint16_t rest = raw;
-    unsigned at;
-    for (at = WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_DIGITS; at > 1U; --at) {
-        digits[at - 1U] = (uint8_t)(rest % 10U);
-        rest = (uint16_t)(rest / 10U);
-    }
-    digits[0] = (uint8_t)rest;
-}
+/* ---- parameters texts (parameter) ---- */
 
-/* ---- Parameters texts ---- */
-
-/*
- * Fault text terminal 62
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 62: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_ADDRESS 0x02DCU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_62_addresses[8] = {0x02E3U, 0x02E2U, 0x02E1U, 0x02E0U, 0x02DFU, 0x02DEU, 0x02DDU, 0x02DCU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_62_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_62_addresses[8] = {
+    0x02E3U, 0x02E2U, 0x02E1U, 0x02E0U, 0x02DFU, 0x02DEU, 0x02DDU, 0x02DCU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_62_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_62_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 63
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 63: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_ADDRESS 0x02E4U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_63_addresses[8] = {0x02EBU, 0x02EAU, 0x02E9U, 0x02E8U, 0x02E7U, 0x02E6U, 0x02E5U, 0x02E4U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_63_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_63_addresses[8] = {
+    0x02EBU, 0x02EAU, 0x02E9U, 0x02E8U, 0x02E7U, 0x02E6U, 0x02E5U, 0x02E4U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_63_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_63_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 64
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 64: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_ADDRESS 0x02ECU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_64_addresses[8] = {0x02F3U, 0x02F2U, 0x02F1U, 0x02F0U, 0x02EFU, 0x02EEU, 0x02EDU, 0x02ECU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_64_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_64_addresses[8] = {
+    0x02F3U, 0x02F2U, 0x02F1U, 0x02F0U, 0x02EFU, 0x02EEU, 0x02EDU, 0x02ECU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_64_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_64_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 65
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 65: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_ADDRESS 0x02F4U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_65_addresses[8] = {0x02FBU, 0x02FAU, 0x02F9U, 0x02F8U, 0x02F7U, 0x02F6U, 0x02F5U, 0x02F4U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_65_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_65_addresses[8] = {
+    0x02FBU, 0x02FAU, 0x02F9U, 0x02F8U, 0x02F7U, 0x02F6U, 0x02F5U, 0x02F4U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_65_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_65_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 66
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 66: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_ADDRESS 0x02FCU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_66_addresses[8] = {0x0303U, 0x0302U, 0x0301U, 0x0300U, 0x02FFU, 0x02FEU, 0x02FDU, 0x02FCU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_66_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_66_addresses[8] = {
+    0x0303U, 0x0302U, 0x0301U, 0x0300U, 0x02FFU, 0x02FEU, 0x02FDU, 0x02FCU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_66_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_66_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 67
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 67: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_ADDRESS 0x0304U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_67_addresses[8] = {0x030BU, 0x030AU, 0x0309U, 0x0308U, 0x0307U, 0x0306U, 0x0305U, 0x0304U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_67_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_67_addresses[8] = {
+    0x030BU, 0x030AU, 0x0309U, 0x0308U, 0x0307U, 0x0306U, 0x0305U, 0x0304U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_67_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_67_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 68
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 68: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_ADDRESS 0x030CU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_68_addresses[8] = {0x0313U, 0x0312U, 0x0311U, 0x0310U, 0x030FU, 0x030EU, 0x030DU, 0x030CU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_68_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_68_addresses[8] = {
+    0x0313U, 0x0312U, 0x0311U, 0x0310U, 0x030FU, 0x030EU, 0x030DU, 0x030CU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_68_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_68_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 69
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 69: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_ADDRESS 0x0314U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_69_addresses[8] = {0x031BU, 0x031AU, 0x0319U, 0x0318U, 0x0317U, 0x0316U, 0x0315U, 0x0314U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_69_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_69_addresses[8] = {
+    0x031BU, 0x031AU, 0x0319U, 0x0318U, 0x0317U, 0x0316U, 0x0315U, 0x0314U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_69_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_69_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 70
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 70: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_ADDRESS 0x031CU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_70_addresses[8] = {0x0323U, 0x0322U, 0x0321U, 0x0320U, 0x031FU, 0x031EU, 0x031DU, 0x031CU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_70_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_70_addresses[8] = {
+    0x0323U, 0x0322U, 0x0321U, 0x0320U, 0x031FU, 0x031EU, 0x031DU, 0x031CU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_70_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_70_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 71
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 71: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_ADDRESS 0x0324U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_71_addresses[8] = {0x032BU, 0x032AU, 0x0329U, 0x0328U, 0x0327U, 0x0326U, 0x0325U, 0x0324U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_71_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_71_addresses[8] = {
+    0x032BU, 0x032AU, 0x0329U, 0x0328U, 0x0327U, 0x0326U, 0x0325U, 0x0324U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_71_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_71_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 72
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 72: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_ADDRESS 0x032CU
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_72_addresses[8] = {0x0333U, 0x0332U, 0x0331U, 0x0330U, 0x032FU, 0x032EU, 0x032DU, 0x032CU};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_72_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_72_addresses[8] = {
+    0x0333U, 0x0332U, 0x0331U, 0x0330U, 0x032FU, 0x032EU, 0x032DU, 0x032CU
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_72_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_72_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/*
- * Fault text terminal 73
- * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
- * taken: ABCDEFGHIJKLMNOP, 16 characters.
- */
-#define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* fault text terminal 73: 16 characters, ascii; rw */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_ADDRESS 0x0334U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_WORDS 8U
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_CHARACTERS 16U
-
-/* The words of the text, in reading order. */
-static const uint16_t woodward_mpu2s_fault_text_terminal_73_addresses[8] = {0x033BU, 0x033AU, 0x0339U, 0x0338U, 0x0337U, 0x0336U, 0x0335U, 0x0334U};
-
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
-static inline woodward_mpu2s_status woodward_mpu2s_fault_text_terminal_73_encode(const char *text, size_t length, uint16_t words[8])
-{
-    size_t at;
-    if (length > WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_CHARACTERS) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    for (at = 0U; at < length; ++at) {
-        const unsigned char character = (unsigned char)text[at];
-        if (character < 0x20U || character > 0x7EU) {
-            return WOODWARD_MPU2S_OUT_OF_RANGE;
-        }
-    }
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_WORDS; ++at) {
-        const unsigned char high = 2U * at < length ? (unsigned char)text[2U * at] : (unsigned char)' ';
-        const unsigned char low = 2U * at + 1U < length ? (unsigned char)text[2U * at + 1U] : (unsigned char)' ';
-        words[at] = (uint16_t)((uint32_t)high << 8 | low);
-    }
-    return WOODWARD_MPU2S_OK;
-}
-
-/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static const uint16_t woodward_mpu2s_fault_text_terminal_73_addresses[8] = {
+    0x033BU, 0x033AU, 0x0339U, 0x0338U, 0x0337U, 0x0336U, 0x0335U, 0x0334U
+};
+FIELDSCRIBE_STATUS woodward_mpu2s_fault_text_terminal_73_encode(const char *text, size_t length, uint16_t words[8])
+{ return fieldscribe_words_of_text(text, length, false, words, 8U); }
 static inline size_t woodward_mpu2s_fault_text_terminal_73_decode(const uint16_t words[8], char text[17])
-{
-    size_t length = WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_CHARACTERS;
-    size_t at;
-    for (at = 0U; at < WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_CHARACTERS; ++at) {
-        text[at] = (char)((at % 2U == 0U ? (uint32_t)words[at / 2U] >> 8 : (uint32_t)words[at / 2U]) & 0xFFU);
-    }
-    while (length > 0U && text[length - 1U] == ' ') {
-        --length;
-    }
-    text[length] = '\0';
-    return length;
-}
+{ return fieldscribe_text_of_words(words, 8U, text); }
 
-/* ---- Parameters analog ---- */
+/* ---- parameters analog (parameter) ---- */
 
-/* Analog source */
 enum {
     WOODWARD_MPU2S_ANALOG_SOURCE_INACTIVE = 0,
     WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_ACTIVE_POWER = 1,
@@ -10948,832 +4546,275 @@ enum {
     WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_COS_PHI = 21,
     WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_REACTIVE_POWER = 22
 };
-
+static const char *const woodward_mpu2s_analog_source_names[] = {
+    "inactive", "generator_active_power", "generator_cos_phi", "generator_frequency", "generator_reactive_power",
+    "generator_busbar_power_reserve", "generator_busbar_active_power", "generator_apparent_current_l1",
+    "generator_apparent_current_l2", "generator_apparent_current_l3", "pickup_speed", "analog_input_t1",
+    "analog_input_t2", "analog_input_t3", "analog_input_t4", "analog_input_t5", "analog_input_t6", "analog_input_t7",
+    "additional_analog_input", "mains_active_power", "mains_apparent_current_l1", "mains_cos_phi",
+    "mains_reactive_power"
+};
 static inline const char *woodward_mpu2s_analog_source_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_ANALOG_SOURCE_INACTIVE:
-        return "inactive";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_ACTIVE_POWER:
-        return "generator_active_power";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_COS_PHI:
-        return "generator_cos_phi";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_FREQUENCY:
-        return "generator_frequency";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_REACTIVE_POWER:
-        return "generator_reactive_power";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_BUSBAR_POWER_RESERVE:
-        return "generator_busbar_power_reserve";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_BUSBAR_ACTIVE_POWER:
-        return "generator_busbar_active_power";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_APPARENT_CURRENT_L1:
-        return "generator_apparent_current_l1";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_APPARENT_CURRENT_L2:
-        return "generator_apparent_current_l2";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_GENERATOR_APPARENT_CURRENT_L3:
-        return "generator_apparent_current_l3";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_PICKUP_SPEED:
-        return "pickup_speed";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T1:
-        return "analog_input_t1";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T2:
-        return "analog_input_t2";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T3:
-        return "analog_input_t3";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T4:
-        return "analog_input_t4";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T5:
-        return "analog_input_t5";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T6:
-        return "analog_input_t6";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ANALOG_INPUT_T7:
-        return "analog_input_t7";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_ADDITIONAL_ANALOG_INPUT:
-        return "additional_analog_input";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_ACTIVE_POWER:
-        return "mains_active_power";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_APPARENT_CURRENT_L1:
-        return "mains_apparent_current_l1";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_COS_PHI:
-        return "mains_cos_phi";
-    case WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_REACTIVE_POWER:
-        return "mains_reactive_power";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_analog_source_names, raw); }
 
-/*
- * Analog output 1 source
- * 0..23; read and write.
- * Erratum analog_source_23 (unknown): printed: The ranges allow 0 to 23 (lines 2051 and 2081); the list ends at 22;
- * taken: The range as printed, with names for what the list has.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 1 source: 0..23; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_ADDRESS 0x00C0U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_RAW_MIN 0
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_RAW_MAX 23
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_source_check(uint16_t raw) { return fieldscribe_check(raw, 0, 23); }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 23, raw); }
+static inline int32_t woodward_mpu2s_analog_output_1_source_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_source_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_RAW_MIN || value > WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_analog_output_1_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/* Current range */
 enum {
     WOODWARD_MPU2S_CURRENT_RANGE_MA_4_20 = 0,
     WOODWARD_MPU2S_CURRENT_RANGE_MA_0_20 = 1
 };
-
+static const char *const woodward_mpu2s_current_range_names[] = {
+    "ma_4_20", "ma_0_20"
+};
 static inline const char *woodward_mpu2s_current_range_name(int32_t raw)
-{
-    switch (raw) {
-    case WOODWARD_MPU2S_CURRENT_RANGE_MA_4_20:
-        return "ma_4_20";
-    case WOODWARD_MPU2S_CURRENT_RANGE_MA_0_20:
-        return "ma_0_20";
-    default:
-        return NULL;
-    }
-}
+{ return FIELDSCRIBE_NAME_AT(woodward_mpu2s_current_range_names, raw); }
 
-/*
- * Analog output 1 current range
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 1 current range: 0, 1; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_ADDRESS 0x0010U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_RAW_MIN 0
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_RAW_MAX 1
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_SHIFT 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_MASK 0x0002U
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_current_range_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_current_range_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_RAW_MIN || value > WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_analog_output_1_current_range_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_current_range_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_current_range_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_analog_output_1_current_range_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_analog_output_1_current_range_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0002U, 1U) != 0U; }
 static inline uint16_t woodward_mpu2s_analog_output_1_current_range_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_SHIFT) & WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_MASK));
-}
+{ return fieldscribe_insert(word, 0x0002U, 1U, raw ? 1U : 0U); }
 
-/*
- * Analog output 1 value at 0 percent
- * raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
- * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
- * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 1 value at 0 percent: raw -9999..9999; 0.01 a count; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_ADDRESS 0x00C1U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MAX 9999
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_check(int16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+static inline fieldscribe_rule woodward_mpu2s_analog_output_1_value_at_0_percent_rule(
+    uint16_t analog_output_1_source_raw)
 {
-    return raw >= WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MIN && raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return (analog_output_1_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_rule(woodward_mpu2s_rule *rule, uint16_t analog_output_1_source_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode_count(
+    int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    if (analog_output_1_source_raw == 1) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 2) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 3) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 4) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 5) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 6) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 7) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 8) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 9) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 10) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 19) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 20) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 21) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 22) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    return WOODWARD_MPU2S_NO_CASE;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        count, 100, -9999, 9999), raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_encode_count(int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode_count(
+    int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_0_percent_rule(&rule, analog_output_1_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 100, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, 100, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_decode_count(int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
+static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode(
+    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_0_percent_rule(&rule, analog_output_1_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 100, count) : status;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        value, -9999, 9999), raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_encode(double value, uint16_t analog_output_1_source_raw, int16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
+    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_analog_output_1_value_at_0_percent_rule(&rule, analog_output_1_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_0_percent_decode(int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_0_percent_rule(&rule, analog_output_1_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * Analog output 1 value at 100 percent
- * raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
- * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
- * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 1 value at 100 percent: raw -9999..9999; 0.01 a count; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_ADDRESS 0x00C2U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MAX 9999
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_check(int16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode_count(
+    int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MIN && raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        count, 100, -9999, 9999), raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_rule(woodward_mpu2s_rule *rule, uint16_t analog_output_1_source_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(
+    int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
-    if (analog_output_1_source_raw == 1) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 2) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 3) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 4) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 5) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 6) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 7) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 8) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 9) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 10) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 19) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 20) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 21) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_1_source_raw == 22) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    return WOODWARD_MPU2S_NO_CASE;
+    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, 100, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_encode_count(int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
+static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_analog_output_1_value_at_100_percent_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode(
+    double value, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_100_percent_rule(&rule, analog_output_1_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 100, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        value, -9999, 9999), raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode(
+    int16_t raw, uint16_t analog_output_1_source_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_100_percent_rule(&rule, analog_output_1_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 100, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_encode(double value, uint16_t analog_output_1_source_raw, int16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_analog_output_1_value_at_100_percent_rule(&rule, analog_output_1_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_1_value_at_100_percent_decode(int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_1_value_at_100_percent_rule(&rule, analog_output_1_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_analog_output_1_value_at_100_percent_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * Analog output 2 source
- * 0..23; read and write.
- * Erratum analog_source_23 (unknown): printed: The ranges allow 0 to 23 (lines 2051 and 2081); the list ends at 22;
- * taken: The range as printed, with names for what the list has.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 2 source: 0..23; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_ADDRESS 0x00C3U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_RAW_MIN 0
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_RAW_MAX 23
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_source_check(uint16_t raw) { return fieldscribe_check(raw, 0, 23); }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_source_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 0, 23, raw); }
+static inline int32_t woodward_mpu2s_analog_output_2_source_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_source_check(uint16_t raw)
-{
-    return raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_source_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_RAW_MIN || value > WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_analog_output_2_source_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Analog output 2 current range
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 2 current range: 0, 1; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_ADDRESS 0x0010U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_RAW_MIN 0
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_RAW_MAX 1
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_SHIFT 3U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_MASK 0x0008U
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_current_range_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_current_range_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_RAW_MIN || value > WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_analog_output_2_current_range_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_current_range_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_current_range_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_analog_output_2_current_range_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_analog_output_2_current_range_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0008U, 3U) != 0U; }
 static inline uint16_t woodward_mpu2s_analog_output_2_current_range_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_SHIFT) & WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_MASK));
-}
+{ return fieldscribe_insert(word, 0x0008U, 3U, raw ? 1U : 0U); }
 
-/*
- * Analog output 2 value at 0 percent
- * raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
- * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
- * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 2 value at 0 percent: raw -9999..9999; 0.01 a count; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_ADDRESS 0x00C4U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MAX 9999
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_check(int16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+static inline fieldscribe_rule woodward_mpu2s_analog_output_2_value_at_0_percent_rule(
+    uint16_t analog_output_2_source_raw)
 {
-    return raw >= WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MIN && raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return (analog_output_2_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_rule(woodward_mpu2s_rule *rule, uint16_t analog_output_2_source_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode_count(
+    int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    if (analog_output_2_source_raw == 1) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 2) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 3) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 4) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 5) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 6) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 7) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 8) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 9) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 10) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 19) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 20) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 21) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 22) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    return WOODWARD_MPU2S_NO_CASE;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        count, 100, -9999, 9999), raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_encode_count(int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode_count(
+    int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_0_percent_rule(&rule, analog_output_2_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 100, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
+    return fieldscribe_decode_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, 100, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_decode_count(int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
+static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode(
+    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_0_percent_rule(&rule, analog_output_2_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 100, count) : status;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        value, -9999, 9999), raw);
 }
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_encode(double value, uint16_t analog_output_2_source_raw, int16_t *raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
+    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_analog_output_2_value_at_0_percent_rule(&rule, analog_output_2_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_0_percent_decode(int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_0_percent_rule(&rule, analog_output_2_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
-
-static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/*
- * Analog output 2 value at 100 percent
- * raw -9999..9999; read and write.
- * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
- * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
- * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
- * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
- */
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* analog output 2 value at 100 percent: raw -9999..9999; 0.01 a count; rw */
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_ADDRESS 0x00C5U
-#define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_WORDS 1U
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MIN (-9999)
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MAX 9999
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_DECIMALS 2
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_check(int16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_check(int16_t raw)
+{ return fieldscribe_check(raw, -9999, 9999); }
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode_count(
+    int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MIN && raw <= WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        count, 100, -9999, 9999), raw);
 }
-
-/* The scale, as what the other points hold makes it. */
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_rule(woodward_mpu2s_rule *rule, uint16_t analog_output_2_source_raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(
+    int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
-    if (analog_output_2_source_raw == 1) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 2) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 3) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 4) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 5) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 6) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 7) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 8) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 9) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 10) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 19) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 20) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 21) {
-        rule->num = 100;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    if (analog_output_2_source_raw == 22) {
-        rule->num = 1;
-        rule->den = 1;
-        return WOODWARD_MPU2S_OK;
-    }
-    return WOODWARD_MPU2S_NO_CASE;
+    return fieldscribe_decode_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, 100, count);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_encode_count(int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
+static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
+{ words[0] = (uint16_t)raw; }
+static inline int16_t woodward_mpu2s_analog_output_2_value_at_100_percent_from_words(const uint16_t words[1])
+{ return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode(
+    double value, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_100_percent_rule(&rule, analog_output_2_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_count(&rule, count, 100, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
+    return fieldscribe_store_s16(
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        value, -9999, 9999), raw);
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
+FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode(
+    int16_t raw, uint16_t analog_output_2_source_raw, double *value)
 {
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_100_percent_rule(&rule, analog_output_2_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_count_from_raw(&rule, (int64_t)raw, 100, count) : status;
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_encode(double value, uint16_t analog_output_2_source_raw, int16_t *raw)
-{
-    woodward_mpu2s_rule rule;
-    int64_t whole = 0;
-    woodward_mpu2s_status status = woodward_mpu2s_is_nan(value) ? WOODWARD_MPU2S_NOT_A_NUMBER : woodward_mpu2s_analog_output_2_value_at_100_percent_rule(&rule, analog_output_2_source_raw);
-    if (status == WOODWARD_MPU2S_OK) {
-        status = woodward_mpu2s_raw_from_value(&rule, value, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MIN, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_RAW_MAX, &whole);
-    }
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (int16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_analog_output_2_value_at_100_percent_decode(int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    woodward_mpu2s_rule rule;
-    const woodward_mpu2s_status status = woodward_mpu2s_analog_output_2_value_at_100_percent_rule(&rule, analog_output_2_source_raw);
-    return status == WOODWARD_MPU2S_OK ? woodward_mpu2s_value_from_raw(&rule, (int64_t)raw, value) : status;
+    return fieldscribe_decode_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        (int64_t)raw, value);
 }
 #endif
 
-static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
-{
-    words[0] = (uint16_t)raw;
-}
+/* ---- parameters relays (parameter) ---- */
 
-static inline int16_t woodward_mpu2s_analog_output_2_value_at_100_percent_from_words(const uint16_t words[1])
-{
-    return (int16_t)woodward_mpu2s_signed(words[0], 0x8000U);
-}
-
-/* ---- Parameters relays ---- */
-
-/* Relay event */
 enum {
     WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_1 = 1,
     WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_2 = 2,
@@ -11874,261 +4915,132 @@ enum {
     WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_KEY_PRESSED = 97,
     WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT = 98
 };
-
+static const fieldscribe_name woodward_mpu2s_relay_event_names[] = {
+    {WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_1, "fault_class_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_2, "fault_class_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_3, "fault_class_3"},
+    {WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT_F1_F2_F3, "common_fault_f1_f2_f3"},
+    {WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT_F2_F3, "common_fault_f2_f3"},
+    {WOODWARD_MPU2S_RELAY_EVENT_IGNITION_SPEED_REACHED, "ignition_speed_reached"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_IN_RANGE, "generator_in_range"},
+    {WOODWARD_MPU2S_RELAY_EVENT_BUSBAR_IN_RANGE, "busbar_in_range"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_IN_RANGE, "mains_in_range"},
+    {WOODWARD_MPU2S_RELAY_EVENT_AUTOMATIC_MODE, "automatic_mode"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MANUAL_MODE, "manual_mode"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_OVERFREQUENCY, "mains_overfrequency"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_UNDERFREQUENCY, "mains_underfrequency"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_OVERVOLTAGE, "mains_overvoltage"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_UNDERVOLTAGE, "mains_undervoltage"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_PHASE_SHIFT, "mains_phase_shift"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_FREQUENCY_GRADIENT, "mains_frequency_gradient"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERFREQUENCY_STAGE_1, "generator_underfrequency_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERFREQUENCY_STAGE_1, "generator_overfrequency_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ENGINE_OVERSPEED_PICKUP, "engine_overspeed_pickup"},
+    {WOODWARD_MPU2S_RELAY_EVENT_PICKUP_GENERATOR_FREQUENCY_DIFFERENCE, "pickup_generator_frequency_difference"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERVOLTAGE_STAGE_1, "generator_undervoltage_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERVOLTAGE_STAGE_1, "generator_overvoltage_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERCURRENT_STAGE_1, "generator_overcurrent_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERCURRENT_STAGE_2, "generator_overcurrent_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNBALANCED_LOAD, "generator_unbalanced_load"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERLOAD, "generator_overload"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_REVERSE_POWER, "generator_reverse_power"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSING_TIME_FAULT, "generator_breaker_closing_time_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_REACTIVE_POWER_CAPACITIVE, "reactive_power_capacitive"},
+    {WOODWARD_MPU2S_RELAY_EVENT_REACTIVE_POWER_INDUCTIVE, "reactive_power_inductive"},
+    {WOODWARD_MPU2S_RELAY_EVENT_EARTH_CURRENT, "earth_current"},
+    {WOODWARD_MPU2S_RELAY_EVENT_BATTERY_UNDERVOLTAGE, "battery_undervoltage"},
+    {WOODWARD_MPU2S_RELAY_EVENT_INTERFACE_X1_X5_FAULT, "interface_x1_x5_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_93_95_STAGE_1, "analog_input_terminals_93_95_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_93_95_STAGE_2, "analog_input_terminals_93_95_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_96_98_STAGE_1, "analog_input_terminals_96_98_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_96_98_STAGE_2, "analog_input_terminals_96_98_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_99_101_STAGE_1, "analog_input_terminals_99_101_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_99_101_STAGE_2, "analog_input_terminals_99_101_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_102_104_STAGE_1, "analog_input_terminals_102_104_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_102_104_STAGE_2, "analog_input_terminals_102_104_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_105_107_STAGE_1, "analog_input_terminals_105_107_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_105_107_STAGE_2, "analog_input_terminals_105_107_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_108_110_STAGE_1, "analog_input_terminals_108_110_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_108_110_STAGE_2, "analog_input_terminals_108_110_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_111_113_STAGE_1, "analog_input_terminals_111_113_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_111_113_STAGE_2, "analog_input_terminals_111_113_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_90_92_STAGE_1, "analog_input_terminals_90_92_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_90_92_STAGE_2, "analog_input_terminals_90_92_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_1, "digital_input_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_2, "digital_input_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_3, "digital_input_3"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_4, "digital_input_4"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_5, "digital_input_5"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_6, "digital_input_6"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_7, "digital_input_7"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_8, "digital_input_8"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_9, "digital_input_9"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_10, "digital_input_10"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_11, "digital_input_11"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_12, "digital_input_12"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_13, "digital_input_13"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_14, "digital_input_14"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_15, "digital_input_15"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_16, "digital_input_16"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSED, "mains_breaker_closed"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSED, "generator_breaker_closed"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_PARALLEL_INTENDED, "mains_parallel_intended"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_POWER_MONITOR_STAGE_1, "generator_power_monitor_stage_1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_FAULT, "mains_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_OVERCURRENT_INVERSE_TIME, "overcurrent_inverse_time"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_F1, "acknowledge_f1"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_F2_F3, "acknowledge_f2_f3"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERVOLTAGE_STAGE_2, "generator_undervoltage_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERVOLTAGE_STAGE_2, "generator_overvoltage_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERFREQUENCY_STAGE_2, "generator_underfrequency_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERFREQUENCY_STAGE_2, "generator_overfrequency_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENSET_READY_TO_RUN, "genset_ready_to_run"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_POWER_MONITOR_STAGE_2, "generator_power_monitor_stage_2"},
+    {WOODWARD_MPU2S_RELAY_EVENT_INTERFACE_Y1_Y5_FAULT, "interface_y1_y5_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_LOAD_SHEDDING_GENERATOR_BREAKER_CLOSED, "load_shedding_generator_breaker_closed"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSING_DONE, "mains_breaker_closing_done"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_IMPORT_POWER_MONITOR, "mains_import_power_monitor"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINTENANCE_CALL, "maintenance_call"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSING_TIME_FAULT, "mains_breaker_closing_time_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_SYNCHRONISATION, "mains_breaker_synchronisation"},
+    {WOODWARD_MPU2S_RELAY_EVENT_LAMP_TEST, "lamp_test"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSE_FAULT, "generator_breaker_close_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSE_FAULT, "mains_breaker_close_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_OPEN_FAULT, "generator_breaker_open_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_OPEN_FAULT, "mains_breaker_open_fault"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ZERO_IMPORT_POWER_NOT_REACHED, "zero_import_power_not_reached"},
+    {WOODWARD_MPU2S_RELAY_EVENT_DEAD_BUS_START_CLOSING_TIME, "dead_bus_start_closing_time"},
+    {WOODWARD_MPU2S_RELAY_EVENT_MAINS_COUNTER_CLOCKWISE_FIELD, "mains_counter_clockwise_field"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ENGINE_ENABLE, "engine_enable"},
+    {WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_KEY_PRESSED, "acknowledge_key_pressed"},
+    {WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT, "common_fault"}
+};
 static inline const char *woodward_mpu2s_relay_event_name(int32_t raw)
 {
-    switch (raw) {
-    case WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_1:
-        return "fault_class_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_2:
-        return "fault_class_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_3:
-        return "fault_class_3";
-    case WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT_F1_F2_F3:
-        return "common_fault_f1_f2_f3";
-    case WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT_F2_F3:
-        return "common_fault_f2_f3";
-    case WOODWARD_MPU2S_RELAY_EVENT_IGNITION_SPEED_REACHED:
-        return "ignition_speed_reached";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_IN_RANGE:
-        return "generator_in_range";
-    case WOODWARD_MPU2S_RELAY_EVENT_BUSBAR_IN_RANGE:
-        return "busbar_in_range";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_IN_RANGE:
-        return "mains_in_range";
-    case WOODWARD_MPU2S_RELAY_EVENT_AUTOMATIC_MODE:
-        return "automatic_mode";
-    case WOODWARD_MPU2S_RELAY_EVENT_MANUAL_MODE:
-        return "manual_mode";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_OVERFREQUENCY:
-        return "mains_overfrequency";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_UNDERFREQUENCY:
-        return "mains_underfrequency";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_OVERVOLTAGE:
-        return "mains_overvoltage";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_UNDERVOLTAGE:
-        return "mains_undervoltage";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_PHASE_SHIFT:
-        return "mains_phase_shift";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_FREQUENCY_GRADIENT:
-        return "mains_frequency_gradient";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERFREQUENCY_STAGE_1:
-        return "generator_underfrequency_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERFREQUENCY_STAGE_1:
-        return "generator_overfrequency_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ENGINE_OVERSPEED_PICKUP:
-        return "engine_overspeed_pickup";
-    case WOODWARD_MPU2S_RELAY_EVENT_PICKUP_GENERATOR_FREQUENCY_DIFFERENCE:
-        return "pickup_generator_frequency_difference";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERVOLTAGE_STAGE_1:
-        return "generator_undervoltage_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERVOLTAGE_STAGE_1:
-        return "generator_overvoltage_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERCURRENT_STAGE_1:
-        return "generator_overcurrent_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERCURRENT_STAGE_2:
-        return "generator_overcurrent_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNBALANCED_LOAD:
-        return "generator_unbalanced_load";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERLOAD:
-        return "generator_overload";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_REVERSE_POWER:
-        return "generator_reverse_power";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSING_TIME_FAULT:
-        return "generator_breaker_closing_time_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_REACTIVE_POWER_CAPACITIVE:
-        return "reactive_power_capacitive";
-    case WOODWARD_MPU2S_RELAY_EVENT_REACTIVE_POWER_INDUCTIVE:
-        return "reactive_power_inductive";
-    case WOODWARD_MPU2S_RELAY_EVENT_EARTH_CURRENT:
-        return "earth_current";
-    case WOODWARD_MPU2S_RELAY_EVENT_BATTERY_UNDERVOLTAGE:
-        return "battery_undervoltage";
-    case WOODWARD_MPU2S_RELAY_EVENT_INTERFACE_X1_X5_FAULT:
-        return "interface_x1_x5_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_93_95_STAGE_1:
-        return "analog_input_terminals_93_95_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_93_95_STAGE_2:
-        return "analog_input_terminals_93_95_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_96_98_STAGE_1:
-        return "analog_input_terminals_96_98_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_96_98_STAGE_2:
-        return "analog_input_terminals_96_98_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_99_101_STAGE_1:
-        return "analog_input_terminals_99_101_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_99_101_STAGE_2:
-        return "analog_input_terminals_99_101_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_102_104_STAGE_1:
-        return "analog_input_terminals_102_104_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_102_104_STAGE_2:
-        return "analog_input_terminals_102_104_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_105_107_STAGE_1:
-        return "analog_input_terminals_105_107_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_105_107_STAGE_2:
-        return "analog_input_terminals_105_107_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_108_110_STAGE_1:
-        return "analog_input_terminals_108_110_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_108_110_STAGE_2:
-        return "analog_input_terminals_108_110_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_111_113_STAGE_1:
-        return "analog_input_terminals_111_113_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_111_113_STAGE_2:
-        return "analog_input_terminals_111_113_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_90_92_STAGE_1:
-        return "analog_input_terminals_90_92_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ANALOG_INPUT_TERMINALS_90_92_STAGE_2:
-        return "analog_input_terminals_90_92_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_1:
-        return "digital_input_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_2:
-        return "digital_input_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_3:
-        return "digital_input_3";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_4:
-        return "digital_input_4";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_5:
-        return "digital_input_5";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_6:
-        return "digital_input_6";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_7:
-        return "digital_input_7";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_8:
-        return "digital_input_8";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_9:
-        return "digital_input_9";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_10:
-        return "digital_input_10";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_11:
-        return "digital_input_11";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_12:
-        return "digital_input_12";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_13:
-        return "digital_input_13";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_14:
-        return "digital_input_14";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_15:
-        return "digital_input_15";
-    case WOODWARD_MPU2S_RELAY_EVENT_DIGITAL_INPUT_16:
-        return "digital_input_16";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSED:
-        return "mains_breaker_closed";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSED:
-        return "generator_breaker_closed";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_PARALLEL_INTENDED:
-        return "mains_parallel_intended";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_POWER_MONITOR_STAGE_1:
-        return "generator_power_monitor_stage_1";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_FAULT:
-        return "mains_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_OVERCURRENT_INVERSE_TIME:
-        return "overcurrent_inverse_time";
-    case WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_F1:
-        return "acknowledge_f1";
-    case WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_F2_F3:
-        return "acknowledge_f2_f3";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERVOLTAGE_STAGE_2:
-        return "generator_undervoltage_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERVOLTAGE_STAGE_2:
-        return "generator_overvoltage_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_UNDERFREQUENCY_STAGE_2:
-        return "generator_underfrequency_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_OVERFREQUENCY_STAGE_2:
-        return "generator_overfrequency_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENSET_READY_TO_RUN:
-        return "genset_ready_to_run";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_POWER_MONITOR_STAGE_2:
-        return "generator_power_monitor_stage_2";
-    case WOODWARD_MPU2S_RELAY_EVENT_INTERFACE_Y1_Y5_FAULT:
-        return "interface_y1_y5_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_LOAD_SHEDDING_GENERATOR_BREAKER_CLOSED:
-        return "load_shedding_generator_breaker_closed";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSING_DONE:
-        return "mains_breaker_closing_done";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_IMPORT_POWER_MONITOR:
-        return "mains_import_power_monitor";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINTENANCE_CALL:
-        return "maintenance_call";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSING_TIME_FAULT:
-        return "mains_breaker_closing_time_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_SYNCHRONISATION:
-        return "mains_breaker_synchronisation";
-    case WOODWARD_MPU2S_RELAY_EVENT_LAMP_TEST:
-        return "lamp_test";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_CLOSE_FAULT:
-        return "generator_breaker_close_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_CLOSE_FAULT:
-        return "mains_breaker_close_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_GENERATOR_BREAKER_OPEN_FAULT:
-        return "generator_breaker_open_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_BREAKER_OPEN_FAULT:
-        return "mains_breaker_open_fault";
-    case WOODWARD_MPU2S_RELAY_EVENT_ZERO_IMPORT_POWER_NOT_REACHED:
-        return "zero_import_power_not_reached";
-    case WOODWARD_MPU2S_RELAY_EVENT_DEAD_BUS_START_CLOSING_TIME:
-        return "dead_bus_start_closing_time";
-    case WOODWARD_MPU2S_RELAY_EVENT_MAINS_COUNTER_CLOCKWISE_FIELD:
-        return "mains_counter_clockwise_field";
-    case WOODWARD_MPU2S_RELAY_EVENT_ENGINE_ENABLE:
-        return "engine_enable";
-    case WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_KEY_PRESSED:
-        return "acknowledge_key_pressed";
-    case WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT:
-        return "common_fault";
-    default:
-        return NULL;
-    }
+    return fieldscribe_name_of(woodward_mpu2s_relay_event_names, FIELDSCRIBE_COUNT(woodward_mpu2s_relay_event_names),
+        raw);
 }
 
-/*
- * Relay 1 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_1_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_ADDRESS 0x01B4U
-#define WOODWARD_MPU2S_RELAY_1_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_1_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_1_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_1_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_1_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_1_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_1_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 1 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_ADDRESS 0x01B4U
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_FIXED_MASK 0x00F8U
@@ -12138,86 +5050,35 @@ static inline uint16_t woodward_mpu2s_relay_1_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_1_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_1_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_1_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_1_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_1_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 1 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_1_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_ADDRESS 0x01B5U
-#define WOODWARD_MPU2S_RELAY_1_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_1_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_1_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_1_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_1_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_1_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_1_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 1 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_ADDRESS 0x01B5U
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_FIXED_MASK 0x00F8U
@@ -12227,88 +5088,35 @@ static inline uint16_t woodward_mpu2s_relay_1_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_1_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_1_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_1_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_1_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_1_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 1 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_1_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_ADDRESS 0x01B6U
-#define WOODWARD_MPU2S_RELAY_1_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_1_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_1_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_1_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_1_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_1_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_1_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_1_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 1 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 1 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_ADDRESS 0x01B6U
-#define WOODWARD_MPU2S_RELAY_1_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_FIXED_MASK 0x00F8U
@@ -12318,86 +5126,35 @@ static inline uint16_t woodward_mpu2s_relay_1_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_1_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_1_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_1_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_1_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_1_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_1_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_1_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_1_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_1_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_1_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_1_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_1_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_1_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_2_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_ADDRESS 0x01B7U
-#define WOODWARD_MPU2S_RELAY_2_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_2_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_2_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_2_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_2_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_2_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_2_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_ADDRESS 0x01B7U
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_FIXED_MASK 0x00F8U
@@ -12407,86 +5164,35 @@ static inline uint16_t woodward_mpu2s_relay_2_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_2_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_2_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_2_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_2_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_2_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_2_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_ADDRESS 0x01B8U
-#define WOODWARD_MPU2S_RELAY_2_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_2_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_2_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_2_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_2_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_2_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_2_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_ADDRESS 0x01B8U
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_FIXED_MASK 0x00F8U
@@ -12496,88 +5202,35 @@ static inline uint16_t woodward_mpu2s_relay_2_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_2_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_2_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_2_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_2_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_2_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_2_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_ADDRESS 0x01B9U
-#define WOODWARD_MPU2S_RELAY_2_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_2_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_2_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_2_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_2_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_2_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_2_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_2_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 2 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 2 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_ADDRESS 0x01B9U
-#define WOODWARD_MPU2S_RELAY_2_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_FIXED_MASK 0x00F8U
@@ -12587,86 +5240,35 @@ static inline uint16_t woodward_mpu2s_relay_2_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_2_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_2_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_2_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_2_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_2_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_2_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_2_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_2_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_2_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_2_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_2_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_2_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_2_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_3_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_ADDRESS 0x01BAU
-#define WOODWARD_MPU2S_RELAY_3_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_3_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_3_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_3_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_3_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_3_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_3_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_ADDRESS 0x01BAU
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_FIXED_MASK 0x00F8U
@@ -12676,86 +5278,35 @@ static inline uint16_t woodward_mpu2s_relay_3_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_3_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_3_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_3_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_3_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_3_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_3_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_ADDRESS 0x01BBU
-#define WOODWARD_MPU2S_RELAY_3_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_3_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_3_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_3_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_3_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_3_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_3_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_ADDRESS 0x01BBU
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_FIXED_MASK 0x00F8U
@@ -12765,88 +5316,35 @@ static inline uint16_t woodward_mpu2s_relay_3_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_3_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_3_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_3_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_3_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_3_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_3_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_ADDRESS 0x01BCU
-#define WOODWARD_MPU2S_RELAY_3_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_3_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_3_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_3_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_3_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_3_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_3_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_3_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 3 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 3 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_ADDRESS 0x01BCU
-#define WOODWARD_MPU2S_RELAY_3_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_FIXED_MASK 0x00F8U
@@ -12856,86 +5354,35 @@ static inline uint16_t woodward_mpu2s_relay_3_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_3_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_3_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_3_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_3_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_3_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_3_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_3_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_3_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_3_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_3_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_3_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_3_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_3_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_4_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_ADDRESS 0x01BDU
-#define WOODWARD_MPU2S_RELAY_4_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_4_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_4_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_4_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_4_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_4_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_4_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_ADDRESS 0x01BDU
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_FIXED_MASK 0x00F8U
@@ -12945,86 +5392,35 @@ static inline uint16_t woodward_mpu2s_relay_4_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_4_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_4_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_4_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_4_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_4_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_4_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_ADDRESS 0x01BEU
-#define WOODWARD_MPU2S_RELAY_4_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_4_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_4_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_4_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_4_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_4_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_4_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_ADDRESS 0x01BEU
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_FIXED_MASK 0x00F8U
@@ -13034,88 +5430,35 @@ static inline uint16_t woodward_mpu2s_relay_4_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_4_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_4_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_4_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_4_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_4_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_4_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_ADDRESS 0x01BFU
-#define WOODWARD_MPU2S_RELAY_4_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_4_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_4_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_4_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_4_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_4_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_4_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_4_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 4 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 4 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_ADDRESS 0x01BFU
-#define WOODWARD_MPU2S_RELAY_4_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_FIXED_MASK 0x00F8U
@@ -13125,86 +5468,35 @@ static inline uint16_t woodward_mpu2s_relay_4_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_4_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_4_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_4_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_4_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_4_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_4_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_4_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_4_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_4_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_4_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_4_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_4_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_4_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_5_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_ADDRESS 0x01C0U
-#define WOODWARD_MPU2S_RELAY_5_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_5_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_5_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_5_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_5_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_5_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_5_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_ADDRESS 0x01C0U
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_FIXED_MASK 0x00F8U
@@ -13214,86 +5506,35 @@ static inline uint16_t woodward_mpu2s_relay_5_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_5_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_5_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_5_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_5_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_5_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_5_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_ADDRESS 0x01C1U
-#define WOODWARD_MPU2S_RELAY_5_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_5_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_5_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_5_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_5_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_5_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_5_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_ADDRESS 0x01C1U
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_FIXED_MASK 0x00F8U
@@ -13303,88 +5544,35 @@ static inline uint16_t woodward_mpu2s_relay_5_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_5_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_5_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_5_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_5_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_5_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_5_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_ADDRESS 0x01C2U
-#define WOODWARD_MPU2S_RELAY_5_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_5_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_5_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_5_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_5_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_5_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_5_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_5_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 5 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 5 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_ADDRESS 0x01C2U
-#define WOODWARD_MPU2S_RELAY_5_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_FIXED_MASK 0x00F8U
@@ -13394,86 +5582,35 @@ static inline uint16_t woodward_mpu2s_relay_5_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_5_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_5_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_5_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_5_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_5_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_5_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_5_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_5_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_5_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_5_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_5_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_5_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_5_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_6_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_ADDRESS 0x01C3U
-#define WOODWARD_MPU2S_RELAY_6_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_6_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_6_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_6_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_6_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_6_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_6_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_ADDRESS 0x01C3U
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_FIXED_MASK 0x00F8U
@@ -13483,86 +5620,35 @@ static inline uint16_t woodward_mpu2s_relay_6_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_6_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_6_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_6_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_6_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_6_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_6_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_ADDRESS 0x01C4U
-#define WOODWARD_MPU2S_RELAY_6_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_6_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_6_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_6_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_6_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_6_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_6_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_ADDRESS 0x01C4U
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_FIXED_MASK 0x00F8U
@@ -13572,88 +5658,35 @@ static inline uint16_t woodward_mpu2s_relay_6_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_6_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_6_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_6_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_6_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_6_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_6_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_ADDRESS 0x01C5U
-#define WOODWARD_MPU2S_RELAY_6_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_6_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_6_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_6_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_6_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_6_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_6_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_6_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 6 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 6 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_ADDRESS 0x01C5U
-#define WOODWARD_MPU2S_RELAY_6_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_FIXED_MASK 0x00F8U
@@ -13663,86 +5696,35 @@ static inline uint16_t woodward_mpu2s_relay_6_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_6_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_6_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_6_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_6_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_6_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_6_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_6_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_6_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_6_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_6_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_6_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_6_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_6_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 event 1
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_7_EVENT_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 event 1: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_ADDRESS 0x01C6U
-#define WOODWARD_MPU2S_RELAY_7_EVENT_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_1_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_1_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_EVENT_1_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_event_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_1_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_7_event_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_event_1_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_7_EVENT_1_MASK) >> WOODWARD_MPU2S_RELAY_7_EVENT_1_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_7_event_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_1_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_7_EVENT_1_SHIFT) & WOODWARD_MPU2S_RELAY_7_EVENT_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_EVENT_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 logic 1
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_1_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 logic 1: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_ADDRESS 0x01C6U
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_1_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_FIXED_MASK 0x00F8U
@@ -13752,86 +5734,35 @@ static inline uint16_t woodward_mpu2s_relay_7_event_1_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_1_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_1_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_7_LOGIC_1_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_1_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_LOGIC_1_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_LOGIC_1_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_logic_1_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_1_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_1_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_7_logic_1_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_logic_1_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_7_LOGIC_1_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_7_logic_1_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_1_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_7_LOGIC_1_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_1_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_LOGIC_1_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 event 2
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_7_EVENT_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 event 2: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_ADDRESS 0x01C7U
-#define WOODWARD_MPU2S_RELAY_7_EVENT_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_2_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_2_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_EVENT_2_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_event_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_2_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_7_event_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_event_2_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_7_EVENT_2_MASK) >> WOODWARD_MPU2S_RELAY_7_EVENT_2_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_7_event_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_2_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_7_EVENT_2_SHIFT) & WOODWARD_MPU2S_RELAY_7_EVENT_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_EVENT_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 logic 2
- * 0..7; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_2_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 logic 2: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_ADDRESS 0x01C7U
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_2_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_FIXED_MASK 0x00F8U
@@ -13841,88 +5772,35 @@ static inline uint16_t woodward_mpu2s_relay_7_event_2_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_2_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_2_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_7_LOGIC_2_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_2_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_LOGIC_2_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_LOGIC_2_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_logic_2_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_2_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_2_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_7_logic_2_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_logic_2_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_7_LOGIC_2_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_7_logic_2_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_2_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_7_LOGIC_2_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_2_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_LOGIC_2_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 event 3
- * 1..98; read and write.
- */
-#define WOODWARD_MPU2S_RELAY_7_EVENT_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 event 3: 1..98; rw */
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_ADDRESS 0x01C8U
-#define WOODWARD_MPU2S_RELAY_7_EVENT_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MIN 1
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MAX 98
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_FIXED_MASK 0x00F8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_FIXED_BITS 0x0000U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_SHIFT 8U
 #define WOODWARD_MPU2S_RELAY_7_EVENT_3_MASK 0xFF00U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_3_check(uint8_t raw)
-{
-    return raw >= WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MIN && raw <= WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_UNKNOWN_VALUE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_event_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_EVENT_3_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_event_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_3_check(uint8_t raw)
+{ return fieldscribe_known(fieldscribe_check(raw, 1, 98)); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_event_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_known(fieldscribe_encode_u8(value, 1, 98, raw)); }
+static inline int32_t woodward_mpu2s_relay_7_event_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_event_3_extract(uint16_t word)
-{
-    return (uint8_t)(((uint32_t)word & WOODWARD_MPU2S_RELAY_7_EVENT_3_MASK) >> WOODWARD_MPU2S_RELAY_7_EVENT_3_SHIFT);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0xFF00U, 8U)); }
 static inline uint16_t woodward_mpu2s_relay_7_event_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_3_MASK) | (((uint32_t)(uint16_t)raw << WOODWARD_MPU2S_RELAY_7_EVENT_3_SHIFT) & WOODWARD_MPU2S_RELAY_7_EVENT_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_EVENT_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_EVENT_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0xFF00U, 8U, raw), 0x00F8U, 0x0000U); }
 
-/*
- * Relay 7 logic 3
- * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
- * the combination with the next id; taken: The same bits in all three words.
- */
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* relay 7 logic 3: 0..7; rw */
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_ADDRESS 0x01C8U
-#define WOODWARD_MPU2S_RELAY_7_LOGIC_3_WORDS 1U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_RAW_MIN 0
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_RAW_MAX 7
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_FIXED_MASK 0x00F8U
@@ -13932,197 +5810,76 @@ static inline uint16_t woodward_mpu2s_relay_7_event_3_insert(uint16_t word, uint
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_LAST_MASK 0x04U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_INVERTED_MASK 0x02U
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_AND_WITH_NEXT_MASK 0x01U
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_3_check(uint8_t raw)
-{
-    return raw <= WOODWARD_MPU2S_RELAY_7_LOGIC_3_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_relay_7_logic_3_encode(int32_t value, uint8_t *raw)
-{
-    if (value < WOODWARD_MPU2S_RELAY_7_LOGIC_3_RAW_MIN || value > WOODWARD_MPU2S_RELAY_7_LOGIC_3_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint8_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_relay_7_logic_3_decode(uint8_t raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_3_check(uint8_t raw) { return fieldscribe_check(raw, 0, 7); }
+FIELDSCRIBE_STATUS woodward_mpu2s_relay_7_logic_3_encode(int32_t value, uint8_t *raw)
+{ return fieldscribe_encode_u8(value, 0, 7, raw); }
+static inline int32_t woodward_mpu2s_relay_7_logic_3_decode(uint8_t raw) { return raw; }
 static inline uint8_t woodward_mpu2s_relay_7_logic_3_extract(uint16_t word)
-{
-    return (uint8_t)(word & WOODWARD_MPU2S_RELAY_7_LOGIC_3_MASK);
-}
-
+{ return (uint8_t)(fieldscribe_extract(word, 0x0007U, 0U)); }
 static inline uint16_t woodward_mpu2s_relay_7_logic_3_insert(uint16_t word, uint8_t raw)
-{
-    return (uint16_t)((((word & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_3_MASK) | (((uint32_t)(uint16_t)raw) & WOODWARD_MPU2S_RELAY_7_LOGIC_3_MASK)) & ~(uint32_t)WOODWARD_MPU2S_RELAY_7_LOGIC_3_FIXED_MASK) | WOODWARD_MPU2S_RELAY_7_LOGIC_3_FIXED_BITS);
-}
+{ return fieldscribe_fix(fieldscribe_insert(word, 0x0007U, 0U, raw), 0x00F8U, 0x0000U); }
 
-/* ---- Parameters operation ---- */
+/* ---- parameters operation (parameter) ---- */
 
-/*
- * Automatic idle control
- * 0, 1; read and write.
- */
-#define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* automatic idle control: 0, 1; rw */
 #define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_ADDRESS 0x0012U
-#define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_WORDS 1U
 #define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_RAW_MIN 0
 #define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_RAW_MAX 1
 #define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_SHIFT 0U
 #define WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_MASK 0x0001U
-
-static inline woodward_mpu2s_status woodward_mpu2s_automatic_idle_control_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_automatic_idle_control_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_RAW_MIN || value > WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_automatic_idle_control_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_automatic_idle_control_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_automatic_idle_control_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_automatic_idle_control_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_automatic_idle_control_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0001U, 0U) != 0U; }
 static inline uint16_t woodward_mpu2s_automatic_idle_control_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_MASK) | (((uint32_t)(raw ? 1U : 0U)) & WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_MASK));
-}
+{ return fieldscribe_insert(word, 0x0001U, 0U, raw ? 1U : 0U); }
 
-/*
- * Shutdown
- * 0, 1; read and write.
- * Erratum shutdown_bit (likely): printed: Bit 1 1, with a blank, counted from 0; taken: bits: 11.
- */
-#define WOODWARD_MPU2S_SHUTDOWN_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* shutdown: 0, 1; rw */
 #define WOODWARD_MPU2S_SHUTDOWN_ADDRESS 0x00C9U
-#define WOODWARD_MPU2S_SHUTDOWN_WORDS 1U
 #define WOODWARD_MPU2S_SHUTDOWN_RAW_MIN 0
 #define WOODWARD_MPU2S_SHUTDOWN_RAW_MAX 1
 #define WOODWARD_MPU2S_SHUTDOWN_SHIFT 11U
 #define WOODWARD_MPU2S_SHUTDOWN_MASK 0x0800U
-
-static inline woodward_mpu2s_status woodward_mpu2s_shutdown_check(bool raw)
-{
-    (void)raw;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_shutdown_encode(int32_t value, bool *raw)
-{
-    if (value < WOODWARD_MPU2S_SHUTDOWN_RAW_MIN || value > WOODWARD_MPU2S_SHUTDOWN_RAW_MAX) {
-        return WOODWARD_MPU2S_UNKNOWN_VALUE;
-    }
-    *raw = value != 0;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline bool woodward_mpu2s_shutdown_decode(bool raw)
-{
-    return raw;
-}
-
+FIELDSCRIBE_STATUS woodward_mpu2s_shutdown_check(bool raw) { (void)raw; return FIELDSCRIBE_OK; }
+FIELDSCRIBE_STATUS woodward_mpu2s_shutdown_encode(int32_t value, bool *raw)
+{ return fieldscribe_known(fieldscribe_encode_bool(value, 0, 1, raw)); }
+static inline bool woodward_mpu2s_shutdown_decode(bool raw) { return raw; }
 static inline bool woodward_mpu2s_shutdown_extract(uint16_t word)
-{
-    return (word & WOODWARD_MPU2S_SHUTDOWN_MASK) != 0U;
-}
-
+{ return fieldscribe_extract(word, 0x0800U, 11U) != 0U; }
 static inline uint16_t woodward_mpu2s_shutdown_insert(uint16_t word, bool raw)
-{
-    return (uint16_t)((word & ~(uint32_t)WOODWARD_MPU2S_SHUTDOWN_MASK) | (((uint32_t)(raw ? 1U : 0U) << WOODWARD_MPU2S_SHUTDOWN_SHIFT) & WOODWARD_MPU2S_SHUTDOWN_MASK));
-}
+{ return fieldscribe_insert(word, 0x0800U, 11U, raw ? 1U : 0U); }
 
-/*
- * Engine monitoring delay
- * 1..99 s, raw 1..99; read and write.
- */
-#define WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* engine monitoring delay: 1..99 s; rw */
 #define WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_ADDRESS 0x007AU
-#define WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_WORDS 1U
 #define WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MIN 1
 #define WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MAX 99
+FIELDSCRIBE_STATUS woodward_mpu2s_engine_monitoring_delay_check(uint16_t raw) { return fieldscribe_check(raw, 1, 99); }
+FIELDSCRIBE_STATUS woodward_mpu2s_engine_monitoring_delay_encode(int32_t value, uint16_t *raw)
+{ return fieldscribe_encode_u16(value, 1, 99, raw); }
+static inline int32_t woodward_mpu2s_engine_monitoring_delay_decode(uint16_t raw) { return raw; }
 
-static inline woodward_mpu2s_status woodward_mpu2s_engine_monitoring_delay_check(uint16_t raw)
-{
-    return raw >= WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MIN && raw <= WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
-}
-
-static inline woodward_mpu2s_status woodward_mpu2s_engine_monitoring_delay_encode(int32_t value, uint16_t *raw)
-{
-    if (value < WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MIN || value > WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_RAW_MAX) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)value;
-    return WOODWARD_MPU2S_OK;
-}
-
-static inline int32_t woodward_mpu2s_engine_monitoring_delay_decode(uint16_t raw)
-{
-    return raw;
-}
-
-/*
- * Monitoring start frequency
- * 15..70 Hz, raw 3840..17920, in steps of 0.00390625 Hz; read and write.
- */
-#define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
+/* monitoring start frequency: 15..70 Hz; in steps of 0.00390625 Hz; 0.001 Hz a count; rw */
 #define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_ADDRESS 0x0019U
-#define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_WORDS 1U
 #define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MIN 3840
 #define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MAX 17920
 #define WOODWARD_MPU2S_MONITORING_START_FREQUENCY_DECIMALS 3
-
-static inline woodward_mpu2s_status woodward_mpu2s_monitoring_start_frequency_check(uint16_t raw)
+FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_check(uint16_t raw)
+{ return fieldscribe_check(raw, 3840, 17920); }
+FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_encode_count(int32_t count, uint16_t *raw)
 {
-    return raw >= WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MIN && raw <= WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MAX ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
+    return fieldscribe_within(count, 14999, 70001)
+        ? fieldscribe_keep_u16(FIELDSCRIBE_OK, (uint16_t)(fieldscribe_nearly(count, 1, 12583, 19U, 2U)), raw)
+        : FIELDSCRIBE_OUT_OF_RANGE;
 }
-
-static inline woodward_mpu2s_status woodward_mpu2s_monitoring_start_frequency_encode_count(int32_t count, uint16_t *raw)
-{
-    if (count < 14999 || count > 70001) {
-        return WOODWARD_MPU2S_OUT_OF_RANGE;
-    }
-    *raw = (uint16_t)woodward_mpu2s_divide(count * 32, 125);
-    return WOODWARD_MPU2S_OK;
-}
-
 static inline int32_t woodward_mpu2s_monitoring_start_frequency_decode_count(uint16_t raw)
-{
-    return woodward_mpu2s_divide((int32_t)raw * 125, 32);
-}
-
-#if !defined(FIELDSCRIBE_NO_FLOAT)
-static inline woodward_mpu2s_status woodward_mpu2s_monitoring_start_frequency_encode(woodward_mpu2s_real value, uint16_t *raw)
-{
-    int32_t whole = 0;
-    const woodward_mpu2s_status status = woodward_mpu2s_round(woodward_mpu2s_times(value, 256), WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MIN, WOODWARD_MPU2S_MONITORING_START_FREQUENCY_RAW_MAX, &whole);
-    if (status == WOODWARD_MPU2S_OK) {
-        *raw = (uint16_t)whole;
-    }
-    return status;
-}
-
-static inline woodward_mpu2s_real woodward_mpu2s_monitoring_start_frequency_decode(uint16_t raw)
-{
-    return (woodward_mpu2s_real)raw / 256;
-}
+{ return fieldscribe_halves((int32_t)raw * 125, 5U); }
+#ifndef FIELDSCRIBE_NO_FLOAT
+FIELDSCRIBE_STATUS woodward_mpu2s_monitoring_start_frequency_encode(fieldscribe_real value, uint16_t *raw)
+{ return fieldscribe_scale_u16(value, 256, 3840, 17920, raw); }
+static inline fieldscribe_real woodward_mpu2s_monitoring_start_frequency_decode(uint16_t raw)
+{ return fieldscribe_ratio(raw, 256); }
 #endif
 
 #ifdef __cplusplus

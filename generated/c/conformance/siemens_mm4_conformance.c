@@ -5,622 +5,1006 @@
  *
  * Runs the language-neutral vectors through siemens_mm4.h: siemens_mm4_conformance VECTORS
  */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "../siemens_mm4_uss.h"
-#include "../fieldscribe_conformance.h"
+#include "../fieldscribe_conformance_uss.h"
+
+static inline const siemens_mm4_main_setpoint_with *with_main_setpoint(fieldscribe_vector *v)
+{
+    static siemens_mm4_main_setpoint_with with;
+    with.uss_normalisation_raw = (uint16_t)fieldscribe_with(v, "uss_normalisation");
+    with.reference_frequency_raw = (uint32_t)fieldscribe_with(v, "reference_frequency");
+    return &with;
+}
+
+static inline const siemens_mm4_main_setpoint_with *with_main_actual_value(fieldscribe_vector *v)
+{
+    static siemens_mm4_main_setpoint_with with;
+    with.uss_normalisation_raw = (uint16_t)fieldscribe_with(v, "uss_normalisation");
+    with.reference_frequency_raw = (uint32_t)fieldscribe_with(v, "reference_frequency");
+    return &with;
+}
 
 static void run_user_access_level(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USER_ACCESS_LEVEL, FIELDSCRIBE_CODE(SIEMENS_MM4_USER_ACCESS_LEVEL) FIELDSCRIBE_RAWS(SIEMENS_MM4_USER_ACCESS_LEVEL))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USER_ACCESS_LEVEL, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USER_ACCESS_LEVEL) FIELDSCRIBE_RAWS(SIEMENS_MM4_USER_ACCESS_LEVEL)
+        FIELDSCRIBE_CODE("P0003"))
     FIELDSCRIBE_CHECK(siemens_mm4_user_access_level_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_user_access_level_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_user_access_level_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_user_access_level_name, int32_t)
+    FIELDSCRIBE_NAMED("expert", SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT)
+    FIELDSCRIBE_NAMED("level_2", SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_user_access_level, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_user_access_level, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_user_access_level_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_user_access_level_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_user_access_level_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_user_access_level_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level_eeprom_frame, u16, uint16_t)
 }
 
 static void run_inverter_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_INVERTER_STATUS_WORD, FIELDSCRIBE_CODE(SIEMENS_MM4_INVERTER_STATUS_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_INVERTER_STATUS_WORD))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_INVERTER_STATUS_WORD, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_INVERTER_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("r0052"))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_inverter_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_inverter_status_word, uint16_t)
-    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U)
+    FIELDSCRIBE_LIES(siemens_mm4_inverter_status_word_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_inverter_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_SWITCH_ON_MASK) !=
+        0U)
+    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OPERATION_ENABLED_MASK) !=
+        0U)
+    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) !=
+        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_FAULT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) !=
+        0U)
+    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_WARNING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_DEVIATION_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CONTROL_REQUESTED_MASK) !=
+        0U)
+    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_FREQUENCY_REACHED_MASK) !=
+        0U)
+    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK)
+        != 0U)
+    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK)
+        != 0U)
+    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_CLOCKWISE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_INVERTER_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_INVERTER_STATUS_WORD_INVERTER_OVERLOAD_MASK) !=
+        0U)
 }
 
 static void run_command_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_COMMAND_SOURCE, FIELDSCRIBE_CODE(SIEMENS_MM4_COMMAND_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_COMMAND_SOURCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_COMMAND_SOURCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_COMMAND_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_COMMAND_SOURCE)
+        FIELDSCRIBE_CODE("P0700"))
     FIELDSCRIBE_CHECK(siemens_mm4_command_source_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_command_source_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_command_source_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_command_source_name, int32_t)
+    FIELDSCRIBE_NAMED("uss_rs485", SIEMENS_MM4_COMMAND_SOURCE_USS_RS485)
+    FIELDSCRIBE_NAMED("uss_rs232", SIEMENS_MM4_COMMAND_SOURCE_USS_RS232)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_command_source, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_command_source, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_command_source, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_command_source_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_command_source_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_command_source_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_command_source_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_command_source_eeprom_frame, u16, uint16_t)
 }
 
 static void run_p0731_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_P0731_SOURCE, FIELDSCRIBE_CODE(SIEMENS_MM4_P0731_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_P0731_SOURCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_P0731_SOURCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_P0731_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_P0731_SOURCE)
+        FIELDSCRIBE_CODE("P0731"))
     FIELDSCRIBE_CHECK(siemens_mm4_p0731_source_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_p0731_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_p0731_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_p0731_source, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_p0731_source, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_p0731_source, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_p0731_source, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_p0731_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_p0731_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_p0731_source_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_p0731_source_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_p0731_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_p0731_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_p0731_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_p0731_source_source_parameter((uint32_t)fieldscribe_bits(v,
+        "raw")), SIEMENS_MM4_P0731_SOURCE_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_p0731_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT)
 }
 
 static void run_main_setpoint_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE, FIELDSCRIBE_CODE(SIEMENS_MM4_MAIN_SETPOINT_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE)
+        FIELDSCRIBE_CODE("P1000"))
     FIELDSCRIBE_CHECK(siemens_mm4_main_setpoint_source_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_main_setpoint_source_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_main_setpoint_source_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_main_setpoint_source_name, int32_t)
+    FIELDSCRIBE_NAMED("uss_rs485", SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485)
+    FIELDSCRIBE_NAMED("uss_rs232", SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_main_setpoint_source, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_main_setpoint_source, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_source_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_source_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_main_setpoint_source_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source_eeprom_frame, u16, uint16_t)
 }
 
 static void run_maximum_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAXIMUM_FREQUENCY, FIELDSCRIBE_CODE(SIEMENS_MM4_MAXIMUM_FREQUENCY))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_MAXIMUM_FREQUENCY) FIELDSCRIBE_CODE("P1082"))
     FIELDSCRIBE_CHECK(siemens_mm4_maximum_frequency_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE(siemens_mm4_maximum_frequency_encode, siemens_mm4_real, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE(siemens_mm4_maximum_frequency_decode, siemens_mm4_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ENCODE(siemens_mm4_maximum_frequency_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_DECODE(siemens_mm4_maximum_frequency_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_maximum_frequency, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_maximum_frequency, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_maximum_frequency, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency, write_eeprom_request, uint32_t)
+    FIELDSCRIBE_LIES(siemens_mm4_maximum_frequency_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_maximum_frequency_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_maximum_frequency_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_maximum_frequency_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency_eeprom_frame, u32, uint32_t)
 }
 
 static void run_jog_time_selection_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE, FIELDSCRIBE_CODE(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE) FIELDSCRIBE_CODE("P1124"))
     FIELDSCRIBE_CHECK(siemens_mm4_jog_time_selection_source_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_jog_time_selection_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_jog_time_selection_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_jog_time_selection_source, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_jog_time_selection_source, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_jog_time_selection_source, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_jog_time_selection_source, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_jog_time_selection_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_jog_time_selection_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_jog_time_selection_source_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_jog_time_selection_source_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_jog_time_selection_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_jog_time_selection_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_jog_time_selection_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_jog_time_selection_source_source_bit((uint32_t)fieldscribe_bits(v,
+        "raw")), SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT)
 }
 
 static void run_dc_braking_source(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_DC_BRAKING_SOURCE, FIELDSCRIBE_CODE(SIEMENS_MM4_DC_BRAKING_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_DC_BRAKING_SOURCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_DC_BRAKING_SOURCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_DC_BRAKING_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_DC_BRAKING_SOURCE)
+        FIELDSCRIBE_CODE("P1230"))
     FIELDSCRIBE_CHECK(siemens_mm4_dc_braking_source_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_dc_braking_source_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_dc_braking_source_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_dc_braking_source, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_dc_braking_source, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_dc_braking_source, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_dc_braking_source, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_dc_braking_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_dc_braking_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_dc_braking_source_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_dc_braking_source_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_dc_braking_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_dc_braking_source_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_dc_braking_source_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_dc_braking_source_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_dc_braking_source_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT)
 }
 
 static void run_output_phase_sequence(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE, FIELDSCRIBE_CODE(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE)
+        FIELDSCRIBE_CODE("P1820"))
     FIELDSCRIBE_CHECK(siemens_mm4_output_phase_sequence_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_output_phase_sequence_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_output_phase_sequence_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_output_phase_sequence_name, int32_t)
+    FIELDSCRIBE_NAMED("reversed", SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED)
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_output_phase_sequence, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_output_phase_sequence, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_output_phase_sequence_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_output_phase_sequence_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_output_phase_sequence_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence_eeprom_frame, u16, uint16_t)
 }
 
 static void run_reference_frequency(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_REFERENCE_FREQUENCY, FIELDSCRIBE_CODE(SIEMENS_MM4_REFERENCE_FREQUENCY))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_REFERENCE_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_REFERENCE_FREQUENCY) FIELDSCRIBE_CODE("P2000"))
     FIELDSCRIBE_CHECK(siemens_mm4_reference_frequency_check, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE(siemens_mm4_reference_frequency_encode, siemens_mm4_real, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_DECODE(siemens_mm4_reference_frequency_decode, siemens_mm4_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_ENCODE(siemens_mm4_reference_frequency_encode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
+    FIELDSCRIBE_DECODE(siemens_mm4_reference_frequency_decode, fieldscribe_real, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_WORDS(siemens_mm4_reference_frequency, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_reference_frequency, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_reference_frequency, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency, write_eeprom_request, uint32_t)
+    FIELDSCRIBE_LIES(siemens_mm4_reference_frequency_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_reference_frequency_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_reference_frequency_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_reference_frequency_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency_eeprom_frame, u32, uint32_t)
 }
 
 static void run_uss_normalisation_rs485(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS485, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_NORMALISATION_RS485) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS485))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS485, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS485) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS485)
+        FIELDSCRIBE_CODE("P2009"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_normalisation_rs485_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_normalisation_rs485_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_normalisation_rs485_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_uss_normalisation_name, int32_t)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS485, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS485))
+    FIELDSCRIBE_NAMED("hundredths_of_hertz", SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ)
+    FIELDSCRIBE_NAMED("by_reference_frequency", SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY)
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS485, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS485))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs485, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs485, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs485_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs485_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs485_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_normalisation_rs232(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS232, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_NORMALISATION_RS232) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS232))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS232, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS232) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS232)
+        FIELDSCRIBE_CODE("P2009"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_normalisation_rs232_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_normalisation_rs232_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_normalisation_rs232_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_uss_normalisation_name, int32_t)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS232, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS232))
+    FIELDSCRIBE_NAMED("hundredths_of_hertz", SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ)
+    FIELDSCRIBE_NAMED("by_reference_frequency", SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY)
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_NORMALISATION_RS232, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_NORMALISATION_RS232))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs232, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs232, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs232_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_normalisation_rs232_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_normalisation_rs232_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_baud_rate_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0)
+        FIELDSCRIBE_CODE("P2010"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_baud_rate_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_baud_rate_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_baud_rate_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_0, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_0, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_baud_rate_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1)
+        FIELDSCRIBE_CODE("P2010"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_baud_rate_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_baud_rate_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_baud_rate_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_1, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_1, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_baud_rate_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_baud_rate_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_slave_address_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0)
+        FIELDSCRIBE_CODE("P2011"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_slave_address_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_slave_address_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_slave_address_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_0, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_0, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_slave_address_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1)
+        FIELDSCRIBE_CODE("P2011"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_slave_address_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_slave_address_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_slave_address_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_1, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_1, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_slave_address_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_slave_address_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm410_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm410_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm410_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm410, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm410, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm410_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm410_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm420_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm420_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm420_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm420, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm420, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm420_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm420_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm430_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm430_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm430_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm430, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm430, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm430_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm430_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_0_mm440_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm440_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_0_mm440_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm440, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm440, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm440_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_0_mm440_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm410_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm410_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm410_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm410, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm410, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm410_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm410_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm420_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm420_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm420_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm420, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm420, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm420_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm420_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm430_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm430_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm430_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm430, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm430, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm430_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm430_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440) FIELDSCRIBE_CODE("P2012"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pzd_length_index_1_mm440_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm440_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pzd_length_index_1_mm440_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm440, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm440, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm440_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pzd_length_index_1_mm440_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pkw_length_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0)
+        FIELDSCRIBE_CODE("P2013"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pkw_length_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pkw_length_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pkw_length_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_uss_pkw_length_name, int32_t)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0))
+    FIELDSCRIBE_NAMED("variable", SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE)
+    FIELDSCRIBE_NAMED("words_4", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4)
+    FIELDSCRIBE_NAMED("words_3", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3)
+    FIELDSCRIBE_NAMED("none", SIEMENS_MM4_USS_PKW_LENGTH_NONE)
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_0, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_0, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_pkw_length_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1)
+        FIELDSCRIBE_CODE("P2013"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_pkw_length_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_pkw_length_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_pkw_length_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_NAME(siemens_mm4_uss_pkw_length_name, int32_t)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1))
+    FIELDSCRIBE_NAMED("variable", SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE)
+    FIELDSCRIBE_NAMED("words_4", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4)
+    FIELDSCRIBE_NAMED("words_3", SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3)
+    FIELDSCRIBE_NAMED("none", SIEMENS_MM4_USS_PKW_LENGTH_NONE)
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_1, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_1, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1, write_eeprom_request, uint16_t)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_pkw_length_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_pkw_length_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1_eeprom_frame, u16, uint16_t)
 }
 
 static void run_uss_telegram_off_time_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0) FIELDSCRIBE_CODE("P2014"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_telegram_off_time_index_0_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_telegram_off_time_index_0_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_uss_telegram_off_time_index_0_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_0, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_0, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_0, write_eeprom_request, uint16_t)
-    FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_0_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_0_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF,
+        SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_0, uint16_t)
 }
 
 static void run_uss_telegram_off_time_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1) FIELDSCRIBE_CODE("P2014"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_telegram_off_time_index_1_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_telegram_off_time_index_1_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_uss_telegram_off_time_index_1_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_1, uint16_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_1, write_request, uint16_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_1, write_eeprom_request, uint16_t)
-    FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF, SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_telegram_off_time_index_1_frame, u16, uint16_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_telegram_off_time_index_1_eeprom_frame, u16, uint16_t)
+    FIELDSCRIBE_SPECIAL("monitoring_off", SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF,
+        SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1_MONITORING_OFF)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_1, uint16_t)
 }
 
 static void run_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_CODE("P2016"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_0_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_0_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_0_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_0, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_0, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_0, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_0, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs232_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs232_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_0_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_0_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs232_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs232_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
 static void run_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_CODE("P2016"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_1_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_1_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_1, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_1, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_1, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_1, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs232_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs232_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_1_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_1_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs232_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs232_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
 static void run_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_CODE("P2016"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_2_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_2_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_2, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_2, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_2, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_2, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs232_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs232_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_2_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_2_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_2_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs232_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs232_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
 static void run_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_CODE("P2016"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs232_answer_source_index_3_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_3_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs232_answer_source_index_3_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs232_answer_source_index_3, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_3, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_3, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_3, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs232_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs232_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_3_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs232_answer_source_index_3_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs232_answer_source_index_3_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs232_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs232_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
 static void run_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0) FIELDSCRIBE_CODE("P2019"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_0_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_0_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_0_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_0, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_0, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_0, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_0, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs485_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs485_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_0_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_0_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_0_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs485_answer_source_index_0_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs485_answer_source_index_0_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
 static void run_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1) FIELDSCRIBE_CODE("P2019"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_1_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_1_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_1_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_1, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_1, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_1, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_1, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs485_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs485_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_1_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_1_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_1_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs485_answer_source_index_1_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs485_answer_source_index_1_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
 static void run_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2) FIELDSCRIBE_CODE("P2019"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_2_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_2_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_2_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_2, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_2, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_2, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_2, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs485_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs485_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_2_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_2_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_2_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs485_answer_source_index_2_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs485_answer_source_index_2_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
 static void run_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_CODE(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
+        FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3)
+        FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3) FIELDSCRIBE_CODE("P2019"))
     FIELDSCRIBE_CHECK(siemens_mm4_uss_rs485_answer_source_index_3_check, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_3_encode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_uss_rs485_answer_source_index_3_decode, int64_t, uint32_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, 0U), FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, 0U),
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3))
     FIELDSCRIBE_WORDS(siemens_mm4_uss_rs485_answer_source_index_3, uint32_t, 2U)
-    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_3, uint32_t)
-    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_3, write_request, uint32_t)
-    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_3, write_eeprom_request, uint32_t)
-    FIELDSCRIBE_WIDE_FLAG("source_parameter", siemens_mm4_uss_rs485_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
-    FIELDSCRIBE_WIDE_FLAG("source_bit", siemens_mm4_uss_rs485_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")), SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_3_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_LIES(siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_READ(siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("write", siemens_mm4_uss_rs485_answer_source_index_3_frame, u32, uint32_t)
+    FIELDSCRIBE_WRITE("store", siemens_mm4_uss_rs485_answer_source_index_3_eeprom_frame, u32, uint32_t)
+    FIELDSCRIBE_WIDE_FLAG("source_parameter",
+        siemens_mm4_uss_rs485_answer_source_index_3_source_parameter((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_PARAMETER)
+    FIELDSCRIBE_WIDE_FLAG("source_bit",
+        siemens_mm4_uss_rs485_answer_source_index_3_source_bit((uint32_t)fieldscribe_bits(v, "raw")),
+        SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
 static void run_control_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_CONTROL_WORD, FIELDSCRIBE_CODE(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_CONTROL_WORD, PZD, "pzd"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_CODE("STW")
+        FIELDSCRIBE_REFERENCE("pzd", 1))
     FIELDSCRIBE_CHECK(siemens_mm4_control_word_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_control_word_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_FIXED(SIEMENS_MM4_CONTROL_WORD)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_CONTROL_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_CONTROL_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_SEND(siemens_mm4_control_word, uint16_t, siemens_mm4_telegram_task_start, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_PUT(siemens_mm4_control_word, uint16_t, SIEMENS_MM4_CONTROL_WORD, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_TRUTH("on", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_operation", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ramp_generator_operating", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_ramp_generator", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("enable_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("acknowledge_fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("jog_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("jog_counter_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("setpoints_valid", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("invert_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("free", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_potentiometer_up", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_potentiometer_down", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("local_control", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U)
+    FIELDSCRIBE_LIES(siemens_mm4_control_word_frame, false, 0x0400U, 0x0400U)
+    FIELDSCRIBE_SEND(siemens_mm4_control_word_frame, u16, uint16_t)
+    FIELDSCRIBE_PUT(siemens_mm4_control_word_frame, u16, uint16_t, SIEMENS_MM4_CONTROL_WORD,
+        SIEMENS_MM4_TELEGRAM_TASK_WORDS)
+    FIELDSCRIBE_TRUTH("on", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_CONTROL_WORD_ON_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off2", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_CONTROL_WORD_OFF2_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off3", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_CONTROL_WORD_OFF3_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("enable_operation", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_OPERATION_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("ramp_generator_operating", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_RAMP_GENERATOR_OPERATING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("enable_ramp_generator", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_RAMP_GENERATOR_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("enable_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ENABLE_SETPOINT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("acknowledge_fault", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_ACKNOWLEDGE_FAULT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("jog_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_CLOCKWISE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("jog_counter_clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_JOG_COUNTER_CLOCKWISE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("setpoints_valid", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_SETPOINTS_VALID_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("invert_setpoint", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_INVERT_SETPOINT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("free", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_CONTROL_WORD_FREE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("motor_potentiometer_up", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_UP_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("motor_potentiometer_down", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_MOTOR_POTENTIOMETER_DOWN_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("local_control", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U)
 }
 
 static void run_main_setpoint(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT, FIELDSCRIBE_CODE(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_MAIN_SETPOINT, PZD, "pzd"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT, FIELDSCRIBE_SPACE("telegram")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT)
+        FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_CODE("HSW") FIELDSCRIBE_REFERENCE("pzd", 2))
     FIELDSCRIBE_CHECK(siemens_mm4_main_setpoint_check, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_main_setpoint_encode_count, int64_t, uint16_t, FIELDSCRIBE_WITH("uss_normalisation", uint16_t) FIELDSCRIBE_WITH("reference_frequency", uint32_t))
-    FIELDSCRIBE_ENCODE(siemens_mm4_main_setpoint_encode, double, uint16_t, FIELDSCRIBE_WITH("uss_normalisation", uint16_t) FIELDSCRIBE_WITH("reference_frequency", uint32_t))
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_SETPOINT, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_SETPOINT))
+    FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_main_setpoint_encode_count, int64_t, uint16_t,
+        FIELDSCRIBE_TOGETHER(with_main_setpoint))
+    FIELDSCRIBE_ENCODE(siemens_mm4_main_setpoint_encode, double, uint16_t, FIELDSCRIBE_TOGETHER(with_main_setpoint))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_SETPOINT, 0U),
+        FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_SETPOINT))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_SEND(siemens_mm4_main_setpoint, uint16_t, siemens_mm4_telegram_task_start, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_PUT(siemens_mm4_main_setpoint, uint16_t, SIEMENS_MM4_MAIN_SETPOINT, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
+    FIELDSCRIBE_LIES(siemens_mm4_main_setpoint_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_SEND(siemens_mm4_main_setpoint_frame, u16, uint16_t)
+    FIELDSCRIBE_PUT(siemens_mm4_main_setpoint_frame, u16, uint16_t, SIEMENS_MM4_MAIN_SETPOINT,
+        SIEMENS_MM4_TELEGRAM_TASK_WORDS)
 }
 
 static void run_second_control_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_CONTROL_WORD, FIELDSCRIBE_CODE(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_SECOND_CONTROL_WORD, PZD, "pzd"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_CONTROL_WORD)
+        FIELDSCRIBE_CODE("STW2") FIELDSCRIBE_REFERENCE("pzd", 4))
     FIELDSCRIBE_CHECK(siemens_mm4_second_control_word_check, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_ENCODE_COUNT(siemens_mm4_second_control_word_encode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_CONTROL_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_CONTROL_WORD))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_CONTROL_WORD, 0U),
+        FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_CONTROL_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_SEND(siemens_mm4_second_control_word, uint16_t, siemens_mm4_telegram_task_start, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_PUT(siemens_mm4_second_control_word, uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD, SIEMENS_MM4_TELEGRAM_TASK_WORDS)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_0", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_1", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fixed_frequency_bit_2", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("pid_enable", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("dc_braking_enable", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("external_fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U)
+    FIELDSCRIBE_LIES(siemens_mm4_second_control_word_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_SEND(siemens_mm4_second_control_word_frame, u16, uint16_t)
+    FIELDSCRIBE_PUT(siemens_mm4_second_control_word_frame, u16, uint16_t, SIEMENS_MM4_SECOND_CONTROL_WORD,
+        SIEMENS_MM4_TELEGRAM_TASK_WORDS)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_0", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_0_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_1", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_1_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("fixed_frequency_bit_2", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_FIXED_FREQUENCY_BIT_2_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("pid_enable", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_PID_ENABLE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("dc_braking_enable", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_DC_BRAKING_ENABLE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("external_fault", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) &
+        SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U)
 }
 
 static void run_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_STATUS_WORD, FIELDSCRIBE_CODE(SIEMENS_MM4_STATUS_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_STATUS_WORD) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_STATUS_WORD, PZD, "pzd"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_STATUS_WORD, FIELDSCRIBE_SPACE("telegram") FIELDSCRIBE_ONE(SIEMENS_MM4_STATUS_WORD)
+        FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW") FIELDSCRIBE_REFERENCE("pzd", 1))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
     FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_STATUS_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_STATUS_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_TAKE(siemens_mm4_status_word, SIEMENS_MM4_STATUS_WORD, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_status_word, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) != 0U)
-    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U)
+    FIELDSCRIBE_LIES(siemens_mm4_status_word_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_TAKE(siemens_mm4_status_word_frame, u16, uint16_t, SIEMENS_MM4_STATUS_WORD,
+        SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_HEAR(siemens_mm4_status_word_frame, u16, uint16_t)
+    FIELDSCRIBE_TRUTH("ready_to_switch_on", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_SWITCH_ON_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("ready_to_run", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_READY_TO_RUN_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("operation_enabled", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OPERATION_ENABLED_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("fault", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_STATUS_WORD_FAULT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off2_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF2_PENDING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("off3_pending", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_OFF3_PENDING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("switch_on_inhibit", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_SWITCH_ON_INHIBIT_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("warning", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U,
+        ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_STATUS_WORD_WARNING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("deviation", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) !=
+        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_STATUS_WORD_DEVIATION_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("control_requested", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CONTROL_REQUESTED_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("frequency_reached", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_FREQUENCY_REACHED_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("current_limit_warning", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_CURRENT_LIMIT_WARNING_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("holding_brake_active", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_HOLDING_BRAKE_ACTIVE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("motor_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_MOTOR_OVERLOAD_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("clockwise", (((uint16_t)fieldscribe_bits(v, "raw")) & SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) !=
+        0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^ SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) &
+        SIEMENS_MM4_STATUS_WORD_CLOCKWISE_MASK) != 0U)
+    FIELDSCRIBE_TRUTH("inverter_overload", (((uint16_t)fieldscribe_bits(v, "raw")) &
+        SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U, ((((uint16_t)fieldscribe_bits(v, "raw")) ^
+        SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U)
 }
 
 static void run_main_actual_value(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_ACTUAL_VALUE, FIELDSCRIBE_CODE(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_MAIN_ACTUAL_VALUE, PZD, "pzd"))
-    FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_main_actual_value_decode_count, int64_t, uint16_t, FIELDSCRIBE_WITH("uss_normalisation", uint16_t) FIELDSCRIBE_WITH("reference_frequency", uint32_t))
-    FIELDSCRIBE_TRY_DECODE(siemens_mm4_main_actual_value_decode, double, uint16_t, FIELDSCRIBE_WITH("uss_normalisation", uint16_t) FIELDSCRIBE_WITH("reference_frequency", uint32_t))
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_ACTUAL_VALUE, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_ACTUAL_VALUE))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_ACTUAL_VALUE, FIELDSCRIBE_SPACE("telegram")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_ONLY_READ(0, 65535)
+        FIELDSCRIBE_DECIMALS(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_CODE("HIW") FIELDSCRIBE_REFERENCE("pzd", 2))
+    FIELDSCRIBE_TRY_DECODE_COUNT(siemens_mm4_main_actual_value_decode_count, int64_t, uint16_t,
+        FIELDSCRIBE_TOGETHER(with_main_actual_value))
+    FIELDSCRIBE_TRY_DECODE(siemens_mm4_main_actual_value_decode, double, uint16_t,
+        FIELDSCRIBE_TOGETHER(with_main_actual_value))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_MAIN_ACTUAL_VALUE, 0U),
+        FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_MAIN_ACTUAL_VALUE))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_TAKE(siemens_mm4_main_actual_value, SIEMENS_MM4_MAIN_ACTUAL_VALUE, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_main_actual_value, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_LIES(siemens_mm4_main_actual_value_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_TAKE(siemens_mm4_main_actual_value_frame, u16, uint16_t, SIEMENS_MM4_MAIN_ACTUAL_VALUE,
+        SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_HEAR(siemens_mm4_main_actual_value_frame, u16, uint16_t)
 }
 
 static void run_second_status_word(fieldscribe_vector *v)
 {
-    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_STATUS_WORD, FIELDSCRIBE_CODE(SIEMENS_MM4_SECOND_STATUS_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_STATUS_WORD) FIELDSCRIBE_REFERENCE(SIEMENS_MM4_SECOND_STATUS_WORD, PZD, "pzd"))
+    FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_STATUS_WORD, FIELDSCRIBE_SPACE("telegram")
+        FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW2")
+        FIELDSCRIBE_REFERENCE("pzd", 4))
     FIELDSCRIBE_DECODE_COUNT(siemens_mm4_second_status_word_decode, int32_t, uint16_t, FIELDSCRIBE_ALONE)
-    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_STATUS_WORD, 0U), FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_STATUS_WORD))
+    FIELDSCRIBE_PLACE(FIELDSCRIBE_PLACED(SIEMENS_MM4_SECOND_STATUS_WORD, 0U),
+        FIELDSCRIBE_TELEGRAM(SIEMENS_MM4_SECOND_STATUS_WORD))
     FIELDSCRIBE_ONE_WORD(uint16_t)
-    FIELDSCRIBE_TAKE(siemens_mm4_second_status_word, SIEMENS_MM4_SECOND_STATUS_WORD, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
-    FIELDSCRIBE_HEAR(siemens_mm4_second_status_word, SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_LIES(siemens_mm4_second_status_word_frame, false, 0x0000U, 0x0000U)
+    FIELDSCRIBE_TAKE(siemens_mm4_second_status_word_frame, u16, uint16_t, SIEMENS_MM4_SECOND_STATUS_WORD,
+        SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
+    FIELDSCRIBE_HEAR(siemens_mm4_second_status_word_frame, u16, uint16_t)
 }
-
-static const char *const spaces[] = {
-    "parameter",
-    "telegram",
-    NULL
-};
 
 static const fieldscribe_status_name statuses[] = {
     {SIEMENS_MM4_OK, "ok"},
@@ -686,6 +1070,10 @@ static const char *const telegrams[] = {
     NULL
 };
 
+static const fieldscribe_tables tables = {
+    &siemens_mm4_uss_profile
+};
+
 static void run_code(fieldscribe_vector *v)
 {
     FIELDSCRIBE_CODE_NUMBER("task", "no_task", SIEMENS_MM4_TASK_NO_TASK)
@@ -736,38 +1124,24 @@ static void run_code(fieldscribe_vector *v)
     FIELDSCRIBE_CODE_NUMBER("error", "no_upper_limit", SIEMENS_MM4_ERROR_NO_UPPER_LIMIT)
     FIELDSCRIBE_CODE_NUMBER("error", "not_shown_on_panel", SIEMENS_MM4_ERROR_NOT_SHOWN_ON_PANEL)
     FIELDSCRIBE_CODE_NUMBER("error", "access_level_too_low", SIEMENS_MM4_ERROR_ACCESS_LEVEL_TOO_LOW)
-    FIELDSCRIBE_DOCUMENTED_CODE("display_value", SIEMENS_MM4_DISPLAY_VALUE)
-    FIELDSCRIBE_DOCUMENTED("display_value", SIEMENS_MM4_DISPLAY_VALUE, )
-    FIELDSCRIBE_DOCUMENTED_CODE("firmware_version", SIEMENS_MM4_FIRMWARE_VERSION)
-    FIELDSCRIBE_DOCUMENTED("firmware_version", SIEMENS_MM4_FIRMWARE_VERSION, )
-    FIELDSCRIBE_DOCUMENTED_CODE("output_frequency", SIEMENS_MM4_OUTPUT_FREQUENCY)
-    FIELDSCRIBE_DOCUMENTED("output_frequency", SIEMENS_MM4_OUTPUT_FREQUENCY, )
-    FIELDSCRIBE_DOCUMENTED_CODE("output_current", SIEMENS_MM4_OUTPUT_CURRENT)
-    FIELDSCRIBE_DOCUMENTED("output_current", SIEMENS_MM4_OUTPUT_CURRENT, )
-    FIELDSCRIBE_DOCUMENTED_CODE("second_control_word_display", SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY)
-    FIELDSCRIBE_DOCUMENTED("second_control_word_display", SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY, )
-    FIELDSCRIBE_DOCUMENTED_CODE("remote_local_selection_index_0", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0)
-    FIELDSCRIBE_DOCUMENTED("remote_local_selection_index_0", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0, FIELDSCRIBE_INDEX(SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0))
-    FIELDSCRIBE_DOCUMENTED_CODE("remote_local_selection_index_1", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1)
-    FIELDSCRIBE_DOCUMENTED("remote_local_selection_index_1", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1, FIELDSCRIBE_INDEX(SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1))
-    FIELDSCRIBE_DOCUMENTED_CODE("jog_acceleration_time", SIEMENS_MM4_JOG_ACCELERATION_TIME)
-    FIELDSCRIBE_DOCUMENTED("jog_acceleration_time", SIEMENS_MM4_JOG_ACCELERATION_TIME, )
-    FIELDSCRIBE_DOCUMENTED_CODE("jog_deceleration_time", SIEMENS_MM4_JOG_DECELERATION_TIME)
-    FIELDSCRIBE_DOCUMENTED("jog_deceleration_time", SIEMENS_MM4_JOG_DECELERATION_TIME, )
-    FIELDSCRIBE_DOCUMENTED_CODE("acceleration_time", SIEMENS_MM4_ACCELERATION_TIME)
-    FIELDSCRIBE_DOCUMENTED("acceleration_time", SIEMENS_MM4_ACCELERATION_TIME, )
-    FIELDSCRIBE_DOCUMENTED_CODE("deceleration_time", SIEMENS_MM4_DECELERATION_TIME)
-    FIELDSCRIBE_DOCUMENTED("deceleration_time", SIEMENS_MM4_DECELERATION_TIME, )
-    FIELDSCRIBE_DOCUMENTED_CODE("rs485_control_word_1", SIEMENS_MM4_RS485_CONTROL_WORD_1)
-    FIELDSCRIBE_DOCUMENTED("rs485_control_word_1", SIEMENS_MM4_RS485_CONTROL_WORD_1, )
-    FIELDSCRIBE_DOCUMENTED_CODE("rs485_control_word_2", SIEMENS_MM4_RS485_CONTROL_WORD_2)
-    FIELDSCRIBE_DOCUMENTED("rs485_control_word_2", SIEMENS_MM4_RS485_CONTROL_WORD_2, )
-    FIELDSCRIBE_DOCUMENTED_CODE("secret_password", SIEMENS_MM4_SECRET_PASSWORD)
-    FIELDSCRIBE_DOCUMENTED("secret_password", SIEMENS_MM4_SECRET_PASSWORD, )
-    FIELDSCRIBE_DOCUMENTED_CODE("second_setpoint", SIEMENS_MM4_SECOND_SETPOINT)
-    FIELDSCRIBE_DOCUMENTED("second_setpoint", SIEMENS_MM4_SECOND_SETPOINT, )
-    FIELDSCRIBE_DOCUMENTED_CODE("second_actual_value", SIEMENS_MM4_SECOND_ACTUAL_VALUE)
-    FIELDSCRIBE_DOCUMENTED("second_actual_value", SIEMENS_MM4_SECOND_ACTUAL_VALUE, )
+    FIELDSCRIBE_DOCUMENTED("display_value", "parameter", SIEMENS_MM4_DISPLAY_VALUE, )
+    FIELDSCRIBE_DOCUMENTED("firmware_version", "parameter", SIEMENS_MM4_FIRMWARE_VERSION, )
+    FIELDSCRIBE_DOCUMENTED("output_frequency", "parameter", SIEMENS_MM4_OUTPUT_FREQUENCY, )
+    FIELDSCRIBE_DOCUMENTED("output_current", "parameter", SIEMENS_MM4_OUTPUT_CURRENT, )
+    FIELDSCRIBE_DOCUMENTED("second_control_word_display", "parameter", SIEMENS_MM4_SECOND_CONTROL_WORD_DISPLAY, )
+    FIELDSCRIBE_DOCUMENTED("remote_local_selection_index_0", "parameter", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0,
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_0))
+    FIELDSCRIBE_DOCUMENTED("remote_local_selection_index_1", "parameter", SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1,
+        FIELDSCRIBE_INDEX(SIEMENS_MM4_REMOTE_LOCAL_SELECTION_INDEX_1))
+    FIELDSCRIBE_DOCUMENTED("jog_acceleration_time", "parameter", SIEMENS_MM4_JOG_ACCELERATION_TIME, )
+    FIELDSCRIBE_DOCUMENTED("jog_deceleration_time", "parameter", SIEMENS_MM4_JOG_DECELERATION_TIME, )
+    FIELDSCRIBE_DOCUMENTED("acceleration_time", "parameter", SIEMENS_MM4_ACCELERATION_TIME, )
+    FIELDSCRIBE_DOCUMENTED("deceleration_time", "parameter", SIEMENS_MM4_DECELERATION_TIME, )
+    FIELDSCRIBE_DOCUMENTED("rs485_control_word_1", "parameter", SIEMENS_MM4_RS485_CONTROL_WORD_1, )
+    FIELDSCRIBE_DOCUMENTED("rs485_control_word_2", "parameter", SIEMENS_MM4_RS485_CONTROL_WORD_2, )
+    FIELDSCRIBE_DOCUMENTED("secret_password", "parameter", SIEMENS_MM4_SECRET_PASSWORD, )
+    FIELDSCRIBE_DOCUMENTED("second_setpoint", "telegram", SIEMENS_MM4_SECOND_SETPOINT, )
+    FIELDSCRIBE_DOCUMENTED("second_actual_value", "telegram", SIEMENS_MM4_SECOND_ACTUAL_VALUE, )
     FIELDSCRIBE_LIMIT_OF("words", "task", SIEMENS_MM4_TELEGRAM_TASK_WORDS)
     FIELDSCRIBE_LIMIT_OF("words", "answer", SIEMENS_MM4_TELEGRAM_ANSWER_WORDS)
     FIELDSCRIBE_CODE_NAME("task", siemens_mm4_task_name)
@@ -782,11 +1156,11 @@ int main(int argc, char **argv)
     suite.device = "siemens_mm4";
     suite.version = SIEMENS_MM4_DESCRIPTION_VERSION;
     suite.digest = SIEMENS_MM4_DESCRIPTION_DIGEST;
-    suite.spaces = spaces;
     suite.statuses = statuses;
     suite.adapters = adapters;
     suite.telegrams = telegrams;
     suite.run_code = run_code;
-    suite.profile = &siemens_mm4_uss_profile;
+    suite.run_frame = fieldscribe_run_frame;
+    suite.family = &tables;
     return fieldscribe_run(&suite, argc, argv);
 }

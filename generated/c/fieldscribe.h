@@ -1,0 +1,1699 @@
+/*
+ * SPDX-License-Identifier: 0BSD
+ *
+ * What generated headers of points share: status, limits, scales, rules of several points, names, bits, words, texts.
+ * Each behaviour is here once; <device>.h holds the facts. It needs no heap and no library, and has no state.
+ *
+ * Points need nothing else. Frames also need functions that are defined once in a program: one C file, and no other,
+ * says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames that the program uses.
+ *
+ * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
+ * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
+ * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: without them results are exact to the bit.
+ */
+#ifndef FIELDSCRIBE_H
+#define FIELDSCRIBE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Changes whenever headers that were generated before would no longer fit. */
+#define FIELDSCRIBE_INTERFACE 1
+
+#if !defined(FIELDSCRIBE_NO_FLOAT)
+#include <float.h>
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ != 0))
+#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#endif
+#if (FLT_RADIX != 2) || (FLT_MANT_DIG != 24) || ((DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32))
+#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_FLOAT32 or FIELDSCRIBE_NO_FLOAT."
+#endif
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 is about half floats alone */
+#error "The arithmetic here has excess precision (x87): take -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
+#endif
+#if DBL_MANT_DIG == 53
+#define FIELDSCRIBE_DOUBLE /* a double is a binary64 number */
+#endif
+/* Machines that can multiply and add in one rounding. Of others than x86 and ARM clang does not tell, MSVC never. */
+#if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
+    defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
+    (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
+#define FIELDSCRIBE_MAY_FUSE
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What conversions answer; 0 is what went well. */
+typedef enum fieldscribe_status {
+    FIELDSCRIBE_OK = 0,
+    FIELDSCRIBE_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
+    FIELDSCRIBE_NOT_A_NUMBER,  /* the value is NaN */
+    FIELDSCRIBE_UNKNOWN_VALUE, /* not one of the numbers that have a name */
+    FIELDSCRIBE_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
+    FIELDSCRIBE_NO_CASE,       /* no scale for what the other point holds */
+    FIELDSCRIBE_OVERFLOW,      /* the result does not fit */
+    FIELDSCRIBE_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
+} fieldscribe_status;
+
+/* How a function begins whose result no caller may ignore, and one that answers with a status. */
+#if (defined(__cplusplus) && (__cplusplus >= 201703L)) || \
+    (!defined(__cplusplus) && defined(__STDC_VERSION__) && (__STDC_VERSION__ >= 202311L))
+#define FIELDSCRIBE_CHECKED [[nodiscard]]
+#elif defined(__GNUC__)
+#define FIELDSCRIBE_CHECKED __attribute__((warn_unused_result))
+#else
+#define FIELDSCRIBE_CHECKED
+#endif
+#define FIELDSCRIBE_STATUS FIELDSCRIBE_CHECKED static inline fieldscribe_status
+
+/* How many rows an array has. */
+#define FIELDSCRIBE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* A whole number, if the status is OK; else 0. */
+typedef struct fieldscribe_whole {
+    fieldscribe_status status;
+    int64_t number;
+} fieldscribe_whole;
+
+static inline fieldscribe_whole fieldscribe_whole_of(int64_t number)
+{
+    fieldscribe_whole whole;
+    whole.status = FIELDSCRIBE_OK;
+    whole.number = number;
+    return whole;
+}
+
+static inline fieldscribe_whole fieldscribe_no_whole(fieldscribe_status status)
+{
+    fieldscribe_whole whole;
+    whole.status = status;
+    whole.number = 0;
+    return whole;
+}
+
+/* A number, if it lies within limits. */
+static inline fieldscribe_whole fieldscribe_whole_in(int64_t number, int64_t low, int64_t high)
+{
+    return ((number < low) || (number > high)) ? fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE)
+                                               : fieldscribe_whole_of(number);
+}
+
+/* The first of two that is not OK. */
+FIELDSCRIBE_STATUS fieldscribe_both(fieldscribe_status first, fieldscribe_status second)
+{
+    return (first != FIELDSCRIBE_OK) ? first : second;
+}
+
+/* What lies beyond the numbers of a closed enum is unknown. */
+FIELDSCRIBE_STATUS fieldscribe_known(fieldscribe_status status)
+{
+    return (status == FIELDSCRIBE_OUT_OF_RANGE) ? FIELDSCRIBE_UNKNOWN_VALUE : status;
+}
+
+/* ---- Numbers ---- */
+
+static inline bool fieldscribe_within(int32_t number, int32_t low, int32_t high)
+{
+    return (number >= low) && (number <= high);
+}
+
+static inline bool fieldscribe_within_wide(int64_t number, int64_t low, int64_t high)
+{
+    return (number >= low) && (number <= high);
+}
+
+static inline bool fieldscribe_within_u64(uint64_t number, uint64_t low, uint64_t high)
+{
+    return (number >= low) && (number <= high);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_check(int32_t number, int32_t low, int32_t high)
+{
+    return fieldscribe_within(number, low, high) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_check_wide(int64_t number, int64_t low, int64_t high)
+{
+    return fieldscribe_within_wide(number, low, high) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_check_u64(uint64_t number, uint64_t low, uint64_t high)
+{
+    return fieldscribe_within_u64(number, low, high) ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE;
+}
+
+/* From low to high, both included. */
+typedef struct fieldscribe_range {
+    int32_t low;
+    int32_t high;
+} fieldscribe_range;
+
+/* Whether a number lies in one of the ranges. */
+FIELDSCRIBE_STATUS fieldscribe_check_ranges(int32_t number, const fieldscribe_range *ranges, size_t count)
+{
+    fieldscribe_status status = FIELDSCRIBE_OUT_OF_RANGE;
+    size_t at;
+    for (at = 0U; at < count; ++at) {
+        if (fieldscribe_within(number, ranges[at].low, ranges[at].high)) {
+            status = FIELDSCRIBE_OK;
+        }
+    }
+    return status;
+}
+
+/* The number whose two's complement pattern is in the low bits of `bits`; `sign` is the highest of them. */
+static inline int32_t fieldscribe_signed(uint16_t bits, uint16_t sign)
+{
+    return (int32_t)((uint32_t)bits ^ (uint32_t)sign) - (int32_t)sign;
+}
+
+/* The number with that two's complement pattern. */
+static inline int32_t fieldscribe_signed32(uint32_t bits)
+{
+    return (bits <= (uint32_t)INT32_MAX) ? (int32_t)bits : (-1 - (int32_t)(~bits));
+}
+
+/* The number with that two's complement pattern. */
+static inline int64_t fieldscribe_signed64(uint64_t bits)
+{
+    return (bits <= (uint64_t)INT64_MAX) ? (int64_t)bits : (-1 - (int64_t)(~bits));
+}
+
+/* The size of a number without its sign. */
+static inline uint64_t fieldscribe_magnitude(int64_t number)
+{
+    return (number < 0) ? ((uint64_t)(-(number + 1)) + 1U) : (uint64_t)number;
+}
+
+/* ---- What is stored, where the status is OK ---- */
+
+FIELDSCRIBE_STATUS fieldscribe_keep_bool(fieldscribe_status status, bool number, bool *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_u8(fieldscribe_status status, uint8_t number, uint8_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_s8(fieldscribe_status status, int8_t number, int8_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_u16(fieldscribe_status status, uint16_t number, uint16_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_s16(fieldscribe_status status, int16_t number, int16_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_u32(fieldscribe_status status, uint32_t number, uint32_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_s32(fieldscribe_status status, int32_t number, int32_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_u64(fieldscribe_status status, uint64_t number, uint64_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_s64(fieldscribe_status status, int64_t number, int64_t *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+/* A number within limits. */
+FIELDSCRIBE_STATUS fieldscribe_encode_bool(int32_t number, int32_t low, int32_t high, bool *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number != 0;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_u8(int32_t number, int32_t low, int32_t high, uint8_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint8_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_s8(int32_t number, int32_t low, int32_t high, int8_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int8_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_u16(int32_t number, int32_t low, int32_t high, uint16_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint16_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_s16(int32_t number, int32_t low, int32_t high, int16_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int16_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_u32(int64_t number, int64_t low, int64_t high, uint32_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint32_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_s32(int64_t number, int64_t low, int64_t high, int32_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int32_t)number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_u64(uint64_t number, uint64_t low, uint64_t high, uint64_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_encode_s64(int64_t number, int64_t low, int64_t high, int64_t *raw)
+{
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number;
+    return FIELDSCRIBE_OK;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_u8(fieldscribe_whole whole, uint8_t *to)
+{
+    return fieldscribe_keep_u8(whole.status, (uint8_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_s8(fieldscribe_whole whole, int8_t *to)
+{
+    return fieldscribe_keep_s8(whole.status, (int8_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_u16(fieldscribe_whole whole, uint16_t *to)
+{
+    return fieldscribe_keep_u16(whole.status, (uint16_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_s16(fieldscribe_whole whole, int16_t *to)
+{
+    return fieldscribe_keep_s16(whole.status, (int16_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_u32(fieldscribe_whole whole, uint32_t *to)
+{
+    return fieldscribe_keep_u32(whole.status, (uint32_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_s32(fieldscribe_whole whole, int32_t *to)
+{
+    return fieldscribe_keep_s32(whole.status, (int32_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_u64(fieldscribe_whole whole, uint64_t *to)
+{
+    return fieldscribe_keep_u64(whole.status, (uint64_t)whole.number, to);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_store_s64(fieldscribe_whole whole, int64_t *to)
+{
+    return fieldscribe_keep_s64(whole.status, whole.number, to);
+}
+
+/* ---- Scales in integers ---- */
+
+/* number / 2^bits, rounded down. */
+static inline int32_t fieldscribe_shift(int32_t number, uint32_t bits)
+{
+    return (number < 0) ? (-1 - ((-1 - number) >> bits)) : (number >> bits);
+}
+
+static inline int64_t fieldscribe_shift_wide(int64_t number, uint32_t bits)
+{
+    return (number < 0) ? (-1 - ((-1 - number) >> bits)) : (number >> bits);
+}
+
+/* number / 2^bits to the nearest integer, halves away from zero. */
+static inline int32_t fieldscribe_halves(int32_t number, uint32_t bits)
+{
+    return fieldscribe_shift(number + (int32_t)((uint32_t)1U << (bits - 1U)) - ((number < 0) ? 1 : 0), bits);
+}
+
+static inline int64_t fieldscribe_halves_wide(int64_t number, uint32_t bits)
+{
+    return fieldscribe_shift_wide(number + (int64_t)((uint64_t)1U << (bits - 1U)) - ((number < 0) ? 1 : 0), bits);
+}
+
+/*
+ * number * (much + little / 2^fine) / 2^bits to the nearest integer: a quotient without a division. The compiler proves
+ * for all numbers of a point that this is exact, halves away from zero, and that 32 bits suffice.
+ */
+static inline int32_t fieldscribe_nearly(int32_t number, int32_t much, int32_t little, uint32_t fine, uint32_t bits)
+{
+    const int32_t half = (int32_t)((uint32_t)1U << (bits - 1U));
+    return fieldscribe_shift((number * much) + fieldscribe_shift(number * little, fine) + half, bits);
+}
+
+/* The same in 64 bits. */
+static inline int64_t fieldscribe_nearly_wide(
+    int64_t number, int64_t much, int64_t little, uint32_t fine, uint32_t bits)
+{
+    const int64_t half = (int64_t)((uint64_t)1U << (bits - 1U));
+    return fieldscribe_shift_wide((number * much) + fieldscribe_shift_wide(number * little, fine) + half, bits);
+}
+
+/* The quotient to the nearest integer, halves away from zero; the divisor is above zero. */
+static inline int64_t fieldscribe_divide(int64_t number, int64_t divisor)
+{
+    const int64_t half = divisor / 2;
+    return ((number < 0) ? (number - half) : (number + half)) / divisor;
+}
+
+/* ---- 128 bits ---- */
+
+typedef struct fieldscribe_u128 {
+    uint64_t high;
+    uint64_t low;
+} fieldscribe_u128;
+
+static inline fieldscribe_u128 fieldscribe_product(uint64_t a, uint64_t b)
+{
+    const uint64_t half_word = UINT64_C(0xFFFFFFFF);
+    const uint64_t lowest = (a & half_word) * (b & half_word);
+    const uint64_t cross = ((a >> 32) * (b & half_word)) + (lowest >> 32);
+    const uint64_t middle = ((a & half_word) * (b >> 32)) + (cross & half_word);
+    fieldscribe_u128 product;
+    product.high = ((a >> 32) * (b >> 32)) + (cross >> 32) + (middle >> 32);
+    product.low = ((middle & half_word) << 32) | (lowest & half_word);
+    return product;
+}
+
+/* One bit of a long division: the next bit of the quotient. The divisor is at most 2^63, and the rest is below it. */
+static inline uint64_t fieldscribe_quotient_bit(fieldscribe_u128 *number, uint64_t *rest, uint64_t divisor)
+{
+    uint64_t bit = 0U;
+    *rest = (*rest << 1) | (number->high >> 63);
+    number->high = ((number->high & (uint64_t)INT64_MAX) << 1) | (number->low >> 63);
+    number->low = (number->low & (uint64_t)INT64_MAX) << 1;
+    if (*rest >= divisor) {
+        *rest -= divisor;
+        bit = 1U;
+    }
+    return bit;
+}
+
+/*
+ * Twice a * b / divisor * 2^shift, rounded down, and whether that left something over; false beyond 64 bits.
+ * The divisor is in 1..2^63.
+ */
+static inline bool fieldscribe_twice_ratio(
+    uint64_t a, uint64_t b, uint64_t divisor, int32_t shift, uint64_t *twice, bool *left_over)
+{
+    fieldscribe_u128 number = fieldscribe_product(a, b);
+    uint64_t rest = 0U;
+    uint64_t quotient = 0U;
+    int32_t bit = -129;
+    bool fits = true;
+    if ((number.high == 0U) && (shift >= -65)) { /* 64 bits that are 0 change nothing */
+        number.high = number.low;
+        number.low = 0U;
+        bit = -65;
+    }
+    while (fits && (bit < shift)) {
+        const uint64_t next = fieldscribe_quotient_bit(&number, &rest, divisor);
+        fits = quotient <= (uint64_t)INT64_MAX;
+        quotient = ((quotient & (uint64_t)INT64_MAX) << 1) | next;
+        ++bit;
+    }
+    *twice = quotient;
+    *left_over = (rest | number.high | number.low) != 0U;
+    return fits;
+}
+
+/* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false when that is no int64_t. */
+static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den, int32_t shift, int64_t *result)
+{
+    const bool negative = (number < 0) != ((num < 0) != (den < 0));
+    uint64_t twice = 0U;
+    bool left_over = false;
+    if ((!fieldscribe_twice_ratio(fieldscribe_magnitude(number), fieldscribe_magnitude(num), fieldscribe_magnitude(den),
+            shift, &twice, &left_over)) || (twice >= UINT64_MAX)) {
+        return false;
+    }
+    twice = (twice + 1U) / 2U;
+    if (twice > (uint64_t)INT64_MAX) {
+        return false;
+    }
+    *result = negative ? -(int64_t)twice : (int64_t)twice;
+    return true;
+}
+
+/* a * b; false when that is no int64_t. */
+static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
+{
+    const fieldscribe_u128 size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
+    if ((size.high != 0U) || (size.low > (uint64_t)INT64_MAX)) {
+        return false;
+    }
+    *product = ((a < 0) != (b < 0)) ? -(int64_t)size.low : (int64_t)size.low;
+    return true;
+}
+
+/* a + b; false when that is no int64_t. */
+static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
+{
+    uint64_t size;
+    if ((a >= 0) && (b >= 0)) {
+        size = (uint64_t)a + (uint64_t)b;
+        *sum = (size <= (uint64_t)INT64_MAX) ? (int64_t)size : 0;
+        return size <= (uint64_t)INT64_MAX;
+    }
+    if ((a < 0) && (b < 0)) {
+        size = (uint64_t)(-1 - a) + (uint64_t)(-1 - b);
+        *sum = (size < (uint64_t)INT64_MAX) ? (-2 - (int64_t)size) : 0;
+        return size < (uint64_t)INT64_MAX;
+    }
+    *sum = a + b;
+    return true;
+}
+
+/* ---- Rules: scales and limits whose factors other points hold ---- */
+
+/* raw = value * num / den * 2^shift + offset / parts, where the status is OK. */
+typedef struct fieldscribe_rule {
+    fieldscribe_status status;
+    int32_t shift;
+    int64_t num;
+    int64_t den;
+    int64_t offset;
+    int64_t parts;
+} fieldscribe_rule;
+
+static inline fieldscribe_rule fieldscribe_rule_of(int64_t num, int64_t den, int64_t offset, int64_t parts)
+{
+    fieldscribe_rule rule;
+    rule.status = FIELDSCRIBE_OK;
+    rule.shift = 0;
+    rule.num = num;
+    rule.den = den;
+    rule.offset = offset;
+    rule.parts = parts;
+    return rule;
+}
+
+/* A rule that cannot be used, and why: what fails first counts. */
+static inline fieldscribe_rule fieldscribe_rule_fails(fieldscribe_rule rule, fieldscribe_status status)
+{
+    rule.status = fieldscribe_both(rule.status, status);
+    return rule;
+}
+
+/* No rule for what the other point holds. */
+static inline fieldscribe_rule fieldscribe_no_rule(fieldscribe_status status)
+{
+    return fieldscribe_rule_fails(fieldscribe_rule_of(1, 1, 0, 1), status);
+}
+
+/* A rule that can be used only if something fits; else it overflows. */
+static inline fieldscribe_rule fieldscribe_rule_if(fieldscribe_rule rule, bool fits)
+{
+    return fieldscribe_rule_fails(rule, fits ? FIELDSCRIBE_OK : FIELDSCRIBE_OVERFLOW);
+}
+
+/* A number that a rule can be used with lies within limits. */
+static inline fieldscribe_rule fieldscribe_rule_within(fieldscribe_rule rule, int64_t number, int64_t low, int64_t high)
+{
+    return fieldscribe_rule_if(rule, fieldscribe_within_wide(number, low, high));
+}
+
+/* A factor of a limit, which may be zero. */
+static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, int64_t factor)
+{
+    const bool fits = fieldscribe_multiply(rule.num, factor, &rule.num);
+    return fieldscribe_rule_if(rule, fits);
+}
+
+/* A factor of a scale. */
+static inline fieldscribe_rule fieldscribe_rule_times(fieldscribe_rule rule, int64_t factor)
+{
+    const fieldscribe_status status = (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK;
+    return fieldscribe_rule_scaled(fieldscribe_rule_fails(rule, status), factor);
+}
+
+/* A factor that divides. */
+static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int64_t factor)
+{
+    fieldscribe_rule divided = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
+    const bool fits = fieldscribe_multiply(rule.den, factor, &divided.den);
+    return fieldscribe_rule_if(divided, fits);
+}
+
+/* Ten to the power of an exponent. */
+static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, int64_t exponent)
+{
+    int64_t *const grows = (exponent < 0) ? &rule.den : &rule.num;
+    uint64_t left = fieldscribe_magnitude(exponent);
+    while ((left > 0U) && (rule.status == FIELDSCRIBE_OK)) {
+        if (!fieldscribe_multiply(*grows, 10, grows)) {
+            rule.status = FIELDSCRIBE_OVERFLOW;
+        }
+        --left;
+    }
+    return rule;
+}
+
+/* The number of a binary32 pattern: its mantissa and a power of two; zero, infinity and NaN are no factors. */
+static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint32_t bits, bool divides)
+{
+    const uint32_t power = (bits >> 23) & 0xFFU;
+    const uint32_t fraction = bits & 0x7FFFFFU;
+    const int64_t size = (int64_t)((power != 0U) ? (fraction | 0x800000U) : fraction);
+    const int64_t mantissa = (bits > 0x7FFFFFFFU) ? -size : size;
+    const int32_t exponent = (int32_t)((power != 0U) ? power : 1U) - 150;
+    const int64_t factor = (power == 0xFFU) ? 0 : mantissa;
+    rule.shift += divides ? -exponent : exponent;
+    return divides ? fieldscribe_rule_over(rule, factor) : fieldscribe_rule_times(rule, factor);
+}
+
+/*
+ * count * num / den * 2^shift + offset / parts to the nearest integer, rounded once; false far beyond all raw numbers.
+ * Twice the number of parts is known but for what a division leaves over.
+ */
+static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t den, int64_t *raw)
+{
+    const bool negative = (count < 0) != ((rule->num < 0) != (den < 0));
+    uint64_t twice = 0U;
+    bool left_over = false;
+    int64_t parts = 0;
+    int64_t num = 0;
+    int64_t sum = 0;
+    if ((!fieldscribe_multiply(rule->num, rule->parts, &num)) ||
+        (!fieldscribe_twice_ratio(fieldscribe_magnitude(count), fieldscribe_magnitude(num), fieldscribe_magnitude(den),
+            rule->shift, &twice, &left_over)) ||
+        (twice > (uint64_t)INT64_MAX) || (!fieldscribe_multiply(rule->offset, 2, &sum)) ||
+        (!fieldscribe_add(sum, negative ? -(int64_t)twice : (int64_t)twice, &sum))) {
+        return false;
+    }
+    /* what is left over lies beyond the sum where both have one sign; else the size is a little less */
+    if (left_over && (sum != 0) && ((sum < 0) != negative)) {
+        sum += (sum < 0) ? 1 : -1;
+    }
+    return fieldscribe_multiply(rule->parts, 2, &parts) && fieldscribe_ratio_of(sum, 1, parts, 0, raw);
+}
+
+/* The raw number of `count`, where `tens` counts are one unit; false when it does not fit. */
+static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
+{
+    int64_t den = 0;
+    if (!fieldscribe_multiply(rule->den, tens, &den)) {
+        return false;
+    }
+    return (rule->offset == 0) ? fieldscribe_ratio_of(count, rule->num, den, rule->shift, raw)
+                               : fieldscribe_lifted(rule, count, den, raw);
+}
+
+/* The raw number of a count, if it lies in low..high. */
+static inline fieldscribe_whole fieldscribe_ruled_count(
+    fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
+{
+    int64_t raw = 0;
+    if (rule.status != FIELDSCRIBE_OK) {
+        return fieldscribe_no_whole(rule.status);
+    }
+    return fieldscribe_apply_rule(&rule, count, tens, &raw) ? fieldscribe_whole_in(raw, low, high)
+                                                            : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
+}
+
+/* The count of a raw number. */
+FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, int64_t tens, int64_t *count)
+{
+    fieldscribe_whole whole = fieldscribe_no_whole(rule.status);
+    int64_t number = 0;
+    int64_t num = 0;
+    int64_t den = 0;
+    if ((whole.status == FIELDSCRIBE_OK) &&
+        ((!fieldscribe_multiply(raw, rule.parts, &number)) || (!fieldscribe_add(number, -rule.offset, &number)) ||
+            (!fieldscribe_multiply(rule.den, tens, &den)) || (!fieldscribe_multiply(rule.num, rule.parts, &num)) ||
+            (!fieldscribe_ratio_of(number, den, num, -rule.shift, &whole.number)))) {
+        whole.status = FIELDSCRIBE_OVERFLOW;
+    }
+    return fieldscribe_store_s64(whole, count);
+}
+
+/* A limit that other points set. */
+static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
+{
+    fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
+    if ((limit.status == FIELDSCRIBE_OK) && (!fieldscribe_apply_rule(&rule, 1, 1, &limit.number))) {
+        limit.status = FIELDSCRIBE_OVERFLOW;
+    }
+    return limit;
+}
+
+/* The same with a factor that is a floating-point number: a limit that does not fit lies beyond every raw number. */
+static inline fieldscribe_whole fieldscribe_limit_f32(fieldscribe_rule rule)
+{
+    fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
+    if ((limit.status == FIELDSCRIBE_OK) && (!fieldscribe_apply_rule(&rule, 1, 1, &limit.number))) {
+        limit.number = ((rule.num < 0) != (rule.den < 0)) ? INT64_MIN : INT64_MAX;
+    }
+    return limit;
+}
+
+/* A limit that is a quotient, to the nearest integer; the divisor is not negative. */
+static inline fieldscribe_whole fieldscribe_limit_ratio(int64_t number, int64_t divisor)
+{
+    return (divisor == 0) ? fieldscribe_no_whole(FIELDSCRIBE_ZERO_FACTOR)
+                          : fieldscribe_whole_of(fieldscribe_divide(number, divisor));
+}
+
+/* A limit, but no less than that. */
+static inline fieldscribe_whole fieldscribe_no_less(fieldscribe_whole limit, int64_t least)
+{
+    limit.number = (limit.number < least) ? least : limit.number;
+    return limit;
+}
+
+/* A limit, but no more than that. */
+static inline fieldscribe_whole fieldscribe_no_more(fieldscribe_whole limit, int64_t most)
+{
+    limit.number = (limit.number > most) ? most : limit.number;
+    return limit;
+}
+
+/* Whether a number lies between two limits. */
+FIELDSCRIBE_STATUS fieldscribe_between(int64_t number, fieldscribe_whole low, fieldscribe_whole high)
+{
+    return fieldscribe_both(
+        fieldscribe_both(low.status, high.status), fieldscribe_check_wide(number, low.number, high.number));
+}
+
+/* Whether one of two checks allows a number; a limit that could not be computed is told first. */
+FIELDSCRIBE_STATUS fieldscribe_either(fieldscribe_status one, fieldscribe_status other)
+{
+    fieldscribe_status status = ((one == FIELDSCRIBE_OK) || (other == FIELDSCRIBE_OK)) ? FIELDSCRIBE_OK : one;
+    if ((other != FIELDSCRIBE_OK) && (other != FIELDSCRIBE_OUT_OF_RANGE)) {
+        status = other;
+    }
+    if ((one != FIELDSCRIBE_OK) && (one != FIELDSCRIBE_OUT_OF_RANGE)) {
+        status = one;
+    }
+    return status;
+}
+
+/* ---- Names ---- */
+
+/* A number and its name. */
+typedef struct fieldscribe_name {
+    int32_t number;
+    const char *name;
+} fieldscribe_name;
+
+/* The same for numbers that may need 64 bits, by their two's complement pattern. */
+typedef struct fieldscribe_wide_name {
+    uint64_t bits;
+    const char *name;
+} fieldscribe_wide_name;
+
+/* The name at that place of those that count from 0; NULL when it has none. */
+static inline const char *fieldscribe_name_at(const char *const *names, size_t count, int64_t number)
+{
+    return ((number >= 0) && ((uint64_t)number < count)) ? names[(size_t)number] : NULL;
+}
+
+#define FIELDSCRIBE_NAME_AT(names, number) fieldscribe_name_at((names), FIELDSCRIBE_COUNT(names), (number))
+
+/* The name of a number; NULL when it has none. */
+static inline const char *fieldscribe_name_of(const fieldscribe_name *names, size_t count, int64_t number)
+{
+    const char *name = NULL;
+    size_t at;
+    for (at = 0U; (at < count) && (name == NULL); ++at) {
+        name = (names[at].number == number) ? names[at].name : NULL;
+    }
+    return name;
+}
+
+static inline const char *fieldscribe_wide_name_of(const fieldscribe_wide_name *names, size_t count, uint64_t bits)
+{
+    const char *name = NULL;
+    size_t at;
+    for (at = 0U; (at < count) && (name == NULL); ++at) {
+        name = (names[at].bits == bits) ? names[at].name : NULL;
+    }
+    return name;
+}
+
+/* ---- Bits, words, digits, texts ---- */
+
+/* The bits of a mask, right-aligned. */
+static inline uint16_t fieldscribe_extract(uint16_t word, uint16_t mask, uint32_t shift)
+{
+    return (uint16_t)(((uint32_t)word & mask) >> shift);
+}
+
+static inline uint64_t fieldscribe_extract_wide(uint64_t raw, uint64_t mask, uint32_t shift)
+{
+    return (raw & mask) >> shift;
+}
+
+/* A word with those bits replaced. */
+static inline uint16_t fieldscribe_insert(uint16_t word, uint16_t mask, uint32_t shift, uint16_t bits)
+{
+    return (uint16_t)(((uint32_t)word & ~(uint32_t)mask) | (((uint32_t)bits << shift) & mask));
+}
+
+/* A word with its constant bits. */
+static inline uint16_t fieldscribe_fix(uint16_t word, uint16_t mask, uint16_t bits)
+{
+    return (uint16_t)(((uint32_t)word & ~(uint32_t)mask) | bits);
+}
+
+static inline uint32_t fieldscribe_fix32(uint32_t raw, uint32_t mask, uint32_t bits)
+{
+    return (raw & ~mask) | bits;
+}
+
+static inline uint64_t fieldscribe_fix64(uint64_t raw, uint64_t mask, uint64_t bits)
+{
+    return (raw & ~mask) | bits;
+}
+
+/* Words to numbers and back, the highest word first. */
+static inline uint32_t fieldscribe_join32(uint16_t high, uint16_t low)
+{
+    return ((uint32_t)high << 16) | low;
+}
+
+static inline uint64_t fieldscribe_join64(uint16_t first, uint16_t second, uint16_t third, uint16_t last)
+{
+    return ((uint64_t)fieldscribe_join32(first, second) << 32) | fieldscribe_join32(third, last);
+}
+
+static inline void fieldscribe_split32(uint32_t bits, uint16_t *high, uint16_t *low)
+{
+    *high = (uint16_t)(bits >> 16);
+    *low = (uint16_t)(bits & 0xFFFFU);
+}
+
+static inline void fieldscribe_split64(
+    uint64_t bits, uint16_t *first, uint16_t *second, uint16_t *third, uint16_t *last)
+{
+    fieldscribe_split32((uint32_t)(bits >> 32), first, second);
+    fieldscribe_split32((uint32_t)(bits & 0xFFFFFFFFU), third, last);
+}
+
+/* The decimal digits of a word: the highest comes first, and takes all that is left. */
+static inline void fieldscribe_digits_of(uint16_t raw, uint16_t *digits, size_t count)
+{
+    uint16_t rest = raw;
+    size_t at;
+    for (at = count; at > 1U; --at) {
+        digits[at - 1U] = (uint16_t)(rest % 10U);
+        rest = (uint16_t)(rest / 10U);
+    }
+    digits[0] = rest;
+}
+
+/* The same where the raw number may be a special code, which has no digits. */
+FIELDSCRIBE_STATUS fieldscribe_quantity_digits(bool special, uint16_t raw, uint16_t *digits, size_t count)
+{
+    if (special) {
+        return FIELDSCRIBE_SPECIAL;
+    }
+    fieldscribe_digits_of(raw, digits, count);
+    return FIELDSCRIBE_OK;
+}
+
+/* Whether each digit of a word has a name. */
+FIELDSCRIBE_STATUS fieldscribe_check_digits(uint16_t raw, size_t count, const fieldscribe_name *names, size_t known)
+{
+    fieldscribe_status status = FIELDSCRIBE_OK;
+    uint16_t rest = raw;
+    size_t at;
+    for (at = count; at > 0U; --at) {
+        const uint16_t digit = (uint16_t)((at > 1U) ? (rest % 10U) : rest);
+        if (fieldscribe_name_of(names, known, (int64_t)digit) == NULL) {
+            status = FIELDSCRIBE_UNKNOWN_VALUE;
+        }
+        rest = (uint16_t)(rest / 10U);
+    }
+    return status;
+}
+
+/* The word of digits that each have a name. */
+static inline fieldscribe_whole fieldscribe_number_of_digits(
+    const uint16_t *digits, size_t count, const fieldscribe_name *names, size_t known)
+{
+    uint32_t number = 0U;
+    size_t at;
+    for (at = 0U; at < count; ++at) {
+        if (fieldscribe_name_of(names, known, (int64_t)digits[at]) == NULL) {
+            return fieldscribe_no_whole(FIELDSCRIBE_UNKNOWN_VALUE);
+        }
+        number = (number * 10U) + digits[at];
+        if (number > 0xFFFFU) {
+            return fieldscribe_no_whole(FIELDSCRIBE_UNKNOWN_VALUE);
+        }
+    }
+    return fieldscribe_whole_of((int64_t)number);
+}
+
+/* A character is printable ASCII, or (where `latin`) ISO 8859-1. */
+static inline bool fieldscribe_is_printable(unsigned char code, bool latin)
+{
+    return (code >= 0x20U) && ((code <= 0x7EU) || (latin && (code >= 0xA0U)));
+}
+
+/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
+FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bool latin, uint16_t *words, size_t count)
+{
+    const unsigned char *const codes = (const unsigned char *)text;
+    size_t at;
+    if (length > (2U * count)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    for (at = 0U; at < length; ++at) {
+        if (!fieldscribe_is_printable(codes[at], latin)) {
+            return FIELDSCRIBE_OUT_OF_RANGE;
+        }
+    }
+    for (at = 0U; at < count; ++at) {
+        const unsigned char high = ((2U * at) < length) ? codes[2U * at] : (unsigned char)0x20U;
+        const size_t next = (2U * at) + 1U;
+        const unsigned char low = (next < length) ? codes[next] : (unsigned char)0x20U;
+        words[at] = (uint16_t)(((uint32_t)high << 8) | low);
+    }
+    return FIELDSCRIBE_OK;
+}
+
+/* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
+static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t count, char *text)
+{
+    unsigned char *const codes = (unsigned char *)text;
+    size_t length = 2U * count;
+    size_t at;
+    for (at = 0U; at < count; ++at) {
+        codes[2U * at] = (unsigned char)(words[at] >> 8);
+        codes[(2U * at) + 1U] = (unsigned char)(words[at] & 0xFFU);
+    }
+    while ((length > 0U) && (text[length - 1U] == ' ')) {
+        --length;
+    }
+    text[length] = '\0';
+    return length;
+}
+
+/* ---- Floating-point patterns ---- */
+
+/* Bit patterns in the order of their numbers: those of negative numbers count down from 0. */
+static inline int32_t fieldscribe_f32_order(uint32_t bits)
+{
+    const int32_t size = (int32_t)(bits & 0x7FFFFFFFU);
+    return (bits > 0x7FFFFFFFU) ? -size : size;
+}
+
+static inline int64_t fieldscribe_f64_order(uint64_t bits)
+{
+    const int64_t size = (int64_t)(bits & (uint64_t)INT64_MAX);
+    return (bits > (uint64_t)INT64_MAX) ? -size : size;
+}
+
+/* Whether a pattern lies between two places of that order. */
+FIELDSCRIBE_STATUS fieldscribe_check_f32(uint32_t bits, int32_t low, int32_t high)
+{
+    const int32_t order = fieldscribe_f32_order(bits);
+    const bool number = fieldscribe_within(order, -0x7F800000, 0x7F800000);
+    return number ? fieldscribe_check(order, low, high) : FIELDSCRIBE_NOT_A_NUMBER;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_check_f64(uint64_t bits, int64_t low, int64_t high)
+{
+    const int64_t infinity = INT64_C(0x7FF0000000000000);
+    const int64_t order = fieldscribe_f64_order(bits);
+    const bool number = fieldscribe_within_wide(order, -infinity, infinity);
+    return number ? fieldscribe_check_wide(order, low, high) : FIELDSCRIBE_NOT_A_NUMBER;
+}
+
+#if !defined(FIELDSCRIBE_NO_FLOAT)
+
+/* ---- Values in floating point ---- */
+
+#if defined(FIELDSCRIBE_FLOAT32)
+typedef float fieldscribe_real;
+#else
+typedef double fieldscribe_real;
+#endif
+
+/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
+static inline fieldscribe_real fieldscribe_times(fieldscribe_real value, fieldscribe_real factor)
+{
+#if defined(FIELDSCRIBE_MAY_FUSE)
+    volatile fieldscribe_real product = value * factor;
+    return product;
+#else
+    return value * factor;
+#endif
+}
+
+/* The quotient of two integers that a fieldscribe_real holds. */
+static inline fieldscribe_real fieldscribe_ratio(int32_t number, int32_t divisor)
+{
+    return (fieldscribe_real)number / (fieldscribe_real)divisor;
+}
+
+/* Why a value is not inside of limits. */
+FIELDSCRIBE_STATUS fieldscribe_real_outside(fieldscribe_real value)
+{
+    return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_real(fieldscribe_status status, fieldscribe_real number, fieldscribe_real *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+/* The nearest integer, halves away from zero, if it lies in low..high (which stay below 2^31 - 1 in size). */
+FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32_t high, int32_t *whole)
+{
+    int32_t nearest;
+    fieldscribe_real rest;
+    if (!((number > (fieldscribe_real)(low - 1)) && (number < (fieldscribe_real)(high + 1)))) {
+        return fieldscribe_real_outside(number);
+    }
+    nearest = (int32_t)number;
+    rest = number - (fieldscribe_real)nearest;
+    if (rest >= (fieldscribe_real)0.5) {
+        ++nearest;
+    } else if (rest <= (fieldscribe_real)-0.5) {
+        --nearest;
+    } else {
+        /* nearest already */
+    }
+    return fieldscribe_encode_s32(nearest, low, high, whole);
+}
+
+/* The same, for what is looked at before it is stored. */
+static inline fieldscribe_whole fieldscribe_rounded(fieldscribe_real number, int32_t low, int32_t high)
+{
+    int32_t nearest = 0;
+    const fieldscribe_status status = fieldscribe_round(number, low, high, &nearest);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_whole_of(nearest) : fieldscribe_no_whole(status);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_u8(fieldscribe_real number, int32_t low, int32_t high, uint8_t *raw)
+{
+    int32_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u8(whole, low, high, raw) : status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_u8(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint8_t *raw)
+{
+    return fieldscribe_round_u8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_s8(fieldscribe_real number, int32_t low, int32_t high, int8_t *raw)
+{
+    int32_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s8(whole, low, high, raw) : status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_s8(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int8_t *raw)
+{
+    return fieldscribe_round_s8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, int32_t high, uint16_t *raw)
+{
+    int32_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u16(whole, low, high, raw) : status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_u16(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint16_t *raw)
+{
+    return fieldscribe_round_u16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_round_s16(fieldscribe_real number, int32_t low, int32_t high, int16_t *raw)
+{
+    int32_t whole = 0;
+    const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s16(whole, low, high, raw) : status;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_s16(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int16_t *raw)
+{
+    return fieldscribe_round_s16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
+/* A pattern is neither a conversion nor an alias: its bytes are copied. */
+static inline void fieldscribe_copy(void *to, const void *from, size_t size)
+{
+#if defined(__GNUC__)
+    __builtin_memcpy(to, from, size);
+#else
+    size_t at;
+    for (at = 0U; at < size; ++at) {
+        ((unsigned char *)to)[at] = ((const unsigned char *)from)[at];
+    }
+#endif
+}
+
+/* The number with that IEEE 754 bit pattern. */
+static inline fieldscribe_real fieldscribe_f32_of_bits(uint32_t bits)
+{
+    float number = 0;
+    fieldscribe_copy(&number, &bits, sizeof number);
+    return (fieldscribe_real)number;
+}
+
+/* The bit pattern of the nearest float, ties to even. */
+static inline fieldscribe_whole fieldscribe_bits_of_f32(fieldscribe_real number)
+{
+    float narrow;
+    uint32_t pattern = 0U;
+#if defined(FIELDSCRIBE_FLOAT32)
+    const float over = 3.4028234663852886e+38F; /* the largest float */
+    const bool fits = (number >= -over) && (number <= over);
+#else
+    const double over = 3.4028235677973366e+38; /* from here on a double rounds to infinity */
+    const bool fits = (number > -over) && (number < over);
+#endif
+    if (!fits) {
+        return fieldscribe_no_whole(fieldscribe_real_outside(number));
+    }
+    narrow = (float)number;
+    fieldscribe_copy(&pattern, &narrow, sizeof pattern);
+    return fieldscribe_whole_of((int64_t)pattern);
+}
+
+#if defined(FIELDSCRIBE_DOUBLE)
+
+static inline double fieldscribe_times_wide(double value, double factor)
+{
+#if defined(FIELDSCRIBE_MAY_FUSE)
+    volatile double product = value * factor;
+    return product;
+#else
+    return value * factor;
+#endif
+}
+
+/* The quotient of two integers that a double holds. */
+static inline double fieldscribe_ratio_wide(int64_t number, int64_t divisor)
+{
+    return (double)number / (double)divisor;
+}
+
+/* Why a value is not inside of limits. */
+FIELDSCRIBE_STATUS fieldscribe_double_outside(double value)
+{
+    return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
+}
+
+FIELDSCRIBE_STATUS fieldscribe_keep_double(fieldscribe_status status, double number, double *to)
+{
+    if (status == FIELDSCRIBE_OK) {
+        *to = number;
+    }
+    return status;
+}
+
+/* The nearest integer, halves away from zero, if it lies in low..high. */
+static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t low, int64_t high)
+{
+    int64_t nearest;
+    double rest;
+    if (!((number >= -9223372036854775808.0) && (number < 9223372036854775808.0))) {
+        return fieldscribe_no_whole(fieldscribe_double_outside(number));
+    }
+    nearest = (int64_t)number;
+    rest = number - (double)nearest; /* 0 from 2^53 on */
+    if ((rest >= 0.5) && (nearest < INT64_MAX)) {
+        ++nearest;
+    } else if ((rest <= -0.5) && (nearest > INT64_MIN)) {
+        --nearest;
+    } else {
+        /* nearest already */
+    }
+    return fieldscribe_whole_in(nearest, low, high);
+}
+
+/* The number with that IEEE 754 bit pattern. */
+static inline double fieldscribe_f64_of_bits(uint64_t bits)
+{
+    double number = 0;
+    fieldscribe_copy(&number, &bits, sizeof number);
+    return number;
+}
+
+/* The bit pattern of a double. */
+static inline fieldscribe_whole fieldscribe_bits_of_f64(double number)
+{
+    uint64_t pattern = 0U;
+    if (!((number >= -1.7976931348623157e+308) && (number <= 1.7976931348623157e+308))) {
+        return fieldscribe_no_whole(fieldscribe_double_outside(number));
+    }
+    fieldscribe_copy(&pattern, &number, sizeof pattern);
+    return fieldscribe_whole_of(fieldscribe_signed64(pattern));
+}
+
+/* Two to the power of an exponent of -1022..1023. */
+static inline double fieldscribe_two_to(int32_t exponent)
+{
+    return fieldscribe_f64_of_bits((uint64_t)((uint32_t)(1023 + exponent)) << 52);
+}
+
+/* A sum of two numbers of 128 bits and 63 bits, each with its sign: its size, and whether it is negative. */
+static inline fieldscribe_u128 fieldscribe_sum(fieldscribe_u128 number, uint64_t add, bool apart, bool *negative)
+{
+    if (!apart) {
+        number.high += (number.low > (UINT64_MAX - add)) ? 1U : 0U;
+        number.low = (number.low > (UINT64_MAX - add)) ? (add - (UINT64_MAX - number.low) - 1U) : (number.low + add);
+    } else if ((number.high == 0U) && (number.low < add)) {
+        number.low = add - number.low;
+        *negative = !*negative;
+    } else {
+        number.high -= (number.low < add) ? 1U : 0U;
+        number.low = (number.low < add) ? (UINT64_MAX - (add - number.low) + 1U) : (number.low - add);
+    }
+    return number;
+}
+
+/* The number divided to the nearest double, ties to even; the divisor is below 2^63. */
+static inline double fieldscribe_long_quotient(fieldscribe_u128 number, uint64_t divisor)
+{
+    const uint64_t exact = UINT64_C(1) << 53;
+    uint64_t rest = 0U;
+    uint64_t quotient = 0U;
+    uint64_t tail;
+    int32_t left;
+    double value;
+    /* bit by bit until there are 55 of them: two more than a double has, and what is left over */
+    for (left = 128; (quotient < (exact * 2U)) && (left > -128); --left) {
+        quotient = (quotient << 1) | fieldscribe_quotient_bit(&number, &rest, divisor);
+    }
+    tail = quotient & 3U;
+    quotient >>= 2;
+    if ((tail == 3U) || ((tail == 2U) && (((rest | number.high | number.low) != 0U) || ((quotient & 1U) != 0U)))) {
+        ++quotient;
+    }
+    value = (double)quotient;
+    for (left += 2; left > 0; --left) {
+        value *= 2;
+    }
+    for (; left < 0; ++left) {
+        value *= 0.5;
+    }
+    return value;
+}
+
+/*
+ * (size * factor + add) / divisor to the nearest double, each part with its sign: for numerators that no double holds.
+ * Factor, addend and divisor are below 2^63.
+ */
+static inline double fieldscribe_quotient(
+    bool negative, uint64_t size, uint64_t factor, bool subtracts, uint64_t add, uint64_t divisor)
+{
+    const uint64_t exact = UINT64_C(1) << 53;
+    bool below = negative;
+    const fieldscribe_u128 number =
+        fieldscribe_sum(fieldscribe_product(size, factor), add, negative != subtracts, &below);
+    double value;
+    if ((number.high | number.low) == 0U) {
+        return 0;
+    }
+    if ((number.high == 0U) && (number.low <= exact) && (divisor <= exact)) {
+        value = (double)number.low / (double)divisor;
+    } else {
+        value = fieldscribe_long_quotient(number, divisor);
+    }
+    return below ? -value : value;
+}
+
+/* The raw number of a value by a rule, if it lies in low..high. */
+static inline fieldscribe_whole fieldscribe_ruled_value(fieldscribe_rule rule, double value, int64_t low, int64_t high)
+{
+    double number;
+    if (!((value < 0) || (value >= 0))) {
+        return fieldscribe_no_whole(FIELDSCRIBE_NOT_A_NUMBER);
+    }
+    if (rule.status != FIELDSCRIBE_OK) {
+        return fieldscribe_no_whole(rule.status);
+    }
+    number = fieldscribe_times_wide(value, (double)rule.num) / (double)rule.den;
+    if (rule.shift != 0) {
+        number *= fieldscribe_two_to(rule.shift); /* exact */
+    }
+    if (rule.offset != 0) {
+        number += (double)rule.offset / (double)rule.parts;
+    }
+    return fieldscribe_rounded_wide(number, low, high);
+}
+
+/* The value of a raw number by a rule: one division of two exact integers gives the nearest double. */
+FIELDSCRIBE_STATUS fieldscribe_decode_value(fieldscribe_rule rule, int64_t raw, double *value)
+{
+    int64_t number = 0;
+    int64_t num = 0;
+    if ((rule.status == FIELDSCRIBE_OK) &&
+        ((!fieldscribe_multiply(raw, rule.parts, &number)) || (!fieldscribe_add(number, -rule.offset, &number)) ||
+            (!fieldscribe_multiply(number, rule.den, &number)) ||
+            (!fieldscribe_multiply(rule.num, rule.parts, &num)))) {
+        rule.status = FIELDSCRIBE_OVERFLOW;
+    }
+    if (rule.status == FIELDSCRIBE_OK) {
+        *value = (number == 0) ? 0.0 : ((double)number / (double)num); /* 0 has no sign */
+        *value *= fieldscribe_two_to(-rule.shift); /* exact */
+    }
+    return rule.status;
+}
+
+/* The same by a division of 128 bits, for numerators that no double holds; the raw number is its sign and its size. */
+FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative, uint64_t size, double *value)
+{
+    const bool turned = (rule.num < 0) != (rule.den < 0);
+    int64_t num = 0;
+    int64_t den = 0;
+    int64_t lift = 0;
+    if ((rule.status == FIELDSCRIBE_OK) &&
+        ((!fieldscribe_multiply(rule.num, rule.parts, &num)) || (!fieldscribe_multiply(rule.den, rule.parts, &den)) ||
+            (!fieldscribe_multiply(rule.offset, rule.den, &lift)))) {
+        rule.status = FIELDSCRIBE_OVERFLOW;
+    }
+    if (rule.status == FIELDSCRIBE_OK) {
+        *value = fieldscribe_quotient(negative != turned, size, fieldscribe_magnitude(den), (rule.offset > 0) != turned,
+            fieldscribe_magnitude(lift), fieldscribe_magnitude(num));
+        *value *= fieldscribe_two_to(-rule.shift); /* exact */
+    }
+    return rule.status;
+}
+
+#endif
+#endif
+
+/* ---- Raw numbers in words ---- */
+
+/* The C type of a raw number; the pattern of a floating-point number is U32 or U64. */
+typedef enum fieldscribe_type {
+    FIELDSCRIBE_BIT,
+    FIELDSCRIBE_U8,
+    FIELDSCRIBE_S8,
+    FIELDSCRIBE_U16,
+    FIELDSCRIBE_S16,
+    FIELDSCRIBE_U32,
+    FIELDSCRIBE_S32,
+    FIELDSCRIBE_U64,
+    FIELDSCRIBE_S64
+} fieldscribe_type;
+
+/* How a raw number lies in words. */
+typedef struct fieldscribe_layout {
+    uint8_t type;        /* a fieldscribe_type */
+    uint8_t words;       /* 1, 2 or 4 */
+    uint16_t order;      /* a hexadecimal digit a word, the high word first: its place (0x01: high word first) */
+    bool shares;         /* the other bits of its word are other points: they go back as they were read */
+    uint8_t shift;       /* its lowest bit in the word */
+    uint64_t mask;       /* its bits in the words */
+    uint64_t fixed_mask; /* bits that are always written as... */
+    uint64_t fixed_bits; /* ...these */
+} fieldscribe_layout;
+
+/*
+ * The raw number out of words. False, and nothing stored, when the point's raw number has another type: a call that
+ * is right once is always right.
+ */
+FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(const fieldscribe_layout *layout, const uint16_t *words, bool *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words, uint8_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s8(const fieldscribe_layout *layout, const uint16_t *words, int8_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *words, uint16_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s16(const fieldscribe_layout *layout, const uint16_t *words, int16_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *words, uint32_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s32(const fieldscribe_layout *layout, const uint16_t *words, int32_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *words, uint64_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, int64_t *raw);
+
+/*
+ * The raw number into words. A point that shares its word changes its own bits alone: words[0] must hold the word as
+ * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point.
+ */
+FIELDSCRIBE_CHECKED bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u8(const fieldscribe_layout *layout, uint8_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s8(const fieldscribe_layout *layout, int8_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u16(const fieldscribe_layout *layout, uint16_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s16(const fieldscribe_layout *layout, int16_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u32(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words);
+
+/* A text: where each of its words is, in the order of reading. */
+typedef struct fieldscribe_text {
+    const uint16_t *addresses;
+    uint16_t first; /* the lowest of them */
+    uint16_t words;
+} fieldscribe_text;
+
+/* Words in the order of their addresses, as frames carry them, into the order of reading, and back. */
+void fieldscribe_take_text(const fieldscribe_text *text, const uint16_t *words, uint16_t *reading);
+void fieldscribe_put_text(const fieldscribe_text *text, const uint16_t *reading, uint16_t *words);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+/* ---- The one definition ---- */
+
+#if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_IMPLEMENTED)
+#define FIELDSCRIBE_IMPLEMENTED
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where a word stands; `significance` counts from the low word. */
+static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
+{
+    return ((size_t)layout->order >> (4U * significance)) & 0xFU;
+}
+
+/* The low 32 bits of the words, one number. */
+static uint32_t fieldscribe_layout_joined(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    uint32_t number = 0U;
+    uint8_t left;
+    for (left = layout->words; left > 0U; --left) {
+        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+    }
+    return number;
+}
+
+/* All bits of the words. */
+static uint64_t fieldscribe_layout_joined_wide(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    uint64_t number = 0U;
+    uint8_t left;
+    for (left = layout->words; left > 0U; --left) {
+        number = (number << 16) | words[fieldscribe_layout_place(layout, (uint8_t)(left - 1U))];
+    }
+    return number;
+}
+
+/* The bits of the point, right-aligned. */
+static uint32_t fieldscribe_layout_field(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    return (fieldscribe_layout_joined(layout, words) & (uint32_t)(layout->mask & 0xFFFFFFFFU)) >> layout->shift;
+}
+
+/* The largest number that the bits of the point can hold. */
+static uint32_t fieldscribe_layout_most(const fieldscribe_layout *layout)
+{
+    return (uint32_t)(layout->mask & 0xFFFFFFFFU) >> layout->shift;
+}
+
+/* The bits of the point as a number in two's complement. */
+static int32_t fieldscribe_layout_signed_field(const fieldscribe_layout *layout, const uint16_t *words)
+{
+    const uint32_t field = fieldscribe_layout_field(layout, words);
+    const uint32_t most = fieldscribe_layout_most(layout) >> 1;
+    return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)(field & most);
+}
+
+/* Puts words in their places. */
+static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t number, uint16_t *words)
+{
+    uint64_t left = (number & ~layout->fixed_mask) | layout->fixed_bits;
+    uint8_t at;
+    for (at = 0U; at < layout->words; ++at) {
+        words[fieldscribe_layout_place(layout, at)] = (uint16_t)(left & 0xFFFFU);
+        left >>= 16;
+    }
+}
+
+/* Stores bits that fit: in a word that is shared beside the others, else with the sign above them. */
+static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32_t bits, uint16_t *words)
+{
+    uint32_t number = bits;
+    if (layout->shares) {
+        const uint32_t mask = (uint32_t)(layout->mask & 0xFFFFU);
+        number = (words[0] & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
+    }
+    fieldscribe_layout_store(layout, number, words);
+}
+
+/* Stores a number from 0 on; false when it has more bits than the point. */
+static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
+{
+    if (raw > fieldscribe_layout_most(layout)) {
+        return false;
+    }
+    fieldscribe_layout_put_bits(layout, raw, words);
+    return true;
+}
+
+/* The same for a number in two's complement. */
+static bool fieldscribe_layout_put_signed(const fieldscribe_layout *layout, int32_t raw, uint16_t *words)
+{
+    const uint32_t size = (raw < 0) ? (uint32_t)(-1 - raw) : (uint32_t)raw;
+    if (size > (fieldscribe_layout_most(layout) >> 1)) {
+        return false;
+    }
+    fieldscribe_layout_put_bits(layout, (raw < 0) ? ~size : size, words);
+    return true;
+}
+
+bool fieldscribe_take_bit(const fieldscribe_layout *layout, const uint16_t *words, bool *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_BIT) {
+        return false;
+    }
+    *raw = fieldscribe_layout_field(layout, words) != 0U;
+    return true;
+}
+
+bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words, uint8_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_U8) {
+        return false;
+    }
+    *raw = (uint8_t)(fieldscribe_layout_field(layout, words) & 0xFFU);
+    return true;
+}
+
+bool fieldscribe_take_s8(const fieldscribe_layout *layout, const uint16_t *words, int8_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_S8) {
+        return false;
+    }
+    *raw = (int8_t)fieldscribe_layout_signed_field(layout, words);
+    return true;
+}
+
+bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *words, uint16_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_U16) {
+        return false;
+    }
+    *raw = (uint16_t)(fieldscribe_layout_field(layout, words) & 0xFFFFU);
+    return true;
+}
+
+bool fieldscribe_take_s16(const fieldscribe_layout *layout, const uint16_t *words, int16_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_S16) {
+        return false;
+    }
+    *raw = (int16_t)fieldscribe_layout_signed_field(layout, words);
+    return true;
+}
+
+bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *words, uint32_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_U32) {
+        return false;
+    }
+    *raw = fieldscribe_layout_field(layout, words);
+    return true;
+}
+
+bool fieldscribe_take_s32(const fieldscribe_layout *layout, const uint16_t *words, int32_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_S32) {
+        return false;
+    }
+    *raw = fieldscribe_layout_signed_field(layout, words);
+    return true;
+}
+
+bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *words, uint64_t *raw)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_U64) {
+        return false;
+    }
+    *raw = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
+    return true;
+}
+
+bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, int64_t *raw)
+{
+    const uint64_t most = layout->mask >> 1;
+    uint64_t bits;
+    if (layout->type != (uint8_t)FIELDSCRIBE_S64) {
+        return false;
+    }
+    bits = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
+    *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)(bits & most);
+    return true;
+}
+
+bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_BIT) && fieldscribe_layout_put(layout, raw ? 1U : 0U, words);
+}
+
+bool fieldscribe_put_u8(const fieldscribe_layout *layout, uint8_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_U8) && fieldscribe_layout_put(layout, raw, words);
+}
+
+bool fieldscribe_put_s8(const fieldscribe_layout *layout, int8_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_S8) && fieldscribe_layout_put_signed(layout, raw, words);
+}
+
+bool fieldscribe_put_u16(const fieldscribe_layout *layout, uint16_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_U16) && fieldscribe_layout_put(layout, raw, words);
+}
+
+bool fieldscribe_put_s16(const fieldscribe_layout *layout, int16_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_S16) && fieldscribe_layout_put_signed(layout, raw, words);
+}
+
+bool fieldscribe_put_u32(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_U32) && fieldscribe_layout_put(layout, raw, words);
+}
+
+bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t *words)
+{
+    return (layout->type == (uint8_t)FIELDSCRIBE_S32) && fieldscribe_layout_put_signed(layout, raw, words);
+}
+
+bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_U64) {
+        return false;
+    }
+    fieldscribe_layout_store(layout, raw, words);
+    return true;
+}
+
+bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words)
+{
+    if (layout->type != (uint8_t)FIELDSCRIBE_S64) {
+        return false;
+    }
+    fieldscribe_layout_store(layout, (raw < 0) ? ~(uint64_t)(-1 - raw) : (uint64_t)raw, words);
+    return true;
+}
+
+void fieldscribe_take_text(const fieldscribe_text *text, const uint16_t *words, uint16_t *reading)
+{
+    size_t at;
+    for (at = 0U; at < text->words; ++at) {
+        reading[at] = words[text->addresses[at] - text->first];
+    }
+}
+
+void fieldscribe_put_text(const fieldscribe_text *text, const uint16_t *reading, uint16_t *words)
+{
+    size_t at;
+    for (at = 0U; at < text->words; ++at) {
+        words[text->addresses[at] - text->first] = reading[at];
+    }
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,381 @@
+/*
+ * What conformance programs of Modbus devices have beside the core: exchanges of points, and frames.
+ *
+ * SPDX-License-Identifier: 0BSD
+ */
+#ifndef FIELDSCRIBE_CONFORMANCE_MODBUS_H
+#define FIELDSCRIBE_CONFORMANCE_MODBUS_H
+
+#include "fieldscribe_conformance.h"
+#include "fieldscribe_modbus.h"
+
+typedef struct fieldscribe_blocks {
+    const char *group;
+    const fieldscribe_modbus_reading *blocks;
+    size_t count;
+    size_t rows; /* of the table, of which `count` has to be the number */
+} fieldscribe_blocks;
+
+/* The tables of a device. */
+typedef struct fieldscribe_tables {
+    const fieldscribe_modbus_profile *profile;
+    const fieldscribe_blocks *blocks;
+} fieldscribe_tables;
+
+static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_vector *v)
+{
+    return (const fieldscribe_tables *)v->suite->family;
+}
+
+static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
+{
+    static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
+        "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction",
+        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
+    return names[(size_t)status];
+}
+
+static inline fieldscribe_modbus_framing fieldscribe_framing(fieldscribe_vector *v)
+{
+    return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
+}
+
+/* Memory for a reply of that room. */
+static inline fieldscribe_modbus_reply fieldscribe_reply_into(uint16_t *values, size_t room)
+{
+    fieldscribe_modbus_reply reply;
+    fieldscribe_fill(&reply, sizeof reply);
+    reply.values = values;
+    reply.room = room;
+    return reply;
+}
+
+/* A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. */
+static inline void fieldscribe_receives(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
+{
+    const size_t shortest = framing == FIELDSCRIBE_MODBUS_TCP ? 9U : 5U;
+    size_t got;
+    for (got = 0U; got <= length; ++got) {
+        const uint32_t left = fieldscribe_modbus_left(framing, request, bytes, got);
+        fieldscribe_agree(v, left == (got < shortest ? shortest : length) - got);
+    }
+}
+
+/* An answer is as long as the request says, but a refusal; and a receiver is told so while it comes. */
+static inline void fieldscribe_is_awaited(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_status status)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        const uint32_t awaited = fieldscribe_modbus_reply_length(profile, framing, request);
+        fieldscribe_agree(v, request->unit == profile->broadcast ? awaited == 0U : awaited == length);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK || status == FIELDSCRIBE_MODBUS_EXCEPTION) {
+        fieldscribe_receives(v, framing, request, bytes, length);
+    }
+}
+
+/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
+static inline bool fieldscribe_exchange(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
+{
+    const fieldscribe_modbus_framing framing = fieldscribe_framing(v);
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_modbus_request numbered = *request;
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_ROOM);
+    fieldscribe_modbus_status status;
+    const char *sent = NULL;
+    const char *received = NULL;
+    size_t length = 0U;
+    if (!fieldscribe_step(v, place, &sent, &received)) {
+        return false;
+    }
+    fieldscribe_agree(v, request->transaction == 0U);
+    numbered.transaction = framing == FIELDSCRIBE_MODBUS_TCP ? (uint16_t)(place + 1U) : 0U;
+    status =
+        fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &numbered, bytes, sizeof bytes, &length);
+    fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
+    fieldscribe_sends(v, sent, bytes, length);
+    length = fieldscribe_hex(received, bytes, sizeof bytes);
+    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, &reply);
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
+    return status == FIELDSCRIBE_MODBUS_OK;
+}
+
+#define FIELDSCRIBE_COMMAND(command, constant, number)                                           \
+    if (fieldscribe_asks_of(v, "command", "command", command)) {                                 \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
+        const fieldscribe_modbus_request request =                                               \
+            fieldscribe_modbus_send((uint8_t)fieldscribe_bits(v, "unit"), &(constant));          \
+        fieldscribe_is_number(v, "value", (number));                                             \
+        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+    }
+
+#define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        const fieldscribe_modbus_request request =                                               \
+            fieldscribe_modbus_read((uint8_t)fieldscribe_bits(v, "unit"), &(frame).read);        \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
+            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, words)                             \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_READ_TEXT(frame, total)                                                      \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        const fieldscribe_modbus_request request =                                               \
+            fieldscribe_modbus_read((uint8_t)fieldscribe_bits(v, "unit"), &(frame).read);        \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
+            fieldscribe_is_words(v, "words", words, request.count);                              \
+            fieldscribe_agree(v, request.count == (total) && fieldscribe_reads_text(&(frame).text, words)); \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE(frame, kind, raw_type)                                                 \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
+        const fieldscribe_modbus_request request =                                               \
+            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words); \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                               \
+        fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
+        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+    }
+
+#define FIELDSCRIBE_WRITE_TEXT(frame, total)                                                     \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        uint16_t given[total] = {0U};                                                            \
+        uint16_t reading[total] = {0U};                                                          \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
+        const fieldscribe_modbus_request request =                                               \
+            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words); \
+        size_t at;                                                                               \
+        fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, total) == (total));          \
+        for (at = 0U; at < (total); ++at) {                                                      \
+            reading[at] = given[fieldscribe_rank((frame).text.addresses, total, at)];            \
+        }                                                                                        \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        fieldscribe_put_text(&(frame).text, reading, words);                                     \
+        fieldscribe_untouched(v, words + (total), sizeof words - (total) * sizeof words[0]);     \
+        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+    }
+
+/* A group of bits: its word is read, and goes back with other bits. */
+#define FIELDSCRIBE_UPDATE(frame, kind, raw_type)                                                \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        fieldscribe_modbus_request request = fieldscribe_modbus_read(unit, &(frame).read);       \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                           \
+            request = fieldscribe_modbus_write(unit, &(frame).update, words);                    \
+            (void)fieldscribe_exchange(v, 1U, &request, echoed);                                 \
+        }                                                                                        \
+    }
+
+/* Whether the words of a text in the order of reading are those of the answer. */
+static inline bool fieldscribe_reads_text(const fieldscribe_text *text, const uint16_t *words)
+{
+    uint16_t reading[FIELDSCRIBE_ROOM];
+    size_t at = 0U;
+    fieldscribe_take_text(text, words, reading);
+    while (at < text->words && reading[at] == words[fieldscribe_rank(text->addresses, text->words, at)]) {
+        ++at;
+    }
+    return at == text->words;
+}
+
+/* ---- Frames ---- */
+
+static fieldscribe_modbus_framing fieldscribe_read_request(
+    fieldscribe_vector *v, uint16_t *values, fieldscribe_modbus_request *request)
+{
+    const size_t count = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
+    request->transaction = (uint16_t)fieldscribe_bits(v, "transaction");
+    request->unit = (uint8_t)fieldscribe_bits(v, "unit");
+    request->function = (uint8_t)fieldscribe_bits(v, "function");
+    request->address = (uint16_t)fieldscribe_bits(v, "address");
+    request->count = (uint16_t)fieldscribe_bits(v, "count");
+    request->values = count != 0U ? values : NULL;
+    return fieldscribe_framing(v);
+}
+
+/* A buffer of exactly the length does, one that is shorter does not; and what writes needs values. */
+static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_modbus_request empty = *request;
+    uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
+    size_t again = SIZE_MAX;
+    fieldscribe_fill(built, sizeof built);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_build(profile, framing, request, built, length - 1U, &again) ==
+            FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL && again == 0U);
+    fieldscribe_untouched(v, built, sizeof built);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_build(profile, framing, request, built, length, &again) == FIELDSCRIBE_MODBUS_OK &&
+            again == length && memcmp(built, expected, length) == 0);
+    empty.values = NULL;
+    fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
+        (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
+}
+
+static void fieldscribe_run_build(fieldscribe_vector *v)
+{
+    static uint16_t values[FIELDSCRIBE_VALUES_MOST];
+    uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
+    fieldscribe_modbus_request request;
+    size_t length = SIZE_MAX;
+    const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
+    fieldscribe_modbus_status status;
+    fieldscribe_fill(built, sizeof built);
+    status =
+        fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &request, built, sizeof built, &length);
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_agree(v, length <= sizeof built);
+    if (length <= sizeof built) {
+        fieldscribe_is_bytes(v, "bytes", built, length);
+        fieldscribe_untouched(v, built + length, sizeof built - length);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK && length > 0U) {
+        const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+        const uint32_t awaited = fieldscribe_modbus_reply_length(profile, framing, &request);
+        fieldscribe_agree(v, (awaited == 0U) == (request.unit == profile->broadcast));
+        fieldscribe_rebuild(v, framing, &request, built, length);
+    }
+}
+
+/* Room for exactly what came does, less does not; and an echo is held against what was sent, if something was. */
+static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
+{
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    const bool reads = fieldscribe_modbus_reads(request->function);
+    const bool several = request->function == 0x0FU || request->function == 0x10U;
+    const size_t room = reads ? request->count : 1U;
+    fieldscribe_modbus_request empty = *request;
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, room - 1U);
+    fieldscribe_fill(read, sizeof read);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse(framing, request, bytes, length, &reply) ==
+            (reads ? FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL : FIELDSCRIBE_MODBUS_OK) && reply.count == 0U);
+    fieldscribe_untouched(v, read, sizeof read);
+    reply.room = room;
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse(framing, request, bytes, length, &reply) == FIELDSCRIBE_MODBUS_OK &&
+            reply.count == (several ? 0U : room));
+    if (!reads && !several) {
+        empty.values = NULL;
+        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==
+            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
+        empty = *request;
+        empty.count = 0U;
+        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==
+            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
+    }
+}
+
+static void fieldscribe_run_reply(fieldscribe_vector *v)
+{
+    static uint16_t values[FIELDSCRIBE_VALUES_MOST];
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_modbus_request request;
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, FIELDSCRIBE_VALUES_MOST);
+    fieldscribe_modbus_status status;
+    const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
+    const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
+    fieldscribe_fill(read, sizeof read);
+    status = fieldscribe_modbus_parse(framing, &request, bytes, length, &reply);
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    fieldscribe_agree(v, reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST);
+    if (reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST) {
+        fieldscribe_is_words(v, "values_out", read, reply.count);
+        fieldscribe_untouched(v, read + reply.count, sizeof read - reply.count * sizeof read[0]);
+    }
+    fieldscribe_is_count(v, "exception", reply.exception);
+    fieldscribe_is_awaited(v, framing, &request, bytes, length, status);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        fieldscribe_reparse(v, framing, &request, bytes, length);
+    }
+}
+
+/* What the profile says of a function. */
+static void fieldscribe_run_function(fieldscribe_vector *v)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const uint64_t index = fieldscribe_bits(v, "index");
+    if (index < profile->function_count) {
+        fieldscribe_agree(v, !fieldscribe_modbus_reads(0x00U) && !fieldscribe_modbus_reads(0x05U));
+        fieldscribe_is_number(v, "number", profile->functions[index].code);
+        fieldscribe_is_number(v, "most", profile->functions[index].most);
+        fieldscribe_is_number(v, "broadcast", profile->functions[index].broadcast ? 1U : 0U);
+    }
+}
+
+static void fieldscribe_run_limit(fieldscribe_vector *v)
+{
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_holds_long_numbers(v);
+    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
+    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
+    FIELDSCRIBE_LIMIT("functions", profile->function_count)
+    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
+    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_MODBUS_NO_BROADCAST)
+    FIELDSCRIBE_LIMIT("rtu_bytes", FIELDSCRIBE_MODBUS_RTU_MOST)
+    FIELDSCRIBE_LIMIT("tcp_bytes", FIELDSCRIBE_MODBUS_TCP_MOST)
+}
+
+static void fieldscribe_run_block(fieldscribe_vector *v)
+{
+    static const char *const spaces[] = {"", "coil", "discrete", "holding", "input"};
+    const uint64_t index = fieldscribe_bits(v, "index");
+    const fieldscribe_blocks *group = fieldscribe_tables_of(v)->blocks;
+    const fieldscribe_modbus_reading *block;
+    fieldscribe_modbus_request request;
+    while (group->group != NULL && !fieldscribe_spells(fieldscribe_field(v, "group"), group->group)) {
+        ++group;
+    }
+    if (group->group == NULL || index >= group->count) {
+        return;
+    }
+    block = &group->blocks[index];
+    request = fieldscribe_modbus_read(1U, block);
+    fieldscribe_agree(v, group->count == group->rows && request.unit == 1U && request.values == NULL &&
+        request.function == block->function && request.address == block->address && request.count == block->count);
+    fieldscribe_is_text(v, "space", block->function >= 1U && block->function <= 4U ? spaces[block->function] : NULL);
+    fieldscribe_is_number(v, "function", block->function);
+    fieldscribe_is_number(v, "address", block->address);
+    fieldscribe_is_number(v, "count", block->count);
+}
+
+static bool fieldscribe_run_frame(fieldscribe_vector *v)
+{
+    if (fieldscribe_asks(v, "build") || fieldscribe_asks(v, "printed_build")) {
+        fieldscribe_run_build(v);
+    } else if (fieldscribe_asks(v, "reply") || fieldscribe_asks(v, "printed_reply")) {
+        fieldscribe_run_reply(v);
+    } else if (fieldscribe_asks(v, "block")) {
+        fieldscribe_run_block(v);
+    } else if (fieldscribe_asks(v, "function")) {
+        fieldscribe_run_function(v);
+    } else if (fieldscribe_asks(v, "limit")) {
+        fieldscribe_run_limit(v);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+#endif

@@ -1,0 +1,364 @@
+/*
+ * What conformance programs of USS devices have beside the core: exchanges of points, and frames.
+ *
+ * SPDX-License-Identifier: 0BSD
+ */
+#ifndef FIELDSCRIBE_CONFORMANCE_USS_H
+#define FIELDSCRIBE_CONFORMANCE_USS_H
+
+#include "fieldscribe_conformance.h"
+#include "fieldscribe_uss.h"
+
+/* The tables of a device. */
+typedef struct fieldscribe_tables {
+    const fieldscribe_uss_profile *profile;
+} fieldscribe_tables;
+
+static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_vector *v)
+{
+    return (const fieldscribe_tables *)v->suite->family;
+}
+
+static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
+{
+    static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
+        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
+        "no_answer", "refused", "no_rights", "wrong_response"};
+    return names[(size_t)status];
+}
+
+static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
+{
+    fieldscribe_uss_link link;
+    link.pkw = (uint8_t)fieldscribe_at_most(v, "pkw", 255U);
+    link.pzd = (uint8_t)fieldscribe_at_most(v, "pzd", 255U);
+    link.single_first = fieldscribe_bits(v, "single_first") != 0U;
+    return link;
+}
+
+/* Memory for a reply with room for so many words of process data. */
+static inline fieldscribe_uss_reply fieldscribe_reply_into(uint16_t *process, size_t room)
+{
+    fieldscribe_uss_reply reply;
+    fieldscribe_fill(&reply, sizeof reply);
+    reply.process = process;
+    reply.room = room;
+    return reply;
+}
+
+/* A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. */
+static inline void fieldscribe_receives(
+    fieldscribe_vector *v, const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length)
+{
+    const bool varies = link->pkw == FIELDSCRIBE_USS_VARIABLE;
+    const uint32_t shortest = fieldscribe_uss_reply_length(link);
+    size_t got;
+    fieldscribe_agree(v, varies ? shortest == 10U + 2U * link->pzd : shortest == length);
+    for (got = 0U; got <= length; ++got) {
+        const size_t known = got < 2U ? shortest : length;
+        fieldscribe_agree(v, fieldscribe_uss_left(link, bytes, got) == known - got);
+    }
+}
+
+/* Sends a request of the script with process data, and reads what comes back into `words`; whether it is an answer. */
+static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
+    uint16_t *words, fieldscribe_uss_reply *reply)
+{
+    const fieldscribe_uss_link link = fieldscribe_read_link(v);
+    const fieldscribe_uss_words process = {words, link.pzd};
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    const char *sent = NULL;
+    const char *received = NULL;
+    fieldscribe_uss_status status;
+    size_t length = 0U;
+    if (!fieldscribe_step(v, place, &sent, &received)) {
+        return false;
+    }
+    *reply = fieldscribe_reply_into(words, 256U);
+    status = fieldscribe_uss_build(
+        fieldscribe_tables_of(v)->profile, &link, request, &process, bytes, sizeof bytes, &length);
+    fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK);
+    fieldscribe_sends(v, sent, bytes, length);
+    length = fieldscribe_hex(received, bytes, sizeof bytes);
+    status = fieldscribe_uss_parse(fieldscribe_tables_of(v)->profile, &link, request, bytes, length, reply);
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    return status == FIELDSCRIBE_USS_OK;
+}
+
+/* The words of a value; a value of another width, and of none, brings none. */
+static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe_uss_reply *reply,
+    const fieldscribe_uss_reading *what, uint16_t *words)
+{
+    fieldscribe_uss_reply other = *reply;
+    uint16_t untouched[3];
+    fieldscribe_fill(untouched, sizeof untouched);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, words) == FIELDSCRIBE_USS_OK);
+    other.width = (uint8_t)(3U - reply->width);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched) == FIELDSCRIBE_USS_WRONG_RESPONSE);
+    other.width = 0U;
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched) == FIELDSCRIBE_USS_WRONG_RESPONSE);
+    fieldscribe_untouched(v, untouched, sizeof untouched);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, untouched) == FIELDSCRIBE_USS_OK);
+    fieldscribe_untouched(v, untouched + what->width, sizeof untouched - what->width * sizeof untouched[0]);
+}
+
+#define FIELDSCRIBE_READ(frame, kind, raw_type)                                                  \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[256] = {0U};                                                              \
+        uint16_t value[2] = {0U, 0U};                                                            \
+        fieldscribe_uss_reply reply;                                                             \
+        const fieldscribe_uss_request request =                                                  \
+            fieldscribe_uss_read((uint8_t)fieldscribe_bits(v, "unit"), &(frame).read);           \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            fieldscribe_is_value(v, &reply, &(frame).read, value);                               \
+            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, value)                             \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE(what, frame, kind, raw_type)                                           \
+    if (fieldscribe_asks(v, what)) {                                                             \
+        uint16_t words[256] = {0U};                                                              \
+        uint16_t value[2] = {0U, 0U};                                                            \
+        fieldscribe_uss_reply reply;                                                             \
+        fieldscribe_uss_request request;                                                         \
+        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                               \
+        request = fieldscribe_uss_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, value); \
+        fieldscribe_agree(v, request.width == (frame).layout->words);                            \
+        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
+    }
+
+/* A group of bits: its word is read, and goes back with other bits. */
+#define FIELDSCRIBE_UPDATE(what, reading, frame, kind, raw_type)                                 \
+    if (fieldscribe_asks(v, what)) {                                                             \
+        uint16_t words[256] = {0U};                                                              \
+        uint16_t value[2] = {0U, 0U};                                                            \
+        fieldscribe_uss_reply reply;                                                             \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        fieldscribe_uss_request request = fieldscribe_uss_read(unit, &(reading));                \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            fieldscribe_is_value(v, &reply, &(reading), value);                                  \
+            FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                           \
+            request = fieldscribe_uss_write(unit, &(frame).update, value);                       \
+            (void)fieldscribe_exchange(v, 1U, &request, words, &reply);                          \
+        }                                                                                        \
+    }
+
+/* A word of process data that is sent, or comes back, without a task. */
+#define FIELDSCRIBE_SEND(frame, kind, raw_type)                                                  \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
+        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, fieldscribe_uss_words_sent(&(frame).sent, words)) \
+        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
+    }
+
+/* The same without a telegram: a word or two at their place, and the others as they were. */
+#define FIELDSCRIBE_PUT(frame, kind, raw_type, macro, count)                                     \
+    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
+        const bool part = fieldscribe_asks(v, "bits");                                           \
+        uint16_t words[count];                                                                   \
+        uint16_t *const own = fieldscribe_uss_words_sent(&(frame).sent, words);                  \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        own[0] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;                              \
+        FIELDSCRIBE_PUT_FIELD((frame).layout, kind, raw_type, part ? "replaced" : "raw", own)    \
+        if (part) {                                                                              \
+            fieldscribe_is_number(v, "result", own[0]);                                          \
+        } else {                                                                                 \
+            fieldscribe_is_words(v, "words", own, (frame).layout->words);                                \
+        }                                                                                        \
+        fieldscribe_untouched(v, words, macro##_ADDRESS * sizeof words[0]);                      \
+        fieldscribe_untouched(v, words + macro##_ADDRESS + (frame).layout->words,                        \
+            sizeof words - (macro##_ADDRESS + (frame).layout->words) * sizeof words[0]);                 \
+    }
+#define FIELDSCRIBE_TAKE(frame, kind, raw_type, macro, count)                                    \
+    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
+        uint16_t words[count];                                                                   \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        if (fieldscribe_asks(v, "bits")) {                                                       \
+            words[macro##_ADDRESS] = (uint16_t)fieldscribe_bits(v, "word");                      \
+        } else {                                                                                 \
+            (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, (frame).layout->words);       \
+        }                                                                                        \
+        FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words)) \
+    }
+
+#define FIELDSCRIBE_HEAR(frame, kind, raw_type)                                                  \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words)) \
+        }                                                                                        \
+    }
+
+/* ---- Frames ---- */
+
+static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
+{
+    fieldscribe_uss_request request;
+    request.unit = (uint8_t)fieldscribe_at_most(v, "unit", 255U);
+    request.task = (uint8_t)fieldscribe_at_most(v, "task", 255U);
+    request.parameter = (uint16_t)fieldscribe_at_most(v, "parameter", 65535U);
+    request.index = (uint16_t)fieldscribe_at_most(v, "index", 65535U);
+    request.width = 0U;
+    request.value = 0U;
+    return request;
+}
+
+/* The telegram of the line in `built`, and nothing behind it. */
+static void fieldscribe_is_telegram(
+    fieldscribe_vector *v, fieldscribe_uss_status status, const uint8_t *built, size_t size, size_t length)
+{
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_agree(v, length <= size);
+    if (length <= size) {
+        fieldscribe_is_bytes(v, "bytes", built, length);
+        fieldscribe_untouched(v, built + length, size - length);
+    }
+}
+
+static void fieldscribe_run_uss_build(fieldscribe_vector *v)
+{
+    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
+    uint8_t built[FIELDSCRIBE_USS_MOST];
+    uint8_t exact[FIELDSCRIBE_USS_MOST];
+    size_t length = SIZE_MAX;
+    size_t again = SIZE_MAX;
+    const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const fieldscribe_uss_link link = fieldscribe_read_link(v);
+    fieldscribe_uss_request request = fieldscribe_read_task(v);
+    const fieldscribe_uss_words process = {words, fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST)};
+    fieldscribe_uss_status status;
+    request.width = (uint8_t)fieldscribe_at_most(v, "width", 255U);
+    request.value = fieldscribe_at_most(v, "value", UINT32_MAX);
+    fieldscribe_fill(built, sizeof built);
+    status = fieldscribe_uss_build(profile, &link, &request, &process, built, sizeof built, &length);
+    if (status == FIELDSCRIBE_USS_OK && fieldscribe_bits(v, "value") != request.value) {
+        fieldscribe_fill(built, sizeof built);
+        status = FIELDSCRIBE_USS_BAD_VALUE; /* the argument's type alone refuses it */
+        length = 0U;
+    }
+    fieldscribe_is_telegram(v, status, built, sizeof built, length);
+    if (status == FIELDSCRIBE_USS_OK && length > 0U && length <= sizeof built) {
+        fieldscribe_fill(exact, sizeof exact);
+        status = fieldscribe_uss_build(profile, &link, &request, &process, exact, length - 1U, &again);
+        fieldscribe_agree(v, status == FIELDSCRIBE_USS_BUFFER_TOO_SMALL && again == 0U);
+        fieldscribe_untouched(v, exact, sizeof exact);
+        status = fieldscribe_uss_build(profile, &link, &request, &process, exact, length, &again);
+        fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK && again == length && memcmp(built, exact, length) == 0);
+    }
+}
+
+static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
+{
+    uint16_t mask[4] = {0U};
+    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
+    uint8_t built[FIELDSCRIBE_USS_MOST];
+    size_t length = SIZE_MAX;
+    const fieldscribe_uss_link link = fieldscribe_read_link(v);
+    const size_t masks = fieldscribe_numbers(v, "mask", mask, 4U);
+    const fieldscribe_uss_words process = {words, fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST)};
+    fieldscribe_uss_status status;
+    fieldscribe_fill(built, sizeof built);
+    status = fieldscribe_uss_build_broadcast(
+        fieldscribe_tables_of(v)->profile, &link, mask, &process, built, sizeof built, &length);
+    fieldscribe_agree(v, masks == 4U);
+    fieldscribe_is_telegram(v, status, built, sizeof built, length);
+}
+
+/* Process data comes with every good telegram, also with one that brings no value; else nothing is stored. */
+static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status status, const uint16_t *words,
+    const uint8_t *bytes, size_t length, size_t count)
+{
+    const bool good = status == FIELDSCRIBE_USS_OK || status >= FIELDSCRIBE_USS_WRONG_PARAMETER;
+    const size_t heard = good ? count : 0U;
+    size_t at;
+    for (at = 0U; at < heard; ++at) {
+        fieldscribe_agree(v, words[at] == fieldscribe_uss_get(bytes + length - 1U - 2U * (count - at)));
+    }
+    fieldscribe_untouched(v, words + heard, (FIELDSCRIBE_BYTES_MOST - heard) * sizeof words[0]);
+}
+
+static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
+{
+    uint16_t words[FIELDSCRIBE_BYTES_MOST];
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_uss_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_BYTES_MOST);
+    fieldscribe_uss_reply again = reply;
+    const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const fieldscribe_uss_link link = fieldscribe_read_link(v);
+    const fieldscribe_uss_request request = fieldscribe_read_task(v);
+    const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
+    fieldscribe_uss_status status;
+    fieldscribe_fill(words, sizeof words);
+    status = fieldscribe_uss_parse(profile, &link, &request, bytes, length, &reply);
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_is_count(v, "response", reply.response);
+    fieldscribe_is_count(v, "width", reply.width);
+    fieldscribe_is_count(v, "value", reply.value);
+    fieldscribe_is_count(v, "error", reply.error);
+    fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_USS_OK ? link.pzd : 0U);
+    fieldscribe_are_heard(v, status, words, bytes, length, link.pzd);
+    if (status == FIELDSCRIBE_USS_OK) {
+        fieldscribe_receives(v, &link, bytes, length);
+        again.room = link.pzd;
+        fieldscribe_agree(
+            v, fieldscribe_uss_parse(profile, &link, &request, bytes, length, &again) == FIELDSCRIBE_USS_OK);
+    }
+    if (status == FIELDSCRIBE_USS_OK && link.pzd > 0U) {
+        fieldscribe_fill(words, sizeof words);
+        again.room = link.pzd - 1U;
+        fieldscribe_agree(v, fieldscribe_uss_parse(profile, &link, &request, bytes, length, &again) ==
+            FIELDSCRIBE_USS_BUFFER_TOO_SMALL);
+        fieldscribe_untouched(v, words, sizeof words);
+    }
+}
+
+/* What the profile says of a task. */
+static void fieldscribe_run_function(fieldscribe_vector *v)
+{
+    const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const uint64_t index = fieldscribe_bits(v, "index");
+    if (index < profile->task_count) {
+        fieldscribe_is_number(v, "number", profile->tasks[index].number);
+        fieldscribe_is_number(v, "answers", profile->tasks[index].answers);
+    }
+}
+
+static void fieldscribe_run_limit(fieldscribe_vector *v)
+{
+    const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_holds_long_numbers(v);
+    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
+    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
+    FIELDSCRIBE_LIMIT("functions", profile->task_count)
+    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
+    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_USS_NO_BROADCAST)
+    FIELDSCRIBE_LIMIT("telegram_bytes", FIELDSCRIBE_USS_MOST)
+    FIELDSCRIBE_LIMIT("last_parameter", FIELDSCRIBE_USS_LAST_PARAMETER)
+    FIELDSCRIBE_LIMIT("least_process_words", profile->least_pzd)
+    FIELDSCRIBE_LIMIT("most_process_words", profile->most_pzd)
+    FIELDSCRIBE_LIMIT("parameter_parts", profile->pkw_count)
+}
+
+static bool fieldscribe_run_frame(fieldscribe_vector *v)
+{
+    if (fieldscribe_asks(v, "function")) {
+        fieldscribe_run_function(v);
+    } else if (fieldscribe_asks(v, "limit")) {
+        fieldscribe_run_limit(v);
+    } else if (fieldscribe_asks(v, "uss_build") || fieldscribe_asks(v, "uss_printed_build")) {
+        fieldscribe_run_uss_build(v);
+    } else if (fieldscribe_asks(v, "uss_broadcast")) {
+        fieldscribe_run_uss_broadcast(v);
+    } else if (fieldscribe_asks(v, "uss_reply") || fieldscribe_asks(v, "uss_printed_reply")) {
+        fieldscribe_run_uss_reply(v);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+#endif
