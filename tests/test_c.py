@@ -458,6 +458,19 @@ def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -
     assert run([*words, "-DFIELDSCRIBE_NO_FLOAT"]).returncode == 0
 
 
+@pytest.mark.parametrize("flag", ["-freciprocal-math", "-funsafe-math-optimizations", "-fassociative-math"])
+def test_parts_of_fast_math_are_refused_or_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
+    """gcc tells which of them it was given; clang does not, and takes them back for the functions that compute."""
+    header, flags = sample / "c/sample_drive.h", [flag, "-fno-signed-zeros", "-fno-trapping-math"]
+    refused = run([tool("gcc"), "-std=c99", "-fsyntax-only", *flags, "-x", "c", header])
+    assert "Compile without -ffast-math" in refused.stderr
+    if flag == "-funsafe-math-optimizations":
+        return  # clang's start-up file makes the whole program flush subnormal numbers: no header can see or undo that
+    source = sample / "c/conformance/sample_drive_conformance.c"
+    words = ("-std=c99", "-O2", *WARNINGS, *flags, "-I", str(sample / "c"))
+    succeed([compiled("clang", words, source, tmp_path / "run"), sample / "vectors/sample_drive.txt"])
+
+
 def test_a_runtime_of_another_version_is_refused(sample: Path, tmp_path: Path) -> None:
     for path in (sample / "c").glob("*.h"):
         text = path.read_text("utf-8").replace("MODBUS_INTERFACE 2\n", "MODBUS_INTERFACE 3\n")

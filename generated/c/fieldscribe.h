@@ -9,7 +9,7 @@
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
- * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: without them results are exact to the bit.
+ * -ffast-math, its parts and x87 arithmetic are refused with floating point: without them results are exact to the bit.
  */
 #ifndef FIELDSCRIBE_H
 #define FIELDSCRIBE_H
@@ -23,8 +23,9 @@
 
 #if !defined(FIELDSCRIBE_NO_FLOAT)
 #include <float.h>
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ != 0))
-#error "Compile without -ffast-math, -Ofast and -ffinite-math-only, or define FIELDSCRIBE_NO_FLOAT."
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ != 0)) || \
+    defined(__RECIPROCAL_MATH__) || defined(__ASSOCIATIVE_MATH__)
+#error "Compile without -ffast-math, -Ofast and their parts, or define FIELDSCRIBE_NO_FLOAT."
 #endif
 #if (FLT_RADIX != 2) || (FLT_MANT_DIG != 24) || ((DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32))
 #error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_FLOAT32 or FIELDSCRIBE_NO_FLOAT."
@@ -40,6 +41,9 @@
     defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
     (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
 #define FIELDSCRIBE_MAY_FUSE
+#endif
+#if defined(__clang__) && (defined(__i386__) || defined(__x86_64__))
+#define FIELDSCRIBE_KEEP_PRECISE /* -freciprocal-math and its like, of which clang does not tell, are off here */
 #endif
 #endif
 
@@ -1004,6 +1008,11 @@ FIELDSCRIBE_STATUS fieldscribe_check_f64(uint64_t bits, int64_t low, int64_t hig
 
 /* ---- Values in floating point ---- */
 
+#if defined(FIELDSCRIBE_KEEP_PRECISE)
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#endif
+
 #if defined(FIELDSCRIBE_FLOAT32)
 typedef float fieldscribe_real;
 #else
@@ -1364,6 +1373,9 @@ FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative,
     return rule.status;
 }
 
+#endif
+#if defined(FIELDSCRIBE_KEEP_PRECISE)
+#pragma float_control(pop)
 #endif
 #endif
 

@@ -43,7 +43,7 @@ static inline const hitachi_l200_lower_frequency_limit_set_2_with *with_lower_fr
     return &with;
 }
 
-static void run_run_command(fieldscribe_vector *v)
+static void point_run_command(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUN_COMMAND, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_RUN_COMMAND)
         FIELDSCRIBE_RAWS(HITACHI_L200_RUN_COMMAND) FIELDSCRIBE_REFERENCE("modicon", 1))
@@ -59,7 +59,7 @@ static void run_run_command(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_run_command_frame, bit, bool)
 }
 
-static void run_direction_command(fieldscribe_vector *v)
+static void point_direction_command(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIRECTION_COMMAND, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIRECTION_COMMAND) FIELDSCRIBE_RAWS(HITACHI_L200_DIRECTION_COMMAND)
@@ -76,7 +76,7 @@ static void run_direction_command(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_direction_command_frame, bit, bool)
 }
 
-static void run_external_trip(fieldscribe_vector *v)
+static void point_external_trip(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_EXTERNAL_TRIP, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_EXTERNAL_TRIP) FIELDSCRIBE_RAWS(HITACHI_L200_EXTERNAL_TRIP)
@@ -93,7 +93,7 @@ static void run_external_trip(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_external_trip_frame, bit, bool)
 }
 
-static void run_trip_reset(fieldscribe_vector *v)
+static void point_trip_reset(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_RESET, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_TRIP_RESET)
         FIELDSCRIBE_RAWS(HITACHI_L200_TRIP_RESET) FIELDSCRIBE_REFERENCE("modicon", 4))
@@ -109,7 +109,7 @@ static void run_trip_reset(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_trip_reset_frame, bit, bool)
 }
 
-static void run_digital_input_1(fieldscribe_vector *v)
+static void point_digital_input_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_1, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_1) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_1)
@@ -126,7 +126,7 @@ static void run_digital_input_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_frame, bit, bool)
 }
 
-static void run_digital_input_2(fieldscribe_vector *v)
+static void point_digital_input_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_2, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_2) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_2)
@@ -143,7 +143,7 @@ static void run_digital_input_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_frame, bit, bool)
 }
 
-static void run_digital_input_3(fieldscribe_vector *v)
+static void point_digital_input_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_3, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_3) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_3)
@@ -160,7 +160,7 @@ static void run_digital_input_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_frame, bit, bool)
 }
 
-static void run_digital_input_4(fieldscribe_vector *v)
+static void point_digital_input_4(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_4, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_4) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_4)
@@ -177,7 +177,7 @@ static void run_digital_input_4(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_frame, bit, bool)
 }
 
-static void run_digital_input_5(fieldscribe_vector *v)
+static void point_digital_input_5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_5, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_5) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_5)
@@ -194,7 +194,7 @@ static void run_digital_input_5(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_frame, bit, bool)
 }
 
-static void run_running(fieldscribe_vector *v)
+static void point_running(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUNNING, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_RUNNING)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 14))
@@ -207,7 +207,7 @@ static void run_running(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_running_frame, bit, bool)
 }
 
-static void run_direction_status(fieldscribe_vector *v)
+static void point_direction_status(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIRECTION_STATUS, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_DIRECTION_STATUS) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 15))
@@ -220,7 +220,7 @@ static void run_direction_status(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_direction_status_frame, bit, bool)
 }
 
-static void run_ready(fieldscribe_vector *v)
+static void point_ready(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_READY, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_READY)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 16))
@@ -233,7 +233,7 @@ static void run_ready(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_ready_frame, bit, bool)
 }
 
-static void run_alarm(fieldscribe_vector *v)
+static void point_alarm(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ALARM, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_ALARM)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 20))
@@ -246,7 +246,7 @@ static void run_alarm(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_alarm_frame, bit, bool)
 }
 
-static void run_pid_deviation(fieldscribe_vector *v)
+static void point_pid_deviation(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_DEVIATION, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_DEVIATION) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 21))
@@ -259,7 +259,7 @@ static void run_pid_deviation(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_pid_deviation_frame, bit, bool)
 }
 
-static void run_overload(fieldscribe_vector *v)
+static void point_overload(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERLOAD, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_OVERLOAD)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 22))
@@ -272,7 +272,7 @@ static void run_overload(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_overload_frame, bit, bool)
 }
 
-static void run_frequency_arrival_in_acceleration(fieldscribe_vector *v)
+static void point_frequency_arrival_in_acceleration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_ARRIVAL_IN_ACCELERATION) FIELDSCRIBE_ONLY_READ(0, 1)
@@ -286,7 +286,7 @@ static void run_frequency_arrival_in_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_in_acceleration_frame, bit, bool)
 }
 
-static void run_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
+static void point_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_ARRIVAL_AT_CONSTANT_SPEED) FIELDSCRIBE_ONLY_READ(0, 1)
@@ -300,7 +300,7 @@ static void run_frequency_arrival_at_constant_speed(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_frequency_arrival_at_constant_speed_frame, bit, bool)
 }
 
-static void run_run_mode(fieldscribe_vector *v)
+static void point_run_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUN_MODE, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_RUN_MODE)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 25))
@@ -313,7 +313,7 @@ static void run_run_mode(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_run_mode_frame, bit, bool)
 }
 
-static void run_data_write(fieldscribe_vector *v)
+static void point_data_write(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DATA_WRITE, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_DATA_WRITE)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 26))
@@ -326,7 +326,7 @@ static void run_data_write(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_data_write_frame, bit, bool)
 }
 
-static void run_crc_error(fieldscribe_vector *v)
+static void point_crc_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CRC_ERROR, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_CRC_ERROR)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 27))
@@ -339,7 +339,7 @@ static void run_crc_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_crc_error_frame, bit, bool)
 }
 
-static void run_overrun_error(fieldscribe_vector *v)
+static void point_overrun_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERRUN_ERROR, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERRUN_ERROR) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 28))
@@ -352,7 +352,7 @@ static void run_overrun_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_overrun_error_frame, bit, bool)
 }
 
-static void run_framing_error(fieldscribe_vector *v)
+static void point_framing_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FRAMING_ERROR, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_FRAMING_ERROR) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 29))
@@ -365,7 +365,7 @@ static void run_framing_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_framing_error_frame, bit, bool)
 }
 
-static void run_parity_error(fieldscribe_vector *v)
+static void point_parity_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PARITY_ERROR, FIELDSCRIBE_SPACE("coil") FIELDSCRIBE_ONE(HITACHI_L200_PARITY_ERROR)
         FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 30))
@@ -378,7 +378,7 @@ static void run_parity_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_parity_error_frame, bit, bool)
 }
 
-static void run_checksum_error(fieldscribe_vector *v)
+static void point_checksum_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CHECKSUM_ERROR, FIELDSCRIBE_SPACE("coil")
         FIELDSCRIBE_ONE(HITACHI_L200_CHECKSUM_ERROR) FIELDSCRIBE_ONLY_READ(0, 1) FIELDSCRIBE_REFERENCE("modicon", 31))
@@ -391,7 +391,7 @@ static void run_checksum_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_checksum_error_frame, bit, bool)
 }
 
-static void run_network_frequency_setpoint(fieldscribe_vector *v)
+static void point_network_frequency_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_NETWORK_FREQUENCY_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_NETWORK_FREQUENCY_SETPOINT)
@@ -409,7 +409,7 @@ static void run_network_frequency_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_network_frequency_setpoint_frame, u16, uint16_t)
 }
 
-static void run_inverter_status(fieldscribe_vector *v)
+static void point_inverter_status(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INVERTER_STATUS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INVERTER_STATUS) FIELDSCRIBE_RAWS(HITACHI_L200_INVERTER_STATUS)
@@ -434,7 +434,7 @@ static void run_inverter_status(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_inverter_status_frame, u16, uint16_t)
 }
 
-static void run_network_process_value(fieldscribe_vector *v)
+static void point_network_process_value(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_NETWORK_PROCESS_VALUE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_NETWORK_PROCESS_VALUE) FIELDSCRIBE_RAWS(HITACHI_L200_NETWORK_PROCESS_VALUE)
@@ -451,7 +451,7 @@ static void run_network_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_network_process_value_frame, u16, uint16_t)
 }
 
-static void run_output_frequency(fieldscribe_vector *v)
+static void point_output_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OUTPUT_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OUTPUT_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 4000)
@@ -464,7 +464,7 @@ static void run_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_output_frequency_frame, u16, uint16_t)
 }
 
-static void run_motor_current(fieldscribe_vector *v)
+static void point_motor_current(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_CURRENT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_CURRENT) FIELDSCRIBE_ONLY_READ(0, 2000)
@@ -477,7 +477,7 @@ static void run_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_motor_current_frame, u16, uint16_t)
 }
 
-static void run_rotation_direction(fieldscribe_vector *v)
+static void point_rotation_direction(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ROTATION_DIRECTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ROTATION_DIRECTION) FIELDSCRIBE_ONLY_READ(0, 2) FIELDSCRIBE_CODE("d003")
@@ -492,7 +492,7 @@ static void run_rotation_direction(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_rotation_direction_frame, u16, uint16_t)
 }
 
-static void run_scaled_process_value(fieldscribe_vector *v)
+static void point_scaled_process_value(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_SCALED_PROCESS_VALUE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_SCALED_PROCESS_VALUE) FIELDSCRIBE_ONLY_READ(0, 999900)
@@ -505,7 +505,7 @@ static void run_scaled_process_value(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_scaled_process_value_frame, u32, uint32_t)
 }
 
-static void run_digital_inputs(fieldscribe_vector *v)
+static void point_digital_inputs(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUTS) FIELDSCRIBE_ONLY_READ(0, 31) FIELDSCRIBE_CODE("d005")
@@ -526,7 +526,7 @@ static void run_digital_inputs(fieldscribe_vector *v)
         0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & HITACHI_L200_DIGITAL_INPUTS_INPUT_5_MASK) != 0U)
 }
 
-static void run_digital_outputs(fieldscribe_vector *v)
+static void point_digital_outputs(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUTS) FIELDSCRIBE_ONLY_READ(0, 7) FIELDSCRIBE_CODE("d006")
@@ -545,7 +545,7 @@ static void run_digital_outputs(fieldscribe_vector *v)
         != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & HITACHI_L200_DIGITAL_OUTPUTS_RELAY_AL_MASK) != 0U)
 }
 
-static void run_output_voltage(fieldscribe_vector *v)
+static void point_output_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OUTPUT_VOLTAGE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OUTPUT_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 20000)
@@ -558,7 +558,7 @@ static void run_output_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_output_voltage_frame, u16, uint16_t)
 }
 
-static void run_run_time(fieldscribe_vector *v)
+static void point_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUN_TIME, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_SEVERAL(HITACHI_L200_RUN_TIME)
         FIELDSCRIBE_ONLY_READ(0, 999999) FIELDSCRIBE_CODE("d016") FIELDSCRIBE_REFERENCE("modicon", 4110)
@@ -569,7 +569,7 @@ static void run_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_run_time_frame, u32, uint32_t)
 }
 
-static void run_power_on_time(fieldscribe_vector *v)
+static void point_power_on_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POWER_ON_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_POWER_ON_TIME) FIELDSCRIBE_ONLY_READ(0, 999999) FIELDSCRIBE_CODE("d017")
@@ -580,7 +580,7 @@ static void run_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_power_on_time_frame, u32, uint32_t)
 }
 
-static void run_trip_count(fieldscribe_vector *v)
+static void point_trip_count(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_COUNT, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_TRIP_COUNT)
         FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("d080") FIELDSCRIBE_REFERENCE("modicon", 17)
@@ -591,7 +591,7 @@ static void run_trip_count(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_count_frame, u16, uint16_t)
 }
 
-static void run_trip_1_error(fieldscribe_vector *v)
+static void point_trip_1_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_ERROR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_1_ERROR) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("d081")
@@ -606,7 +606,7 @@ static void run_trip_1_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_error_frame, u16, uint16_t)
 }
 
-static void run_trip_1_output_frequency(fieldscribe_vector *v)
+static void point_trip_1_output_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_1_OUTPUT_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -619,7 +619,7 @@ static void run_trip_1_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_output_frequency_frame, u16, uint16_t)
 }
 
-static void run_trip_1_motor_current(fieldscribe_vector *v)
+static void point_trip_1_motor_current(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_MOTOR_CURRENT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_1_MOTOR_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -632,7 +632,7 @@ static void run_trip_1_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_motor_current_frame, u16, uint16_t)
 }
 
-static void run_trip_1_dc_bus_voltage(fieldscribe_vector *v)
+static void point_trip_1_dc_bus_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_1_DC_BUS_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -645,7 +645,7 @@ static void run_trip_1_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_dc_bus_voltage_frame, u16, uint16_t)
 }
 
-static void run_trip_1_run_time(fieldscribe_vector *v)
+static void point_trip_1_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_1_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295) FIELDSCRIBE_CODE("d081")
@@ -656,7 +656,7 @@ static void run_trip_1_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_run_time_frame, u32, uint32_t)
 }
 
-static void run_trip_1_power_on_time(fieldscribe_vector *v)
+static void point_trip_1_power_on_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_1_POWER_ON_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_1_POWER_ON_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295)
@@ -667,7 +667,7 @@ static void run_trip_1_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_1_power_on_time_frame, u32, uint32_t)
 }
 
-static void run_trip_2_error(fieldscribe_vector *v)
+static void point_trip_2_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_ERROR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_2_ERROR) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("d082")
@@ -682,7 +682,7 @@ static void run_trip_2_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_error_frame, u16, uint16_t)
 }
 
-static void run_trip_2_output_frequency(fieldscribe_vector *v)
+static void point_trip_2_output_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_2_OUTPUT_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -695,7 +695,7 @@ static void run_trip_2_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_output_frequency_frame, u16, uint16_t)
 }
 
-static void run_trip_2_motor_current(fieldscribe_vector *v)
+static void point_trip_2_motor_current(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_MOTOR_CURRENT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_2_MOTOR_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -708,7 +708,7 @@ static void run_trip_2_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_motor_current_frame, u16, uint16_t)
 }
 
-static void run_trip_2_dc_bus_voltage(fieldscribe_vector *v)
+static void point_trip_2_dc_bus_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_2_DC_BUS_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -721,7 +721,7 @@ static void run_trip_2_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_dc_bus_voltage_frame, u16, uint16_t)
 }
 
-static void run_trip_2_run_time(fieldscribe_vector *v)
+static void point_trip_2_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_2_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295) FIELDSCRIBE_CODE("d082")
@@ -732,7 +732,7 @@ static void run_trip_2_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_run_time_frame, u32, uint32_t)
 }
 
-static void run_trip_2_power_on_time(fieldscribe_vector *v)
+static void point_trip_2_power_on_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_2_POWER_ON_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_2_POWER_ON_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295)
@@ -743,7 +743,7 @@ static void run_trip_2_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_2_power_on_time_frame, u32, uint32_t)
 }
 
-static void run_trip_3_error(fieldscribe_vector *v)
+static void point_trip_3_error(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_ERROR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_3_ERROR) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("d083")
@@ -758,7 +758,7 @@ static void run_trip_3_error(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_error_frame, u16, uint16_t)
 }
 
-static void run_trip_3_output_frequency(fieldscribe_vector *v)
+static void point_trip_3_output_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_3_OUTPUT_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -771,7 +771,7 @@ static void run_trip_3_output_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_output_frequency_frame, u16, uint16_t)
 }
 
-static void run_trip_3_motor_current(fieldscribe_vector *v)
+static void point_trip_3_motor_current(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_MOTOR_CURRENT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_3_MOTOR_CURRENT) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -784,7 +784,7 @@ static void run_trip_3_motor_current(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_motor_current_frame, u16, uint16_t)
 }
 
-static void run_trip_3_dc_bus_voltage(fieldscribe_vector *v)
+static void point_trip_3_dc_bus_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_TRIP_3_DC_BUS_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -797,7 +797,7 @@ static void run_trip_3_dc_bus_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_dc_bus_voltage_frame, u16, uint16_t)
 }
 
-static void run_trip_3_run_time(fieldscribe_vector *v)
+static void point_trip_3_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_3_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295) FIELDSCRIBE_CODE("d083")
@@ -808,7 +808,7 @@ static void run_trip_3_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_run_time_frame, u32, uint32_t)
 }
 
-static void run_trip_3_power_on_time(fieldscribe_vector *v)
+static void point_trip_3_power_on_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_TRIP_3_POWER_ON_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_TRIP_3_POWER_ON_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295)
@@ -819,7 +819,7 @@ static void run_trip_3_power_on_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(hitachi_l200_trip_3_power_on_time_frame, u32, uint32_t)
 }
 
-static void run_acceleration_time(fieldscribe_vector *v)
+static void point_acceleration_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_ACCELERATION_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_ACCELERATION_TIME)
@@ -836,7 +836,7 @@ static void run_acceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_frame, u32, uint32_t)
 }
 
-static void run_acceleration_time_set_2(fieldscribe_vector *v)
+static void point_acceleration_time_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_TIME_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_ACCELERATION_TIME_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_ACCELERATION_TIME_SET_2)
@@ -853,7 +853,7 @@ static void run_acceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_set_2_frame, u32, uint32_t)
 }
 
-static void run_deceleration_time(fieldscribe_vector *v)
+static void point_deceleration_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_DECELERATION_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_DECELERATION_TIME)
@@ -870,7 +870,7 @@ static void run_deceleration_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_frame, u32, uint32_t)
 }
 
-static void run_deceleration_time_set_2(fieldscribe_vector *v)
+static void point_deceleration_time_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_TIME_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_DECELERATION_TIME_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_DECELERATION_TIME_SET_2)
@@ -887,7 +887,7 @@ static void run_deceleration_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_set_2_frame, u32, uint32_t)
 }
 
-static void run_motor_direction(fieldscribe_vector *v)
+static void point_motor_direction(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_DIRECTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_DIRECTION) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_DIRECTION)
@@ -904,7 +904,7 @@ static void run_motor_direction(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_direction_frame, u16, uint16_t)
 }
 
-static void run_frequency_source(fieldscribe_vector *v)
+static void point_frequency_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_SOURCE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_SOURCE) FIELDSCRIBE_RAWS(HITACHI_L200_FREQUENCY_SOURCE)
@@ -924,7 +924,7 @@ static void run_frequency_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_frame, u16, uint16_t)
 }
 
-static void run_frequency_source_set_2(fieldscribe_vector *v)
+static void point_frequency_source_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_SOURCE_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_SOURCE_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_FREQUENCY_SOURCE_SET_2)
@@ -944,7 +944,7 @@ static void run_frequency_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_source_set_2_frame, u16, uint16_t)
 }
 
-static void run_run_source(fieldscribe_vector *v)
+static void point_run_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUN_SOURCE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_RUN_SOURCE)
         FIELDSCRIBE_RAWS(HITACHI_L200_RUN_SOURCE) FIELDSCRIBE_CODE("A002") FIELDSCRIBE_REFERENCE("modicon", 4122)
@@ -962,7 +962,7 @@ static void run_run_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_frame, u16, uint16_t)
 }
 
-static void run_run_source_set_2(fieldscribe_vector *v)
+static void point_run_source_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RUN_SOURCE_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RUN_SOURCE_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_RUN_SOURCE_SET_2)
@@ -980,7 +980,7 @@ static void run_run_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_run_source_set_2_frame, u16, uint16_t)
 }
 
-static void run_motor_rated_frequency(fieldscribe_vector *v)
+static void point_motor_rated_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_RATED_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_RATED_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_RATED_FREQUENCY)
@@ -996,7 +996,7 @@ static void run_motor_rated_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_frame, u16, uint16_t)
 }
 
-static void run_motor_rated_frequency_set_2(fieldscribe_vector *v)
+static void point_motor_rated_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_RATED_FREQUENCY_SET_2)
@@ -1013,7 +1013,7 @@ static void run_motor_rated_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_rated_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_maximum_frequency(fieldscribe_vector *v)
+static void point_maximum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MAXIMUM_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_MAXIMUM_FREQUENCY)
@@ -1029,7 +1029,7 @@ static void run_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_frame, u16, uint16_t)
 }
 
-static void run_maximum_frequency_set_2(fieldscribe_vector *v)
+static void point_maximum_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MAXIMUM_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MAXIMUM_FREQUENCY_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_MAXIMUM_FREQUENCY_SET_2)
@@ -1045,7 +1045,7 @@ static void run_maximum_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_maximum_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_at_terminal_selection(fieldscribe_vector *v)
+static void point_at_terminal_selection(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_AT_TERMINAL_SELECTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_AT_TERMINAL_SELECTION) FIELDSCRIBE_RAWS(HITACHI_L200_AT_TERMINAL_SELECTION)
@@ -1064,7 +1064,7 @@ static void run_at_terminal_selection(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_at_terminal_selection_frame, u16, uint16_t)
 }
 
-static void run_input_o_minimum_frequency(fieldscribe_vector *v)
+static void point_input_o_minimum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_MINIMUM_FREQUENCY)
@@ -1081,7 +1081,7 @@ static void run_input_o_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_frequency_frame, u16, uint16_t)
 }
 
-static void run_input_o_maximum_frequency(fieldscribe_vector *v)
+static void point_input_o_maximum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_MAXIMUM_FREQUENCY)
@@ -1098,7 +1098,7 @@ static void run_input_o_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_frequency_frame, u16, uint16_t)
 }
 
-static void run_input_o_minimum_setpoint(fieldscribe_vector *v)
+static void point_input_o_minimum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_MINIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_MINIMUM_SETPOINT) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_MINIMUM_SETPOINT)
@@ -1112,7 +1112,7 @@ static void run_input_o_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_minimum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_input_o_maximum_setpoint(fieldscribe_vector *v)
+static void point_input_o_maximum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_MAXIMUM_SETPOINT)
@@ -1126,7 +1126,7 @@ static void run_input_o_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_maximum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_input_o_start_condition(fieldscribe_vector *v)
+static void point_input_o_start_condition(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_START_CONDITION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_START_CONDITION) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_START_CONDITION)
@@ -1143,7 +1143,7 @@ static void run_input_o_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_start_condition_frame, u16, uint16_t)
 }
 
-static void run_analog_input_filter(fieldscribe_vector *v)
+static void point_analog_input_filter(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ANALOG_INPUT_FILTER, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ANALOG_INPUT_FILTER) FIELDSCRIBE_RAWS(HITACHI_L200_ANALOG_INPUT_FILTER)
@@ -1159,7 +1159,7 @@ static void run_analog_input_filter(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_input_filter_frame, u16, uint16_t)
 }
 
-static void run_base_frequency(fieldscribe_vector *v)
+static void point_base_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_BASE_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_BASE_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_BASE_FREQUENCY)
@@ -1176,7 +1176,7 @@ static void run_base_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_frame, u16, uint16_t)
 }
 
-static void run_base_frequency_set_2(fieldscribe_vector *v)
+static void point_base_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_BASE_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_BASE_FREQUENCY_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_BASE_FREQUENCY_SET_2)
@@ -1193,7 +1193,7 @@ static void run_base_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_base_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_1(fieldscribe_vector *v)
+static void point_fixed_frequency_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_1, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_1) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_1)
@@ -1210,7 +1210,7 @@ static void run_fixed_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_1_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_2(fieldscribe_vector *v)
+static void point_fixed_frequency_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_2) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_2)
@@ -1227,7 +1227,7 @@ static void run_fixed_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_2_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_3(fieldscribe_vector *v)
+static void point_fixed_frequency_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_3, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_3) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_3)
@@ -1244,7 +1244,7 @@ static void run_fixed_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_3_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_4(fieldscribe_vector *v)
+static void point_fixed_frequency_4(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_4, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_4) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_4)
@@ -1261,7 +1261,7 @@ static void run_fixed_frequency_4(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_4_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_5(fieldscribe_vector *v)
+static void point_fixed_frequency_5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_5, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_5) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_5)
@@ -1278,7 +1278,7 @@ static void run_fixed_frequency_5(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_5_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_6(fieldscribe_vector *v)
+static void point_fixed_frequency_6(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_6, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_6) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_6)
@@ -1295,7 +1295,7 @@ static void run_fixed_frequency_6(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_6_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_7(fieldscribe_vector *v)
+static void point_fixed_frequency_7(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_7, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_7) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_7)
@@ -1312,7 +1312,7 @@ static void run_fixed_frequency_7(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_7_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_8(fieldscribe_vector *v)
+static void point_fixed_frequency_8(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_8, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_8) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_8)
@@ -1329,7 +1329,7 @@ static void run_fixed_frequency_8(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_8_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_9(fieldscribe_vector *v)
+static void point_fixed_frequency_9(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_9, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_9) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_9)
@@ -1346,7 +1346,7 @@ static void run_fixed_frequency_9(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_9_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_10(fieldscribe_vector *v)
+static void point_fixed_frequency_10(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_10, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_10) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_10)
@@ -1363,7 +1363,7 @@ static void run_fixed_frequency_10(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_10_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_11(fieldscribe_vector *v)
+static void point_fixed_frequency_11(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_11, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_11) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_11)
@@ -1380,7 +1380,7 @@ static void run_fixed_frequency_11(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_11_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_12(fieldscribe_vector *v)
+static void point_fixed_frequency_12(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_12, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_12) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_12)
@@ -1397,7 +1397,7 @@ static void run_fixed_frequency_12(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_12_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_13(fieldscribe_vector *v)
+static void point_fixed_frequency_13(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_13, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_13) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_13)
@@ -1414,7 +1414,7 @@ static void run_fixed_frequency_13(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_13_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_14(fieldscribe_vector *v)
+static void point_fixed_frequency_14(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_14, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_14) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_14)
@@ -1431,7 +1431,7 @@ static void run_fixed_frequency_14(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_14_frame, u16, uint16_t)
 }
 
-static void run_fixed_frequency_15(fieldscribe_vector *v)
+static void point_fixed_frequency_15(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FIXED_FREQUENCY_15, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FIXED_FREQUENCY_15) FIELDSCRIBE_RAWS(HITACHI_L200_FIXED_FREQUENCY_15)
@@ -1448,7 +1448,7 @@ static void run_fixed_frequency_15(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_fixed_frequency_15_frame, u16, uint16_t)
 }
 
-static void run_jog_frequency(fieldscribe_vector *v)
+static void point_jog_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JOG_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JOG_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_JOG_FREQUENCY)
@@ -1465,7 +1465,7 @@ static void run_jog_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_frequency_frame, u16, uint16_t)
 }
 
-static void run_jog_stop_mode(fieldscribe_vector *v)
+static void point_jog_stop_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JOG_STOP_MODE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JOG_STOP_MODE) FIELDSCRIBE_RAWS(HITACHI_L200_JOG_STOP_MODE)
@@ -1483,7 +1483,7 @@ static void run_jog_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jog_stop_mode_frame, u16, uint16_t)
 }
 
-static void run_boost_mode(fieldscribe_vector *v)
+static void point_boost_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_BOOST_MODE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_BOOST_MODE)
         FIELDSCRIBE_RAWS(HITACHI_L200_BOOST_MODE) FIELDSCRIBE_CODE("A041") FIELDSCRIBE_REFERENCE("modicon", 4170)
@@ -1500,7 +1500,7 @@ static void run_boost_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_frame, u16, uint16_t)
 }
 
-static void run_boost_mode_set_2(fieldscribe_vector *v)
+static void point_boost_mode_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_BOOST_MODE_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_BOOST_MODE_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_BOOST_MODE_SET_2)
@@ -1517,7 +1517,7 @@ static void run_boost_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_boost_mode_set_2_frame, u16, uint16_t)
 }
 
-static void run_manual_boost(fieldscribe_vector *v)
+static void point_manual_boost(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MANUAL_BOOST, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MANUAL_BOOST) FIELDSCRIBE_RAWS(HITACHI_L200_MANUAL_BOOST)
@@ -1534,7 +1534,7 @@ static void run_manual_boost(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frame, u16, uint16_t)
 }
 
-static void run_manual_boost_set_2(fieldscribe_vector *v)
+static void point_manual_boost_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MANUAL_BOOST_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MANUAL_BOOST_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_MANUAL_BOOST_SET_2)
@@ -1551,7 +1551,7 @@ static void run_manual_boost_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_set_2_frame, u16, uint16_t)
 }
 
-static void run_manual_boost_frequency(fieldscribe_vector *v)
+static void point_manual_boost_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MANUAL_BOOST_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MANUAL_BOOST_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_MANUAL_BOOST_FREQUENCY)
@@ -1568,7 +1568,7 @@ static void run_manual_boost_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_frame, u16, uint16_t)
 }
 
-static void run_manual_boost_frequency_set_2(fieldscribe_vector *v)
+static void point_manual_boost_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MANUAL_BOOST_FREQUENCY_SET_2)
@@ -1588,7 +1588,7 @@ static void run_manual_boost_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_manual_boost_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_vf_characteristic(fieldscribe_vector *v)
+static void point_vf_characteristic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_VF_CHARACTERISTIC, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_VF_CHARACTERISTIC) FIELDSCRIBE_RAWS(HITACHI_L200_VF_CHARACTERISTIC)
@@ -1605,7 +1605,7 @@ static void run_vf_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_frame, u16, uint16_t)
 }
 
-static void run_vf_characteristic_set_2(fieldscribe_vector *v)
+static void point_vf_characteristic_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_VF_CHARACTERISTIC_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_VF_CHARACTERISTIC_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_VF_CHARACTERISTIC_SET_2)
@@ -1622,7 +1622,7 @@ static void run_vf_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_vf_characteristic_set_2_frame, u16, uint16_t)
 }
 
-static void run_output_voltage_setting(fieldscribe_vector *v)
+static void point_output_voltage_setting(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OUTPUT_VOLTAGE_SETTING, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OUTPUT_VOLTAGE_SETTING) FIELDSCRIBE_RAWS(HITACHI_L200_OUTPUT_VOLTAGE_SETTING)
@@ -1636,7 +1636,7 @@ static void run_output_voltage_setting(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_frame, u16, uint16_t)
 }
 
-static void run_output_voltage_setting_set_2(fieldscribe_vector *v)
+static void point_output_voltage_setting_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OUTPUT_VOLTAGE_SETTING_SET_2)
@@ -1651,7 +1651,7 @@ static void run_output_voltage_setting_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_output_voltage_setting_set_2_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_enable(fieldscribe_vector *v)
+static void point_dc_brake_enable(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_ENABLE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_ENABLE) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_ENABLE)
@@ -1668,7 +1668,7 @@ static void run_dc_brake_enable(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_enable_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_frequency(fieldscribe_vector *v)
+static void point_dc_brake_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_FREQUENCY)
@@ -1687,7 +1687,7 @@ static void run_dc_brake_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_frequency_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_delay(fieldscribe_vector *v)
+static void point_dc_brake_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_DELAY) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_DELAY)
@@ -1704,7 +1704,7 @@ static void run_dc_brake_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_delay_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_torque(fieldscribe_vector *v)
+static void point_dc_brake_torque(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_TORQUE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_TORQUE) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_TORQUE)
@@ -1718,7 +1718,7 @@ static void run_dc_brake_torque(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_torque_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_time(fieldscribe_vector *v)
+static void point_dc_brake_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_TIME)
@@ -1735,7 +1735,7 @@ static void run_dc_brake_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_time_frame, u16, uint16_t)
 }
 
-static void run_dc_brake_trigger(fieldscribe_vector *v)
+static void point_dc_brake_trigger(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DC_BRAKE_TRIGGER, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DC_BRAKE_TRIGGER) FIELDSCRIBE_RAWS(HITACHI_L200_DC_BRAKE_TRIGGER)
@@ -1752,7 +1752,7 @@ static void run_dc_brake_trigger(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_dc_brake_trigger_frame, u16, uint16_t)
 }
 
-static void run_upper_frequency_limit(fieldscribe_vector *v)
+static void point_upper_frequency_limit(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_UPPER_FREQUENCY_LIMIT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_UPPER_FREQUENCY_LIMIT) FIELDSCRIBE_RAWS(HITACHI_L200_UPPER_FREQUENCY_LIMIT)
@@ -1775,7 +1775,7 @@ static void run_upper_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit, uint16_t)
 }
 
-static void run_upper_frequency_limit_set_2(fieldscribe_vector *v)
+static void point_upper_frequency_limit_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2)
@@ -1801,7 +1801,7 @@ static void run_upper_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_upper_frequency_limit_set_2, uint16_t)
 }
 
-static void run_lower_frequency_limit(fieldscribe_vector *v)
+static void point_lower_frequency_limit(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_LOWER_FREQUENCY_LIMIT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_LOWER_FREQUENCY_LIMIT) FIELDSCRIBE_RAWS(HITACHI_L200_LOWER_FREQUENCY_LIMIT)
@@ -1824,7 +1824,7 @@ static void run_lower_frequency_limit(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit, uint16_t)
 }
 
-static void run_lower_frequency_limit_set_2(fieldscribe_vector *v)
+static void point_lower_frequency_limit_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_LOWER_FREQUENCY_LIMIT_SET_2)
@@ -1850,7 +1850,7 @@ static void run_lower_frequency_limit_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(hitachi_l200_lower_frequency_limit_set_2, uint16_t)
 }
 
-static void run_jump_frequency_1(fieldscribe_vector *v)
+static void point_jump_frequency_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_1, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_1) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_1)
@@ -1867,7 +1867,7 @@ static void run_jump_frequency_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_frame, u16, uint16_t)
 }
 
-static void run_jump_frequency_1_width(fieldscribe_vector *v)
+static void point_jump_frequency_1_width(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_1_WIDTH, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_1_WIDTH) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_1_WIDTH)
@@ -1884,7 +1884,7 @@ static void run_jump_frequency_1_width(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_1_width_frame, u16, uint16_t)
 }
 
-static void run_jump_frequency_2(fieldscribe_vector *v)
+static void point_jump_frequency_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_2) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_2)
@@ -1901,7 +1901,7 @@ static void run_jump_frequency_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_frame, u16, uint16_t)
 }
 
-static void run_jump_frequency_2_width(fieldscribe_vector *v)
+static void point_jump_frequency_2_width(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_2_WIDTH, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_2_WIDTH) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_2_WIDTH)
@@ -1918,7 +1918,7 @@ static void run_jump_frequency_2_width(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_2_width_frame, u16, uint16_t)
 }
 
-static void run_jump_frequency_3(fieldscribe_vector *v)
+static void point_jump_frequency_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_3, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_3) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_3)
@@ -1935,7 +1935,7 @@ static void run_jump_frequency_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_frame, u16, uint16_t)
 }
 
-static void run_jump_frequency_3_width(fieldscribe_vector *v)
+static void point_jump_frequency_3_width(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_JUMP_FREQUENCY_3_WIDTH, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_JUMP_FREQUENCY_3_WIDTH) FIELDSCRIBE_RAWS(HITACHI_L200_JUMP_FREQUENCY_3_WIDTH)
@@ -1952,7 +1952,7 @@ static void run_jump_frequency_3_width(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_jump_frequency_3_width_frame, u16, uint16_t)
 }
 
-static void run_pid_enable(fieldscribe_vector *v)
+static void point_pid_enable(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_ENABLE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_PID_ENABLE)
         FIELDSCRIBE_RAWS(HITACHI_L200_PID_ENABLE) FIELDSCRIBE_CODE("A071") FIELDSCRIBE_REFERENCE("modicon", 4200)
@@ -1969,7 +1969,7 @@ static void run_pid_enable(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_enable_frame, u16, uint16_t)
 }
 
-static void run_pid_proportional_gain(fieldscribe_vector *v)
+static void point_pid_proportional_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_PROPORTIONAL_GAIN, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_PROPORTIONAL_GAIN) FIELDSCRIBE_RAWS(HITACHI_L200_PID_PROPORTIONAL_GAIN)
@@ -1986,7 +1986,7 @@ static void run_pid_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_proportional_gain_frame, u16, uint16_t)
 }
 
-static void run_pid_integral_time(fieldscribe_vector *v)
+static void point_pid_integral_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_INTEGRAL_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_INTEGRAL_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_PID_INTEGRAL_TIME)
@@ -2003,7 +2003,7 @@ static void run_pid_integral_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_integral_time_frame, u16, uint16_t)
 }
 
-static void run_pid_derivative_time(fieldscribe_vector *v)
+static void point_pid_derivative_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_DERIVATIVE_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_DERIVATIVE_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_PID_DERIVATIVE_TIME)
@@ -2020,7 +2020,7 @@ static void run_pid_derivative_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_derivative_time_frame, u16, uint16_t)
 }
 
-static void run_pid_display_factor(fieldscribe_vector *v)
+static void point_pid_display_factor(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_DISPLAY_FACTOR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_DISPLAY_FACTOR) FIELDSCRIBE_RAWS(HITACHI_L200_PID_DISPLAY_FACTOR)
@@ -2037,7 +2037,7 @@ static void run_pid_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_display_factor_frame, u16, uint16_t)
 }
 
-static void run_pid_process_value_source(fieldscribe_vector *v)
+static void point_pid_process_value_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_PROCESS_VALUE_SOURCE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_PROCESS_VALUE_SOURCE) FIELDSCRIBE_RAWS(HITACHI_L200_PID_PROCESS_VALUE_SOURCE)
@@ -2056,7 +2056,7 @@ static void run_pid_process_value_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_source_frame, u16, uint16_t)
 }
 
-static void run_pid_inversion(fieldscribe_vector *v)
+static void point_pid_inversion(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_INVERSION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_INVERSION) FIELDSCRIBE_RAWS(HITACHI_L200_PID_INVERSION)
@@ -2073,7 +2073,7 @@ static void run_pid_inversion(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_inversion_frame, u16, uint16_t)
 }
 
-static void run_pid_output_limit(fieldscribe_vector *v)
+static void point_pid_output_limit(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_OUTPUT_LIMIT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_OUTPUT_LIMIT) FIELDSCRIBE_RAWS(HITACHI_L200_PID_OUTPUT_LIMIT)
@@ -2090,7 +2090,7 @@ static void run_pid_output_limit(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_output_limit_frame, u16, uint16_t)
 }
 
-static void run_avr_mode(fieldscribe_vector *v)
+static void point_avr_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_AVR_MODE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_AVR_MODE)
         FIELDSCRIBE_RAWS(HITACHI_L200_AVR_MODE) FIELDSCRIBE_CODE("A081") FIELDSCRIBE_REFERENCE("modicon", 4208)
@@ -2108,7 +2108,7 @@ static void run_avr_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_avr_mode_frame, u16, uint16_t)
 }
 
-static void run_motor_voltage(fieldscribe_vector *v)
+static void point_motor_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_VOLTAGE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_VOLTAGE) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_VOLTAGE)
@@ -2122,7 +2122,7 @@ static void run_motor_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_voltage_frame, u16, uint16_t)
 }
 
-static void run_acceleration_time_2(fieldscribe_vector *v)
+static void point_acceleration_time_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_TIME_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_ACCELERATION_TIME_2) FIELDSCRIBE_RAWS(HITACHI_L200_ACCELERATION_TIME_2)
@@ -2139,7 +2139,7 @@ static void run_acceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_time_2_frame, u32, uint32_t)
 }
 
-static void run_deceleration_time_2(fieldscribe_vector *v)
+static void point_deceleration_time_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_TIME_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_DECELERATION_TIME_2) FIELDSCRIBE_RAWS(HITACHI_L200_DECELERATION_TIME_2)
@@ -2156,7 +2156,7 @@ static void run_deceleration_time_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_frame, u32, uint32_t)
 }
 
-static void run_deceleration_time_2_set_2(fieldscribe_vector *v)
+static void point_deceleration_time_2_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_TIME_2_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(HITACHI_L200_DECELERATION_TIME_2_SET_2)
@@ -2174,7 +2174,7 @@ static void run_deceleration_time_2_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_time_2_set_2_frame, u32, uint32_t)
 }
 
-static void run_ramp_2_selection(fieldscribe_vector *v)
+static void point_ramp_2_selection(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RAMP_2_SELECTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RAMP_2_SELECTION) FIELDSCRIBE_RAWS(HITACHI_L200_RAMP_2_SELECTION)
@@ -2191,7 +2191,7 @@ static void run_ramp_2_selection(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_frame, u16, uint16_t)
 }
 
-static void run_ramp_2_selection_set_2(fieldscribe_vector *v)
+static void point_ramp_2_selection_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RAMP_2_SELECTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RAMP_2_SELECTION_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_RAMP_2_SELECTION_SET_2)
@@ -2208,7 +2208,7 @@ static void run_ramp_2_selection_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_ramp_2_selection_set_2_frame, u16, uint16_t)
 }
 
-static void run_acceleration_change_frequency(fieldscribe_vector *v)
+static void point_acceleration_change_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY)
@@ -2228,7 +2228,7 @@ static void run_acceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_frame, u16, uint16_t)
 }
 
-static void run_acceleration_change_frequency_set_2(fieldscribe_vector *v)
+static void point_acceleration_change_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ACCELERATION_CHANGE_FREQUENCY_SET_2)
@@ -2250,7 +2250,7 @@ static void run_acceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_change_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_deceleration_change_frequency(fieldscribe_vector *v)
+static void point_deceleration_change_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_CHANGE_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DECELERATION_CHANGE_FREQUENCY)
@@ -2270,7 +2270,7 @@ static void run_deceleration_change_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_frame, u16, uint16_t)
 }
 
-static void run_deceleration_change_frequency_set_2(fieldscribe_vector *v)
+static void point_deceleration_change_frequency_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DECELERATION_CHANGE_FREQUENCY_SET_2)
@@ -2292,7 +2292,7 @@ static void run_deceleration_change_frequency_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_change_frequency_set_2_frame, u16, uint16_t)
 }
 
-static void run_acceleration_curve(fieldscribe_vector *v)
+static void point_acceleration_curve(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ACCELERATION_CURVE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ACCELERATION_CURVE) FIELDSCRIBE_RAWS(HITACHI_L200_ACCELERATION_CURVE)
@@ -2309,7 +2309,7 @@ static void run_acceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_acceleration_curve_frame, u16, uint16_t)
 }
 
-static void run_deceleration_curve(fieldscribe_vector *v)
+static void point_deceleration_curve(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DECELERATION_CURVE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DECELERATION_CURVE) FIELDSCRIBE_RAWS(HITACHI_L200_DECELERATION_CURVE)
@@ -2326,7 +2326,7 @@ static void run_deceleration_curve(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_deceleration_curve_frame, u16, uint16_t)
 }
 
-static void run_input_oi_minimum_frequency(fieldscribe_vector *v)
+static void point_input_oi_minimum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_MINIMUM_FREQUENCY)
@@ -2344,7 +2344,7 @@ static void run_input_oi_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_frequency_frame, u16, uint16_t)
 }
 
-static void run_input_oi_maximum_frequency(fieldscribe_vector *v)
+static void point_input_oi_maximum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_MAXIMUM_FREQUENCY)
@@ -2362,7 +2362,7 @@ static void run_input_oi_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_frequency_frame, u16, uint16_t)
 }
 
-static void run_input_oi_minimum_setpoint(fieldscribe_vector *v)
+static void point_input_oi_minimum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_OI_MINIMUM_SETPOINT)
@@ -2376,7 +2376,7 @@ static void run_input_oi_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_minimum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_input_oi_maximum_setpoint(fieldscribe_vector *v)
+static void point_input_oi_maximum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_OI_MAXIMUM_SETPOINT)
@@ -2390,7 +2390,7 @@ static void run_input_oi_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_maximum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_input_oi_start_condition(fieldscribe_vector *v)
+static void point_input_oi_start_condition(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_START_CONDITION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_START_CONDITION) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_OI_START_CONDITION)
@@ -2407,7 +2407,7 @@ static void run_input_oi_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_start_condition_frame, u16, uint16_t)
 }
 
-static void run_calculation_input_a(fieldscribe_vector *v)
+static void point_calculation_input_a(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CALCULATION_INPUT_A, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CALCULATION_INPUT_A) FIELDSCRIBE_RAWS(HITACHI_L200_CALCULATION_INPUT_A)
@@ -2427,7 +2427,7 @@ static void run_calculation_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_a_frame, u16, uint16_t)
 }
 
-static void run_calculation_input_b(fieldscribe_vector *v)
+static void point_calculation_input_b(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CALCULATION_INPUT_B, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CALCULATION_INPUT_B) FIELDSCRIBE_RAWS(HITACHI_L200_CALCULATION_INPUT_B)
@@ -2447,7 +2447,7 @@ static void run_calculation_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_input_b_frame, u16, uint16_t)
 }
 
-static void run_calculation_operator(fieldscribe_vector *v)
+static void point_calculation_operator(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CALCULATION_OPERATOR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CALCULATION_OPERATOR) FIELDSCRIBE_RAWS(HITACHI_L200_CALCULATION_OPERATOR)
@@ -2465,7 +2465,7 @@ static void run_calculation_operator(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_calculation_operator_frame, u16, uint16_t)
 }
 
-static void run_frequency_offset(fieldscribe_vector *v)
+static void point_frequency_offset(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_OFFSET, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_OFFSET) FIELDSCRIBE_RAWS(HITACHI_L200_FREQUENCY_OFFSET)
@@ -2482,7 +2482,7 @@ static void run_frequency_offset(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_frame, u16, uint16_t)
 }
 
-static void run_frequency_offset_sign(fieldscribe_vector *v)
+static void point_frequency_offset_sign(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_OFFSET_SIGN, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_OFFSET_SIGN) FIELDSCRIBE_RAWS(HITACHI_L200_FREQUENCY_OFFSET_SIGN)
@@ -2499,7 +2499,7 @@ static void run_frequency_offset_sign(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_offset_sign_frame, u16, uint16_t)
 }
 
-static void run_potentiometer_minimum_frequency(fieldscribe_vector *v)
+static void point_potentiometer_minimum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POTENTIOMETER_MINIMUM_FREQUENCY)
@@ -2521,7 +2521,7 @@ static void run_potentiometer_minimum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_frequency_frame, u16, uint16_t)
 }
 
-static void run_potentiometer_maximum_frequency(fieldscribe_vector *v)
+static void point_potentiometer_maximum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POTENTIOMETER_MAXIMUM_FREQUENCY)
@@ -2543,7 +2543,7 @@ static void run_potentiometer_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_frequency_frame, u16, uint16_t)
 }
 
-static void run_potentiometer_minimum_setpoint(fieldscribe_vector *v)
+static void point_potentiometer_minimum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POTENTIOMETER_MINIMUM_SETPOINT)
@@ -2558,7 +2558,7 @@ static void run_potentiometer_minimum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_minimum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_potentiometer_maximum_setpoint(fieldscribe_vector *v)
+static void point_potentiometer_maximum_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POTENTIOMETER_MAXIMUM_SETPOINT)
@@ -2573,7 +2573,7 @@ static void run_potentiometer_maximum_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_maximum_setpoint_frame, u16, uint16_t)
 }
 
-static void run_potentiometer_start_condition(fieldscribe_vector *v)
+static void point_potentiometer_start_condition(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POTENTIOMETER_START_CONDITION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POTENTIOMETER_START_CONDITION)
@@ -2591,7 +2591,7 @@ static void run_potentiometer_start_condition(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_potentiometer_start_condition_frame, u16, uint16_t)
 }
 
-static void run_restart_mode(fieldscribe_vector *v)
+static void point_restart_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RESTART_MODE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RESTART_MODE) FIELDSCRIBE_RAWS(HITACHI_L200_RESTART_MODE) FIELDSCRIBE_CODE("b001")
@@ -2610,7 +2610,7 @@ static void run_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_mode_frame, u16, uint16_t)
 }
 
-static void run_allowed_power_failure_time(fieldscribe_vector *v)
+static void point_allowed_power_failure_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ALLOWED_POWER_FAILURE_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ALLOWED_POWER_FAILURE_TIME)
@@ -2628,7 +2628,7 @@ static void run_allowed_power_failure_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_allowed_power_failure_time_frame, u16, uint16_t)
 }
 
-static void run_restart_delay(fieldscribe_vector *v)
+static void point_restart_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RESTART_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RESTART_DELAY) FIELDSCRIBE_RAWS(HITACHI_L200_RESTART_DELAY)
@@ -2645,7 +2645,7 @@ static void run_restart_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_restart_delay_frame, u16, uint16_t)
 }
 
-static void run_power_failure_trip_at_standstill(fieldscribe_vector *v)
+static void point_power_failure_trip_at_standstill(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL)
@@ -2663,7 +2663,7 @@ static void run_power_failure_trip_at_standstill(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_trip_at_standstill_frame, u16, uint16_t)
 }
 
-static void run_power_failure_restarts(fieldscribe_vector *v)
+static void point_power_failure_restarts(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_POWER_FAILURE_RESTARTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_POWER_FAILURE_RESTARTS) FIELDSCRIBE_RAWS(HITACHI_L200_POWER_FAILURE_RESTARTS)
@@ -2680,7 +2680,7 @@ static void run_power_failure_restarts(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_power_failure_restarts_frame, u16, uint16_t)
 }
 
-static void run_motor_protection_level(fieldscribe_vector *v)
+static void point_motor_protection_level(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_PROTECTION_LEVEL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_PROTECTION_LEVEL) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_PROTECTION_LEVEL)
@@ -2697,7 +2697,7 @@ static void run_motor_protection_level(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_frame, u16, uint16_t)
 }
 
-static void run_motor_protection_level_set_2(fieldscribe_vector *v)
+static void point_motor_protection_level_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_PROTECTION_LEVEL_SET_2)
@@ -2717,7 +2717,7 @@ static void run_motor_protection_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_level_set_2_frame, u16, uint16_t)
 }
 
-static void run_motor_protection_characteristic(fieldscribe_vector *v)
+static void point_motor_protection_characteristic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC)
@@ -2736,7 +2736,7 @@ static void run_motor_protection_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_frame, u16, uint16_t)
 }
 
-static void run_motor_protection_characteristic_set_2(fieldscribe_vector *v)
+static void point_motor_protection_characteristic_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_SET_2)
@@ -2757,7 +2757,7 @@ static void run_motor_protection_characteristic_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_protection_characteristic_set_2_frame, u16, uint16_t)
 }
 
-static void run_current_limit_mode(fieldscribe_vector *v)
+static void point_current_limit_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_MODE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_MODE) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_MODE)
@@ -2775,7 +2775,7 @@ static void run_current_limit_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_frame, u16, uint16_t)
 }
 
-static void run_current_limit_mode_set_2(fieldscribe_vector *v)
+static void point_current_limit_mode_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_MODE_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_MODE_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_MODE_SET_2)
@@ -2793,7 +2793,7 @@ static void run_current_limit_mode_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_mode_set_2_frame, u16, uint16_t)
 }
 
-static void run_current_limit_level(fieldscribe_vector *v)
+static void point_current_limit_level(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_LEVEL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_LEVEL) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_LEVEL)
@@ -2810,7 +2810,7 @@ static void run_current_limit_level(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_frame, u16, uint16_t)
 }
 
-static void run_current_limit_level_set_2(fieldscribe_vector *v)
+static void point_current_limit_level_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_LEVEL_SET_2)
@@ -2827,7 +2827,7 @@ static void run_current_limit_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_level_set_2_frame, u16, uint16_t)
 }
 
-static void run_current_limit_time(fieldscribe_vector *v)
+static void point_current_limit_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_TIME) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_TIME)
@@ -2844,7 +2844,7 @@ static void run_current_limit_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_frame, u16, uint16_t)
 }
 
-static void run_current_limit_time_set_2(fieldscribe_vector *v)
+static void point_current_limit_time_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_TIME_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_TIME_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_TIME_SET_2)
@@ -2861,7 +2861,7 @@ static void run_current_limit_time_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_time_set_2_frame, u16, uint16_t)
 }
 
-static void run_current_limit_source(fieldscribe_vector *v)
+static void point_current_limit_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_SOURCE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_SOURCE) FIELDSCRIBE_RAWS(HITACHI_L200_CURRENT_LIMIT_SOURCE)
@@ -2878,7 +2878,7 @@ static void run_current_limit_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_frame, u16, uint16_t)
 }
 
-static void run_current_limit_source_set_2(fieldscribe_vector *v)
+static void point_current_limit_source_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CURRENT_LIMIT_SOURCE_SET_2)
@@ -2896,7 +2896,7 @@ static void run_current_limit_source_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_current_limit_source_set_2_frame, u16, uint16_t)
 }
 
-static void run_parameter_lock(fieldscribe_vector *v)
+static void point_parameter_lock(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PARAMETER_LOCK, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PARAMETER_LOCK) FIELDSCRIBE_RAWS(HITACHI_L200_PARAMETER_LOCK)
@@ -2915,7 +2915,7 @@ static void run_parameter_lock(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_parameter_lock_frame, u16, uint16_t)
 }
 
-static void run_analog_output_gain(fieldscribe_vector *v)
+static void point_analog_output_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ANALOG_OUTPUT_GAIN, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ANALOG_OUTPUT_GAIN) FIELDSCRIBE_RAWS(HITACHI_L200_ANALOG_OUTPUT_GAIN)
@@ -2929,7 +2929,7 @@ static void run_analog_output_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_gain_frame, u16, uint16_t)
 }
 
-static void run_start_frequency(fieldscribe_vector *v)
+static void point_start_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_START_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_START_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_START_FREQUENCY)
@@ -2946,7 +2946,7 @@ static void run_start_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_start_frequency_frame, u16, uint16_t)
 }
 
-static void run_carrier_frequency(fieldscribe_vector *v)
+static void point_carrier_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_CARRIER_FREQUENCY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_CARRIER_FREQUENCY) FIELDSCRIBE_RAWS(HITACHI_L200_CARRIER_FREQUENCY)
@@ -2963,7 +2963,7 @@ static void run_carrier_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_carrier_frequency_frame, u16, uint16_t)
 }
 
-static void run_initialization_mode(fieldscribe_vector *v)
+static void point_initialization_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INITIALIZATION_MODE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INITIALIZATION_MODE) FIELDSCRIBE_RAWS(HITACHI_L200_INITIALIZATION_MODE)
@@ -2982,7 +2982,7 @@ static void run_initialization_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_initialization_mode_frame, u16, uint16_t)
 }
 
-static void run_frequency_display_factor(fieldscribe_vector *v)
+static void point_frequency_display_factor(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_FREQUENCY_DISPLAY_FACTOR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_FREQUENCY_DISPLAY_FACTOR) FIELDSCRIBE_RAWS(HITACHI_L200_FREQUENCY_DISPLAY_FACTOR)
@@ -2999,7 +2999,7 @@ static void run_frequency_display_factor(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_frequency_display_factor_frame, u16, uint16_t)
 }
 
-static void run_stop_key_lock(fieldscribe_vector *v)
+static void point_stop_key_lock(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_STOP_KEY_LOCK, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_STOP_KEY_LOCK) FIELDSCRIBE_RAWS(HITACHI_L200_STOP_KEY_LOCK)
@@ -3016,7 +3016,7 @@ static void run_stop_key_lock(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_key_lock_frame, u16, uint16_t)
 }
 
-static void run_coast_restart_mode(fieldscribe_vector *v)
+static void point_coast_restart_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_COAST_RESTART_MODE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_COAST_RESTART_MODE) FIELDSCRIBE_RAWS(HITACHI_L200_COAST_RESTART_MODE)
@@ -3033,7 +3033,7 @@ static void run_coast_restart_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_coast_restart_mode_frame, u16, uint16_t)
 }
 
-static void run_network_display(fieldscribe_vector *v)
+static void point_network_display(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_NETWORK_DISPLAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_NETWORK_DISPLAY) FIELDSCRIBE_RAWS(HITACHI_L200_NETWORK_DISPLAY)
@@ -3055,7 +3055,7 @@ static void run_network_display(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_network_display_frame, u16, uint16_t)
 }
 
-static void run_stop_mode(fieldscribe_vector *v)
+static void point_stop_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_STOP_MODE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_STOP_MODE)
         FIELDSCRIBE_RAWS(HITACHI_L200_STOP_MODE) FIELDSCRIBE_CODE("b091") FIELDSCRIBE_REFERENCE("modicon", 4314)
@@ -3072,7 +3072,7 @@ static void run_stop_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_stop_mode_frame, u16, uint16_t)
 }
 
-static void run_overvoltage_deceleration_enable(fieldscribe_vector *v)
+static void point_overvoltage_deceleration_enable(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERVOLTAGE_DECELERATION_ENABLE)
@@ -3090,7 +3090,7 @@ static void run_overvoltage_deceleration_enable(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_enable_frame, u16, uint16_t)
 }
 
-static void run_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
+static void point_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_200V)
@@ -3107,7 +3107,7 @@ static void run_overvoltage_deceleration_level_200v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_200v_frame, u16, uint16_t)
 }
 
-static void run_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
+static void point_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERVOLTAGE_DECELERATION_LEVEL_400V)
@@ -3124,7 +3124,7 @@ static void run_overvoltage_deceleration_level_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_overvoltage_deceleration_level_400v_frame, u16, uint16_t)
 }
 
-static void run_digital_input_1_function(fieldscribe_vector *v)
+static void point_digital_input_1_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_1_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_1_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_1_FUNCTION)
@@ -3138,7 +3138,7 @@ static void run_digital_input_1_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_frame, u16, uint16_t)
 }
 
-static void run_digital_input_1_function_set_2(fieldscribe_vector *v)
+static void point_digital_input_1_function_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2)
@@ -3153,7 +3153,7 @@ static void run_digital_input_1_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_function_set_2_frame, u16, uint16_t)
 }
 
-static void run_digital_input_2_function(fieldscribe_vector *v)
+static void point_digital_input_2_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_2_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_2_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_2_FUNCTION)
@@ -3167,7 +3167,7 @@ static void run_digital_input_2_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_frame, u16, uint16_t)
 }
 
-static void run_digital_input_2_function_set_2(fieldscribe_vector *v)
+static void point_digital_input_2_function_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2)
@@ -3182,7 +3182,7 @@ static void run_digital_input_2_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_function_set_2_frame, u16, uint16_t)
 }
 
-static void run_digital_input_3_function(fieldscribe_vector *v)
+static void point_digital_input_3_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_3_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_3_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_3_FUNCTION)
@@ -3196,7 +3196,7 @@ static void run_digital_input_3_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_frame, u16, uint16_t)
 }
 
-static void run_digital_input_3_function_set_2(fieldscribe_vector *v)
+static void point_digital_input_3_function_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2)
@@ -3211,7 +3211,7 @@ static void run_digital_input_3_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_function_set_2_frame, u16, uint16_t)
 }
 
-static void run_digital_input_4_function(fieldscribe_vector *v)
+static void point_digital_input_4_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_4_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_4_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_4_FUNCTION)
@@ -3225,7 +3225,7 @@ static void run_digital_input_4_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_frame, u16, uint16_t)
 }
 
-static void run_digital_input_4_function_set_2(fieldscribe_vector *v)
+static void point_digital_input_4_function_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2)
@@ -3240,7 +3240,7 @@ static void run_digital_input_4_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_function_set_2_frame, u16, uint16_t)
 }
 
-static void run_digital_input_5_function(fieldscribe_vector *v)
+static void point_digital_input_5_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_5_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_5_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_5_FUNCTION)
@@ -3254,7 +3254,7 @@ static void run_digital_input_5_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_frame, u16, uint16_t)
 }
 
-static void run_digital_input_5_function_set_2(fieldscribe_vector *v)
+static void point_digital_input_5_function_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2)
@@ -3269,7 +3269,7 @@ static void run_digital_input_5_function_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_function_set_2_frame, u16, uint16_t)
 }
 
-static void run_digital_input_1_contact(fieldscribe_vector *v)
+static void point_digital_input_1_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_1_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_1_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_1_CONTACT)
@@ -3286,7 +3286,7 @@ static void run_digital_input_1_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_1_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_input_2_contact(fieldscribe_vector *v)
+static void point_digital_input_2_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_2_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_2_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_2_CONTACT)
@@ -3303,7 +3303,7 @@ static void run_digital_input_2_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_2_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_input_3_contact(fieldscribe_vector *v)
+static void point_digital_input_3_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_3_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_3_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_3_CONTACT)
@@ -3320,7 +3320,7 @@ static void run_digital_input_3_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_3_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_input_4_contact(fieldscribe_vector *v)
+static void point_digital_input_4_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_4_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_4_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_4_CONTACT)
@@ -3337,7 +3337,7 @@ static void run_digital_input_4_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_4_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_input_5_contact(fieldscribe_vector *v)
+static void point_digital_input_5_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_INPUT_5_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_INPUT_5_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_INPUT_5_CONTACT)
@@ -3354,7 +3354,7 @@ static void run_digital_input_5_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_input_5_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_output_11_function(fieldscribe_vector *v)
+static void point_digital_output_11_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_11_FUNCTION)
@@ -3369,7 +3369,7 @@ static void run_digital_output_11_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_function_frame, u16, uint16_t)
 }
 
-static void run_digital_output_12_function(fieldscribe_vector *v)
+static void point_digital_output_12_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_12_FUNCTION)
@@ -3384,7 +3384,7 @@ static void run_digital_output_12_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_function_frame, u16, uint16_t)
 }
 
-static void run_relay_output_function(fieldscribe_vector *v)
+static void point_relay_output_function(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RELAY_OUTPUT_FUNCTION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RELAY_OUTPUT_FUNCTION) FIELDSCRIBE_RAWS(HITACHI_L200_RELAY_OUTPUT_FUNCTION)
@@ -3398,7 +3398,7 @@ static void run_relay_output_function(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_function_frame, u16, uint16_t)
 }
 
-static void run_analog_output_source(fieldscribe_vector *v)
+static void point_analog_output_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ANALOG_OUTPUT_SOURCE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ANALOG_OUTPUT_SOURCE) FIELDSCRIBE_RAWS(HITACHI_L200_ANALOG_OUTPUT_SOURCE)
@@ -3415,7 +3415,7 @@ static void run_analog_output_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_source_frame, u16, uint16_t)
 }
 
-static void run_digital_output_11_contact(fieldscribe_vector *v)
+static void point_digital_output_11_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_OUTPUT_11_CONTACT)
@@ -3432,7 +3432,7 @@ static void run_digital_output_11_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_contact_frame, u16, uint16_t)
 }
 
-static void run_digital_output_12_contact(fieldscribe_vector *v)
+static void point_digital_output_12_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_DIGITAL_OUTPUT_12_CONTACT)
@@ -3449,7 +3449,7 @@ static void run_digital_output_12_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_contact_frame, u16, uint16_t)
 }
 
-static void run_relay_output_contact(fieldscribe_vector *v)
+static void point_relay_output_contact(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RELAY_OUTPUT_CONTACT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RELAY_OUTPUT_CONTACT) FIELDSCRIBE_RAWS(HITACHI_L200_RELAY_OUTPUT_CONTACT)
@@ -3466,7 +3466,7 @@ static void run_relay_output_contact(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_contact_frame, u16, uint16_t)
 }
 
-static void run_overload_alarm_level(fieldscribe_vector *v)
+static void point_overload_alarm_level(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERLOAD_ALARM_LEVEL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERLOAD_ALARM_LEVEL) FIELDSCRIBE_RAWS(HITACHI_L200_OVERLOAD_ALARM_LEVEL)
@@ -3483,7 +3483,7 @@ static void run_overload_alarm_level(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_frame, u16, uint16_t)
 }
 
-static void run_overload_alarm_level_set_2(fieldscribe_vector *v)
+static void point_overload_alarm_level_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_OVERLOAD_ALARM_LEVEL_SET_2)
@@ -3501,7 +3501,7 @@ static void run_overload_alarm_level_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_overload_alarm_level_set_2_frame, u16, uint16_t)
 }
 
-static void run_arrival_frequency_acceleration(fieldscribe_vector *v)
+static void point_arrival_frequency_acceleration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ARRIVAL_FREQUENCY_ACCELERATION)
@@ -3523,7 +3523,7 @@ static void run_arrival_frequency_acceleration(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_acceleration_frame, u16, uint16_t)
 }
 
-static void run_arrival_frequency_deceleration(fieldscribe_vector *v)
+static void point_arrival_frequency_deceleration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ARRIVAL_FREQUENCY_DECELERATION)
@@ -3545,7 +3545,7 @@ static void run_arrival_frequency_deceleration(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_arrival_frequency_deceleration_frame, u16, uint16_t)
 }
 
-static void run_pid_deviation_level(fieldscribe_vector *v)
+static void point_pid_deviation_level(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_DEVIATION_LEVEL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_DEVIATION_LEVEL) FIELDSCRIBE_RAWS(HITACHI_L200_PID_DEVIATION_LEVEL)
@@ -3562,7 +3562,7 @@ static void run_pid_deviation_level(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_deviation_level_frame, u16, uint16_t)
 }
 
-static void run_pid_process_value_upper_limit(fieldscribe_vector *v)
+static void point_pid_process_value_upper_limit(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_PROCESS_VALUE_UPPER_LIMIT)
@@ -3582,7 +3582,7 @@ static void run_pid_process_value_upper_limit(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_upper_limit_frame, u16, uint16_t)
 }
 
-static void run_pid_process_value_lower_limit(fieldscribe_vector *v)
+static void point_pid_process_value_lower_limit(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_PID_PROCESS_VALUE_LOWER_LIMIT)
@@ -3602,7 +3602,7 @@ static void run_pid_process_value_lower_limit(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_pid_process_value_lower_limit_frame, u16, uint16_t)
 }
 
-static void run_input_o_calibration(fieldscribe_vector *v)
+static void point_input_o_calibration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_O_CALIBRATION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_O_CALIBRATION) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_O_CALIBRATION)
@@ -3619,7 +3619,7 @@ static void run_input_o_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_o_calibration_frame, u16, uint16_t)
 }
 
-static void run_input_oi_calibration(fieldscribe_vector *v)
+static void point_input_oi_calibration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_INPUT_OI_CALIBRATION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_INPUT_OI_CALIBRATION) FIELDSCRIBE_RAWS(HITACHI_L200_INPUT_OI_CALIBRATION)
@@ -3636,7 +3636,7 @@ static void run_input_oi_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_input_oi_calibration_frame, u16, uint16_t)
 }
 
-static void run_thermistor_input_calibration(fieldscribe_vector *v)
+static void point_thermistor_input_calibration(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_THERMISTOR_INPUT_CALIBRATION, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_THERMISTOR_INPUT_CALIBRATION)
@@ -3656,7 +3656,7 @@ static void run_thermistor_input_calibration(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_thermistor_input_calibration_frame, u16, uint16_t)
 }
 
-static void run_analog_output_offset(fieldscribe_vector *v)
+static void point_analog_output_offset(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_ANALOG_OUTPUT_OFFSET, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_ANALOG_OUTPUT_OFFSET) FIELDSCRIBE_RAWS(HITACHI_L200_ANALOG_OUTPUT_OFFSET)
@@ -3673,7 +3673,7 @@ static void run_analog_output_offset(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_analog_output_offset_frame, u16, uint16_t)
 }
 
-static void run_motor_potentiometer_memory(fieldscribe_vector *v)
+static void point_motor_potentiometer_memory(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY)
@@ -3691,7 +3691,7 @@ static void run_motor_potentiometer_memory(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_potentiometer_memory_frame, u16, uint16_t)
 }
 
-static void run_reset_mode(fieldscribe_vector *v)
+static void point_reset_mode(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RESET_MODE, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_RESET_MODE)
         FIELDSCRIBE_RAWS(HITACHI_L200_RESET_MODE) FIELDSCRIBE_CODE("C102") FIELDSCRIBE_REFERENCE("modicon", 4426)
@@ -3709,7 +3709,7 @@ static void run_reset_mode(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_reset_mode_frame, u16, uint16_t)
 }
 
-static void run_logic_input_a(fieldscribe_vector *v)
+static void point_logic_input_a(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_LOGIC_INPUT_A, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_LOGIC_INPUT_A) FIELDSCRIBE_RAWS(HITACHI_L200_LOGIC_INPUT_A)
@@ -3723,7 +3723,7 @@ static void run_logic_input_a(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_a_frame, u16, uint16_t)
 }
 
-static void run_logic_input_b(fieldscribe_vector *v)
+static void point_logic_input_b(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_LOGIC_INPUT_B, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_LOGIC_INPUT_B) FIELDSCRIBE_RAWS(HITACHI_L200_LOGIC_INPUT_B)
@@ -3737,7 +3737,7 @@ static void run_logic_input_b(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_input_b_frame, u16, uint16_t)
 }
 
-static void run_logic_operator(fieldscribe_vector *v)
+static void point_logic_operator(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_LOGIC_OPERATOR, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_LOGIC_OPERATOR) FIELDSCRIBE_RAWS(HITACHI_L200_LOGIC_OPERATOR)
@@ -3755,7 +3755,7 @@ static void run_logic_operator(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_logic_operator_frame, u16, uint16_t)
 }
 
-static void run_digital_output_11_on_delay(fieldscribe_vector *v)
+static void point_digital_output_11_on_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_11_ON_DELAY)
@@ -3773,7 +3773,7 @@ static void run_digital_output_11_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_on_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_output_11_off_delay(fieldscribe_vector *v)
+static void point_digital_output_11_off_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_11_OFF_DELAY)
@@ -3793,7 +3793,7 @@ static void run_digital_output_11_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_11_off_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_output_12_on_delay(fieldscribe_vector *v)
+static void point_digital_output_12_on_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_12_ON_DELAY)
@@ -3811,7 +3811,7 @@ static void run_digital_output_12_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_on_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_output_12_off_delay(fieldscribe_vector *v)
+static void point_digital_output_12_off_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_DIGITAL_OUTPUT_12_OFF_DELAY)
@@ -3831,7 +3831,7 @@ static void run_digital_output_12_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_digital_output_12_off_delay_frame, u16, uint16_t)
 }
 
-static void run_relay_output_on_delay(fieldscribe_vector *v)
+static void point_relay_output_on_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RELAY_OUTPUT_ON_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RELAY_OUTPUT_ON_DELAY) FIELDSCRIBE_RAWS(HITACHI_L200_RELAY_OUTPUT_ON_DELAY)
@@ -3848,7 +3848,7 @@ static void run_relay_output_on_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_on_delay_frame, u16, uint16_t)
 }
 
-static void run_relay_output_off_delay(fieldscribe_vector *v)
+static void point_relay_output_off_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_RELAY_OUTPUT_OFF_DELAY, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_RELAY_OUTPUT_OFF_DELAY) FIELDSCRIBE_RAWS(HITACHI_L200_RELAY_OUTPUT_OFF_DELAY)
@@ -3865,7 +3865,7 @@ static void run_relay_output_off_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_relay_output_off_delay_frame, u16, uint16_t)
 }
 
-static void run_motor_power(fieldscribe_vector *v)
+static void point_motor_power(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_POWER, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_POWER)
         FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_POWER) FIELDSCRIBE_CODE("H003") FIELDSCRIBE_REFERENCE("modicon", 4453)
@@ -3893,7 +3893,7 @@ static void run_motor_power(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_frame, u16, uint16_t)
 }
 
-static void run_motor_power_set_2(fieldscribe_vector *v)
+static void point_motor_power_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_POWER_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_POWER_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_POWER_SET_2)
@@ -3921,7 +3921,7 @@ static void run_motor_power_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_power_set_2_frame, u16, uint16_t)
 }
 
-static void run_motor_poles(fieldscribe_vector *v)
+static void point_motor_poles(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_POLES, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_POLES)
         FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_POLES) FIELDSCRIBE_CODE("H004") FIELDSCRIBE_REFERENCE("modicon", 4454)
@@ -3940,7 +3940,7 @@ static void run_motor_poles(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_frame, u16, uint16_t)
 }
 
-static void run_motor_poles_set_2(fieldscribe_vector *v)
+static void point_motor_poles_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_MOTOR_POLES_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_MOTOR_POLES_SET_2) FIELDSCRIBE_RAWS(HITACHI_L200_MOTOR_POLES_SET_2)
@@ -3959,7 +3959,7 @@ static void run_motor_poles_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_motor_poles_set_2_frame, u16, uint16_t)
 }
 
-static void run_stabilization_constant(fieldscribe_vector *v)
+static void point_stabilization_constant(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_STABILIZATION_CONSTANT, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_STABILIZATION_CONSTANT) FIELDSCRIBE_RAWS(HITACHI_L200_STABILIZATION_CONSTANT)
@@ -3973,7 +3973,7 @@ static void run_stabilization_constant(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(hitachi_l200_stabilization_constant_frame, u16, uint16_t)
 }
 
-static void run_stabilization_constant_set_2(fieldscribe_vector *v)
+static void point_stabilization_constant_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(HITACHI_L200_STABILIZATION_CONSTANT_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(HITACHI_L200_STABILIZATION_CONSTANT_SET_2)
@@ -4001,242 +4001,242 @@ static const fieldscribe_status_name statuses[] = {
 };
 
 static const fieldscribe_adapter adapters[] = {
-    {"run_command", run_run_command},
-    {"direction_command", run_direction_command},
-    {"external_trip", run_external_trip},
-    {"trip_reset", run_trip_reset},
-    {"digital_input_1", run_digital_input_1},
-    {"digital_input_2", run_digital_input_2},
-    {"digital_input_3", run_digital_input_3},
-    {"digital_input_4", run_digital_input_4},
-    {"digital_input_5", run_digital_input_5},
-    {"running", run_running},
-    {"direction_status", run_direction_status},
-    {"ready", run_ready},
-    {"alarm", run_alarm},
-    {"pid_deviation", run_pid_deviation},
-    {"overload", run_overload},
-    {"frequency_arrival_in_acceleration", run_frequency_arrival_in_acceleration},
-    {"frequency_arrival_at_constant_speed", run_frequency_arrival_at_constant_speed},
-    {"run_mode", run_run_mode},
-    {"data_write", run_data_write},
-    {"crc_error", run_crc_error},
-    {"overrun_error", run_overrun_error},
-    {"framing_error", run_framing_error},
-    {"parity_error", run_parity_error},
-    {"checksum_error", run_checksum_error},
-    {"network_frequency_setpoint", run_network_frequency_setpoint},
-    {"inverter_status", run_inverter_status},
-    {"network_process_value", run_network_process_value},
-    {"output_frequency", run_output_frequency},
-    {"motor_current", run_motor_current},
-    {"rotation_direction", run_rotation_direction},
-    {"scaled_process_value", run_scaled_process_value},
-    {"digital_inputs", run_digital_inputs},
-    {"digital_outputs", run_digital_outputs},
-    {"output_voltage", run_output_voltage},
-    {"run_time", run_run_time},
-    {"power_on_time", run_power_on_time},
-    {"trip_count", run_trip_count},
-    {"trip_1_error", run_trip_1_error},
-    {"trip_1_output_frequency", run_trip_1_output_frequency},
-    {"trip_1_motor_current", run_trip_1_motor_current},
-    {"trip_1_dc_bus_voltage", run_trip_1_dc_bus_voltage},
-    {"trip_1_run_time", run_trip_1_run_time},
-    {"trip_1_power_on_time", run_trip_1_power_on_time},
-    {"trip_2_error", run_trip_2_error},
-    {"trip_2_output_frequency", run_trip_2_output_frequency},
-    {"trip_2_motor_current", run_trip_2_motor_current},
-    {"trip_2_dc_bus_voltage", run_trip_2_dc_bus_voltage},
-    {"trip_2_run_time", run_trip_2_run_time},
-    {"trip_2_power_on_time", run_trip_2_power_on_time},
-    {"trip_3_error", run_trip_3_error},
-    {"trip_3_output_frequency", run_trip_3_output_frequency},
-    {"trip_3_motor_current", run_trip_3_motor_current},
-    {"trip_3_dc_bus_voltage", run_trip_3_dc_bus_voltage},
-    {"trip_3_run_time", run_trip_3_run_time},
-    {"trip_3_power_on_time", run_trip_3_power_on_time},
-    {"acceleration_time", run_acceleration_time},
-    {"acceleration_time_set_2", run_acceleration_time_set_2},
-    {"deceleration_time", run_deceleration_time},
-    {"deceleration_time_set_2", run_deceleration_time_set_2},
-    {"motor_direction", run_motor_direction},
-    {"frequency_source", run_frequency_source},
-    {"frequency_source_set_2", run_frequency_source_set_2},
-    {"run_source", run_run_source},
-    {"run_source_set_2", run_run_source_set_2},
-    {"motor_rated_frequency", run_motor_rated_frequency},
-    {"motor_rated_frequency_set_2", run_motor_rated_frequency_set_2},
-    {"maximum_frequency", run_maximum_frequency},
-    {"maximum_frequency_set_2", run_maximum_frequency_set_2},
-    {"at_terminal_selection", run_at_terminal_selection},
-    {"input_o_minimum_frequency", run_input_o_minimum_frequency},
-    {"input_o_maximum_frequency", run_input_o_maximum_frequency},
-    {"input_o_minimum_setpoint", run_input_o_minimum_setpoint},
-    {"input_o_maximum_setpoint", run_input_o_maximum_setpoint},
-    {"input_o_start_condition", run_input_o_start_condition},
-    {"analog_input_filter", run_analog_input_filter},
-    {"base_frequency", run_base_frequency},
-    {"base_frequency_set_2", run_base_frequency_set_2},
-    {"fixed_frequency_1", run_fixed_frequency_1},
-    {"fixed_frequency_2", run_fixed_frequency_2},
-    {"fixed_frequency_3", run_fixed_frequency_3},
-    {"fixed_frequency_4", run_fixed_frequency_4},
-    {"fixed_frequency_5", run_fixed_frequency_5},
-    {"fixed_frequency_6", run_fixed_frequency_6},
-    {"fixed_frequency_7", run_fixed_frequency_7},
-    {"fixed_frequency_8", run_fixed_frequency_8},
-    {"fixed_frequency_9", run_fixed_frequency_9},
-    {"fixed_frequency_10", run_fixed_frequency_10},
-    {"fixed_frequency_11", run_fixed_frequency_11},
-    {"fixed_frequency_12", run_fixed_frequency_12},
-    {"fixed_frequency_13", run_fixed_frequency_13},
-    {"fixed_frequency_14", run_fixed_frequency_14},
-    {"fixed_frequency_15", run_fixed_frequency_15},
-    {"jog_frequency", run_jog_frequency},
-    {"jog_stop_mode", run_jog_stop_mode},
-    {"boost_mode", run_boost_mode},
-    {"boost_mode_set_2", run_boost_mode_set_2},
-    {"manual_boost", run_manual_boost},
-    {"manual_boost_set_2", run_manual_boost_set_2},
-    {"manual_boost_frequency", run_manual_boost_frequency},
-    {"manual_boost_frequency_set_2", run_manual_boost_frequency_set_2},
-    {"vf_characteristic", run_vf_characteristic},
-    {"vf_characteristic_set_2", run_vf_characteristic_set_2},
-    {"output_voltage_setting", run_output_voltage_setting},
-    {"output_voltage_setting_set_2", run_output_voltage_setting_set_2},
-    {"dc_brake_enable", run_dc_brake_enable},
-    {"dc_brake_frequency", run_dc_brake_frequency},
-    {"dc_brake_delay", run_dc_brake_delay},
-    {"dc_brake_torque", run_dc_brake_torque},
-    {"dc_brake_time", run_dc_brake_time},
-    {"dc_brake_trigger", run_dc_brake_trigger},
-    {"upper_frequency_limit", run_upper_frequency_limit},
-    {"upper_frequency_limit_set_2", run_upper_frequency_limit_set_2},
-    {"lower_frequency_limit", run_lower_frequency_limit},
-    {"lower_frequency_limit_set_2", run_lower_frequency_limit_set_2},
-    {"jump_frequency_1", run_jump_frequency_1},
-    {"jump_frequency_1_width", run_jump_frequency_1_width},
-    {"jump_frequency_2", run_jump_frequency_2},
-    {"jump_frequency_2_width", run_jump_frequency_2_width},
-    {"jump_frequency_3", run_jump_frequency_3},
-    {"jump_frequency_3_width", run_jump_frequency_3_width},
-    {"pid_enable", run_pid_enable},
-    {"pid_proportional_gain", run_pid_proportional_gain},
-    {"pid_integral_time", run_pid_integral_time},
-    {"pid_derivative_time", run_pid_derivative_time},
-    {"pid_display_factor", run_pid_display_factor},
-    {"pid_process_value_source", run_pid_process_value_source},
-    {"pid_inversion", run_pid_inversion},
-    {"pid_output_limit", run_pid_output_limit},
-    {"avr_mode", run_avr_mode},
-    {"motor_voltage", run_motor_voltage},
-    {"acceleration_time_2", run_acceleration_time_2},
-    {"deceleration_time_2", run_deceleration_time_2},
-    {"deceleration_time_2_set_2", run_deceleration_time_2_set_2},
-    {"ramp_2_selection", run_ramp_2_selection},
-    {"ramp_2_selection_set_2", run_ramp_2_selection_set_2},
-    {"acceleration_change_frequency", run_acceleration_change_frequency},
-    {"acceleration_change_frequency_set_2", run_acceleration_change_frequency_set_2},
-    {"deceleration_change_frequency", run_deceleration_change_frequency},
-    {"deceleration_change_frequency_set_2", run_deceleration_change_frequency_set_2},
-    {"acceleration_curve", run_acceleration_curve},
-    {"deceleration_curve", run_deceleration_curve},
-    {"input_oi_minimum_frequency", run_input_oi_minimum_frequency},
-    {"input_oi_maximum_frequency", run_input_oi_maximum_frequency},
-    {"input_oi_minimum_setpoint", run_input_oi_minimum_setpoint},
-    {"input_oi_maximum_setpoint", run_input_oi_maximum_setpoint},
-    {"input_oi_start_condition", run_input_oi_start_condition},
-    {"calculation_input_a", run_calculation_input_a},
-    {"calculation_input_b", run_calculation_input_b},
-    {"calculation_operator", run_calculation_operator},
-    {"frequency_offset", run_frequency_offset},
-    {"frequency_offset_sign", run_frequency_offset_sign},
-    {"potentiometer_minimum_frequency", run_potentiometer_minimum_frequency},
-    {"potentiometer_maximum_frequency", run_potentiometer_maximum_frequency},
-    {"potentiometer_minimum_setpoint", run_potentiometer_minimum_setpoint},
-    {"potentiometer_maximum_setpoint", run_potentiometer_maximum_setpoint},
-    {"potentiometer_start_condition", run_potentiometer_start_condition},
-    {"restart_mode", run_restart_mode},
-    {"allowed_power_failure_time", run_allowed_power_failure_time},
-    {"restart_delay", run_restart_delay},
-    {"power_failure_trip_at_standstill", run_power_failure_trip_at_standstill},
-    {"power_failure_restarts", run_power_failure_restarts},
-    {"motor_protection_level", run_motor_protection_level},
-    {"motor_protection_level_set_2", run_motor_protection_level_set_2},
-    {"motor_protection_characteristic", run_motor_protection_characteristic},
-    {"motor_protection_characteristic_set_2", run_motor_protection_characteristic_set_2},
-    {"current_limit_mode", run_current_limit_mode},
-    {"current_limit_mode_set_2", run_current_limit_mode_set_2},
-    {"current_limit_level", run_current_limit_level},
-    {"current_limit_level_set_2", run_current_limit_level_set_2},
-    {"current_limit_time", run_current_limit_time},
-    {"current_limit_time_set_2", run_current_limit_time_set_2},
-    {"current_limit_source", run_current_limit_source},
-    {"current_limit_source_set_2", run_current_limit_source_set_2},
-    {"parameter_lock", run_parameter_lock},
-    {"analog_output_gain", run_analog_output_gain},
-    {"start_frequency", run_start_frequency},
-    {"carrier_frequency", run_carrier_frequency},
-    {"initialization_mode", run_initialization_mode},
-    {"frequency_display_factor", run_frequency_display_factor},
-    {"stop_key_lock", run_stop_key_lock},
-    {"coast_restart_mode", run_coast_restart_mode},
-    {"network_display", run_network_display},
-    {"stop_mode", run_stop_mode},
-    {"overvoltage_deceleration_enable", run_overvoltage_deceleration_enable},
-    {"overvoltage_deceleration_level_200v", run_overvoltage_deceleration_level_200v},
-    {"overvoltage_deceleration_level_400v", run_overvoltage_deceleration_level_400v},
-    {"digital_input_1_function", run_digital_input_1_function},
-    {"digital_input_1_function_set_2", run_digital_input_1_function_set_2},
-    {"digital_input_2_function", run_digital_input_2_function},
-    {"digital_input_2_function_set_2", run_digital_input_2_function_set_2},
-    {"digital_input_3_function", run_digital_input_3_function},
-    {"digital_input_3_function_set_2", run_digital_input_3_function_set_2},
-    {"digital_input_4_function", run_digital_input_4_function},
-    {"digital_input_4_function_set_2", run_digital_input_4_function_set_2},
-    {"digital_input_5_function", run_digital_input_5_function},
-    {"digital_input_5_function_set_2", run_digital_input_5_function_set_2},
-    {"digital_input_1_contact", run_digital_input_1_contact},
-    {"digital_input_2_contact", run_digital_input_2_contact},
-    {"digital_input_3_contact", run_digital_input_3_contact},
-    {"digital_input_4_contact", run_digital_input_4_contact},
-    {"digital_input_5_contact", run_digital_input_5_contact},
-    {"digital_output_11_function", run_digital_output_11_function},
-    {"digital_output_12_function", run_digital_output_12_function},
-    {"relay_output_function", run_relay_output_function},
-    {"analog_output_source", run_analog_output_source},
-    {"digital_output_11_contact", run_digital_output_11_contact},
-    {"digital_output_12_contact", run_digital_output_12_contact},
-    {"relay_output_contact", run_relay_output_contact},
-    {"overload_alarm_level", run_overload_alarm_level},
-    {"overload_alarm_level_set_2", run_overload_alarm_level_set_2},
-    {"arrival_frequency_acceleration", run_arrival_frequency_acceleration},
-    {"arrival_frequency_deceleration", run_arrival_frequency_deceleration},
-    {"pid_deviation_level", run_pid_deviation_level},
-    {"pid_process_value_upper_limit", run_pid_process_value_upper_limit},
-    {"pid_process_value_lower_limit", run_pid_process_value_lower_limit},
-    {"input_o_calibration", run_input_o_calibration},
-    {"input_oi_calibration", run_input_oi_calibration},
-    {"thermistor_input_calibration", run_thermistor_input_calibration},
-    {"analog_output_offset", run_analog_output_offset},
-    {"motor_potentiometer_memory", run_motor_potentiometer_memory},
-    {"reset_mode", run_reset_mode},
-    {"logic_input_a", run_logic_input_a},
-    {"logic_input_b", run_logic_input_b},
-    {"logic_operator", run_logic_operator},
-    {"digital_output_11_on_delay", run_digital_output_11_on_delay},
-    {"digital_output_11_off_delay", run_digital_output_11_off_delay},
-    {"digital_output_12_on_delay", run_digital_output_12_on_delay},
-    {"digital_output_12_off_delay", run_digital_output_12_off_delay},
-    {"relay_output_on_delay", run_relay_output_on_delay},
-    {"relay_output_off_delay", run_relay_output_off_delay},
-    {"motor_power", run_motor_power},
-    {"motor_power_set_2", run_motor_power_set_2},
-    {"motor_poles", run_motor_poles},
-    {"motor_poles_set_2", run_motor_poles_set_2},
-    {"stabilization_constant", run_stabilization_constant},
-    {"stabilization_constant_set_2", run_stabilization_constant_set_2},
+    {"run_command", point_run_command},
+    {"direction_command", point_direction_command},
+    {"external_trip", point_external_trip},
+    {"trip_reset", point_trip_reset},
+    {"digital_input_1", point_digital_input_1},
+    {"digital_input_2", point_digital_input_2},
+    {"digital_input_3", point_digital_input_3},
+    {"digital_input_4", point_digital_input_4},
+    {"digital_input_5", point_digital_input_5},
+    {"running", point_running},
+    {"direction_status", point_direction_status},
+    {"ready", point_ready},
+    {"alarm", point_alarm},
+    {"pid_deviation", point_pid_deviation},
+    {"overload", point_overload},
+    {"frequency_arrival_in_acceleration", point_frequency_arrival_in_acceleration},
+    {"frequency_arrival_at_constant_speed", point_frequency_arrival_at_constant_speed},
+    {"run_mode", point_run_mode},
+    {"data_write", point_data_write},
+    {"crc_error", point_crc_error},
+    {"overrun_error", point_overrun_error},
+    {"framing_error", point_framing_error},
+    {"parity_error", point_parity_error},
+    {"checksum_error", point_checksum_error},
+    {"network_frequency_setpoint", point_network_frequency_setpoint},
+    {"inverter_status", point_inverter_status},
+    {"network_process_value", point_network_process_value},
+    {"output_frequency", point_output_frequency},
+    {"motor_current", point_motor_current},
+    {"rotation_direction", point_rotation_direction},
+    {"scaled_process_value", point_scaled_process_value},
+    {"digital_inputs", point_digital_inputs},
+    {"digital_outputs", point_digital_outputs},
+    {"output_voltage", point_output_voltage},
+    {"run_time", point_run_time},
+    {"power_on_time", point_power_on_time},
+    {"trip_count", point_trip_count},
+    {"trip_1_error", point_trip_1_error},
+    {"trip_1_output_frequency", point_trip_1_output_frequency},
+    {"trip_1_motor_current", point_trip_1_motor_current},
+    {"trip_1_dc_bus_voltage", point_trip_1_dc_bus_voltage},
+    {"trip_1_run_time", point_trip_1_run_time},
+    {"trip_1_power_on_time", point_trip_1_power_on_time},
+    {"trip_2_error", point_trip_2_error},
+    {"trip_2_output_frequency", point_trip_2_output_frequency},
+    {"trip_2_motor_current", point_trip_2_motor_current},
+    {"trip_2_dc_bus_voltage", point_trip_2_dc_bus_voltage},
+    {"trip_2_run_time", point_trip_2_run_time},
+    {"trip_2_power_on_time", point_trip_2_power_on_time},
+    {"trip_3_error", point_trip_3_error},
+    {"trip_3_output_frequency", point_trip_3_output_frequency},
+    {"trip_3_motor_current", point_trip_3_motor_current},
+    {"trip_3_dc_bus_voltage", point_trip_3_dc_bus_voltage},
+    {"trip_3_run_time", point_trip_3_run_time},
+    {"trip_3_power_on_time", point_trip_3_power_on_time},
+    {"acceleration_time", point_acceleration_time},
+    {"acceleration_time_set_2", point_acceleration_time_set_2},
+    {"deceleration_time", point_deceleration_time},
+    {"deceleration_time_set_2", point_deceleration_time_set_2},
+    {"motor_direction", point_motor_direction},
+    {"frequency_source", point_frequency_source},
+    {"frequency_source_set_2", point_frequency_source_set_2},
+    {"run_source", point_run_source},
+    {"run_source_set_2", point_run_source_set_2},
+    {"motor_rated_frequency", point_motor_rated_frequency},
+    {"motor_rated_frequency_set_2", point_motor_rated_frequency_set_2},
+    {"maximum_frequency", point_maximum_frequency},
+    {"maximum_frequency_set_2", point_maximum_frequency_set_2},
+    {"at_terminal_selection", point_at_terminal_selection},
+    {"input_o_minimum_frequency", point_input_o_minimum_frequency},
+    {"input_o_maximum_frequency", point_input_o_maximum_frequency},
+    {"input_o_minimum_setpoint", point_input_o_minimum_setpoint},
+    {"input_o_maximum_setpoint", point_input_o_maximum_setpoint},
+    {"input_o_start_condition", point_input_o_start_condition},
+    {"analog_input_filter", point_analog_input_filter},
+    {"base_frequency", point_base_frequency},
+    {"base_frequency_set_2", point_base_frequency_set_2},
+    {"fixed_frequency_1", point_fixed_frequency_1},
+    {"fixed_frequency_2", point_fixed_frequency_2},
+    {"fixed_frequency_3", point_fixed_frequency_3},
+    {"fixed_frequency_4", point_fixed_frequency_4},
+    {"fixed_frequency_5", point_fixed_frequency_5},
+    {"fixed_frequency_6", point_fixed_frequency_6},
+    {"fixed_frequency_7", point_fixed_frequency_7},
+    {"fixed_frequency_8", point_fixed_frequency_8},
+    {"fixed_frequency_9", point_fixed_frequency_9},
+    {"fixed_frequency_10", point_fixed_frequency_10},
+    {"fixed_frequency_11", point_fixed_frequency_11},
+    {"fixed_frequency_12", point_fixed_frequency_12},
+    {"fixed_frequency_13", point_fixed_frequency_13},
+    {"fixed_frequency_14", point_fixed_frequency_14},
+    {"fixed_frequency_15", point_fixed_frequency_15},
+    {"jog_frequency", point_jog_frequency},
+    {"jog_stop_mode", point_jog_stop_mode},
+    {"boost_mode", point_boost_mode},
+    {"boost_mode_set_2", point_boost_mode_set_2},
+    {"manual_boost", point_manual_boost},
+    {"manual_boost_set_2", point_manual_boost_set_2},
+    {"manual_boost_frequency", point_manual_boost_frequency},
+    {"manual_boost_frequency_set_2", point_manual_boost_frequency_set_2},
+    {"vf_characteristic", point_vf_characteristic},
+    {"vf_characteristic_set_2", point_vf_characteristic_set_2},
+    {"output_voltage_setting", point_output_voltage_setting},
+    {"output_voltage_setting_set_2", point_output_voltage_setting_set_2},
+    {"dc_brake_enable", point_dc_brake_enable},
+    {"dc_brake_frequency", point_dc_brake_frequency},
+    {"dc_brake_delay", point_dc_brake_delay},
+    {"dc_brake_torque", point_dc_brake_torque},
+    {"dc_brake_time", point_dc_brake_time},
+    {"dc_brake_trigger", point_dc_brake_trigger},
+    {"upper_frequency_limit", point_upper_frequency_limit},
+    {"upper_frequency_limit_set_2", point_upper_frequency_limit_set_2},
+    {"lower_frequency_limit", point_lower_frequency_limit},
+    {"lower_frequency_limit_set_2", point_lower_frequency_limit_set_2},
+    {"jump_frequency_1", point_jump_frequency_1},
+    {"jump_frequency_1_width", point_jump_frequency_1_width},
+    {"jump_frequency_2", point_jump_frequency_2},
+    {"jump_frequency_2_width", point_jump_frequency_2_width},
+    {"jump_frequency_3", point_jump_frequency_3},
+    {"jump_frequency_3_width", point_jump_frequency_3_width},
+    {"pid_enable", point_pid_enable},
+    {"pid_proportional_gain", point_pid_proportional_gain},
+    {"pid_integral_time", point_pid_integral_time},
+    {"pid_derivative_time", point_pid_derivative_time},
+    {"pid_display_factor", point_pid_display_factor},
+    {"pid_process_value_source", point_pid_process_value_source},
+    {"pid_inversion", point_pid_inversion},
+    {"pid_output_limit", point_pid_output_limit},
+    {"avr_mode", point_avr_mode},
+    {"motor_voltage", point_motor_voltage},
+    {"acceleration_time_2", point_acceleration_time_2},
+    {"deceleration_time_2", point_deceleration_time_2},
+    {"deceleration_time_2_set_2", point_deceleration_time_2_set_2},
+    {"ramp_2_selection", point_ramp_2_selection},
+    {"ramp_2_selection_set_2", point_ramp_2_selection_set_2},
+    {"acceleration_change_frequency", point_acceleration_change_frequency},
+    {"acceleration_change_frequency_set_2", point_acceleration_change_frequency_set_2},
+    {"deceleration_change_frequency", point_deceleration_change_frequency},
+    {"deceleration_change_frequency_set_2", point_deceleration_change_frequency_set_2},
+    {"acceleration_curve", point_acceleration_curve},
+    {"deceleration_curve", point_deceleration_curve},
+    {"input_oi_minimum_frequency", point_input_oi_minimum_frequency},
+    {"input_oi_maximum_frequency", point_input_oi_maximum_frequency},
+    {"input_oi_minimum_setpoint", point_input_oi_minimum_setpoint},
+    {"input_oi_maximum_setpoint", point_input_oi_maximum_setpoint},
+    {"input_oi_start_condition", point_input_oi_start_condition},
+    {"calculation_input_a", point_calculation_input_a},
+    {"calculation_input_b", point_calculation_input_b},
+    {"calculation_operator", point_calculation_operator},
+    {"frequency_offset", point_frequency_offset},
+    {"frequency_offset_sign", point_frequency_offset_sign},
+    {"potentiometer_minimum_frequency", point_potentiometer_minimum_frequency},
+    {"potentiometer_maximum_frequency", point_potentiometer_maximum_frequency},
+    {"potentiometer_minimum_setpoint", point_potentiometer_minimum_setpoint},
+    {"potentiometer_maximum_setpoint", point_potentiometer_maximum_setpoint},
+    {"potentiometer_start_condition", point_potentiometer_start_condition},
+    {"restart_mode", point_restart_mode},
+    {"allowed_power_failure_time", point_allowed_power_failure_time},
+    {"restart_delay", point_restart_delay},
+    {"power_failure_trip_at_standstill", point_power_failure_trip_at_standstill},
+    {"power_failure_restarts", point_power_failure_restarts},
+    {"motor_protection_level", point_motor_protection_level},
+    {"motor_protection_level_set_2", point_motor_protection_level_set_2},
+    {"motor_protection_characteristic", point_motor_protection_characteristic},
+    {"motor_protection_characteristic_set_2", point_motor_protection_characteristic_set_2},
+    {"current_limit_mode", point_current_limit_mode},
+    {"current_limit_mode_set_2", point_current_limit_mode_set_2},
+    {"current_limit_level", point_current_limit_level},
+    {"current_limit_level_set_2", point_current_limit_level_set_2},
+    {"current_limit_time", point_current_limit_time},
+    {"current_limit_time_set_2", point_current_limit_time_set_2},
+    {"current_limit_source", point_current_limit_source},
+    {"current_limit_source_set_2", point_current_limit_source_set_2},
+    {"parameter_lock", point_parameter_lock},
+    {"analog_output_gain", point_analog_output_gain},
+    {"start_frequency", point_start_frequency},
+    {"carrier_frequency", point_carrier_frequency},
+    {"initialization_mode", point_initialization_mode},
+    {"frequency_display_factor", point_frequency_display_factor},
+    {"stop_key_lock", point_stop_key_lock},
+    {"coast_restart_mode", point_coast_restart_mode},
+    {"network_display", point_network_display},
+    {"stop_mode", point_stop_mode},
+    {"overvoltage_deceleration_enable", point_overvoltage_deceleration_enable},
+    {"overvoltage_deceleration_level_200v", point_overvoltage_deceleration_level_200v},
+    {"overvoltage_deceleration_level_400v", point_overvoltage_deceleration_level_400v},
+    {"digital_input_1_function", point_digital_input_1_function},
+    {"digital_input_1_function_set_2", point_digital_input_1_function_set_2},
+    {"digital_input_2_function", point_digital_input_2_function},
+    {"digital_input_2_function_set_2", point_digital_input_2_function_set_2},
+    {"digital_input_3_function", point_digital_input_3_function},
+    {"digital_input_3_function_set_2", point_digital_input_3_function_set_2},
+    {"digital_input_4_function", point_digital_input_4_function},
+    {"digital_input_4_function_set_2", point_digital_input_4_function_set_2},
+    {"digital_input_5_function", point_digital_input_5_function},
+    {"digital_input_5_function_set_2", point_digital_input_5_function_set_2},
+    {"digital_input_1_contact", point_digital_input_1_contact},
+    {"digital_input_2_contact", point_digital_input_2_contact},
+    {"digital_input_3_contact", point_digital_input_3_contact},
+    {"digital_input_4_contact", point_digital_input_4_contact},
+    {"digital_input_5_contact", point_digital_input_5_contact},
+    {"digital_output_11_function", point_digital_output_11_function},
+    {"digital_output_12_function", point_digital_output_12_function},
+    {"relay_output_function", point_relay_output_function},
+    {"analog_output_source", point_analog_output_source},
+    {"digital_output_11_contact", point_digital_output_11_contact},
+    {"digital_output_12_contact", point_digital_output_12_contact},
+    {"relay_output_contact", point_relay_output_contact},
+    {"overload_alarm_level", point_overload_alarm_level},
+    {"overload_alarm_level_set_2", point_overload_alarm_level_set_2},
+    {"arrival_frequency_acceleration", point_arrival_frequency_acceleration},
+    {"arrival_frequency_deceleration", point_arrival_frequency_deceleration},
+    {"pid_deviation_level", point_pid_deviation_level},
+    {"pid_process_value_upper_limit", point_pid_process_value_upper_limit},
+    {"pid_process_value_lower_limit", point_pid_process_value_lower_limit},
+    {"input_o_calibration", point_input_o_calibration},
+    {"input_oi_calibration", point_input_oi_calibration},
+    {"thermistor_input_calibration", point_thermistor_input_calibration},
+    {"analog_output_offset", point_analog_output_offset},
+    {"motor_potentiometer_memory", point_motor_potentiometer_memory},
+    {"reset_mode", point_reset_mode},
+    {"logic_input_a", point_logic_input_a},
+    {"logic_input_b", point_logic_input_b},
+    {"logic_operator", point_logic_operator},
+    {"digital_output_11_on_delay", point_digital_output_11_on_delay},
+    {"digital_output_11_off_delay", point_digital_output_11_off_delay},
+    {"digital_output_12_on_delay", point_digital_output_12_on_delay},
+    {"digital_output_12_off_delay", point_digital_output_12_off_delay},
+    {"relay_output_on_delay", point_relay_output_on_delay},
+    {"relay_output_off_delay", point_relay_output_off_delay},
+    {"motor_power", point_motor_power},
+    {"motor_power_set_2", point_motor_power_set_2},
+    {"motor_poles", point_motor_poles},
+    {"motor_poles_set_2", point_motor_poles_set_2},
+    {"stabilization_constant", point_stabilization_constant},
+    {"stabilization_constant_set_2", point_stabilization_constant_set_2},
     {NULL, NULL}
 };
 

@@ -9,7 +9,7 @@
 #include "../jumo_controller_modbus.h"
 #include "../fieldscribe_conformance_modbus.h"
 
-static void run_program_status(fieldscribe_vector *v)
+static void point_program_status(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_STATUS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_PROGRAM_STATUS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -34,7 +34,7 @@ static void run_program_status(fieldscribe_vector *v)
         JUMO_CONTROLLER_PROGRAM_STATUS_TOLERANCE_BAND_SIGNAL_MASK) != 0U)
 }
 
-static void run_controller_status(fieldscribe_vector *v)
+static void point_controller_status(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_STATUS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROLLER_STATUS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -44,7 +44,7 @@ static void run_controller_status(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_controller_status_frame, u16, uint16_t)
 }
 
-static void run_binary_outputs(fieldscribe_vector *v)
+static void point_binary_outputs(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_OUTPUTS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -84,7 +84,7 @@ static void run_binary_outputs(fieldscribe_vector *v)
         JUMO_CONTROLLER_BINARY_OUTPUTS_BINARY_OUTPUT_10_MASK) != 0U)
 }
 
-static void run_binary_inputs(fieldscribe_vector *v)
+static void point_binary_inputs(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_INPUTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_INPUTS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -118,7 +118,7 @@ static void run_binary_inputs(fieldscribe_vector *v)
         JUMO_CONTROLLER_BINARY_INPUTS_BINARY_INPUT_7_MASK) != 0U)
 }
 
-static void run_control_contacts(fieldscribe_vector *v)
+static void point_control_contacts(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROL_CONTACTS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROL_CONTACTS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -140,7 +140,7 @@ static void run_control_contacts(fieldscribe_vector *v)
         JUMO_CONTROLLER_CONTROL_CONTACTS_CONTROL_CONTACT_4_MASK) != 0U)
 }
 
-static void run_binary_signals(fieldscribe_vector *v)
+static void point_binary_signals(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_SIGNALS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_SIGNALS) FIELDSCRIBE_ONLY_READ(0, 65535))
@@ -166,7 +166,7 @@ static void run_binary_signals(fieldscribe_vector *v)
         != 0U, ((((uint16_t)fieldscribe_bits(v, "raw"))) & JUMO_CONTROLLER_BINARY_SIGNALS_TIMER_2_MASK) != 0U)
 }
 
-static void run_binary_output_control(fieldscribe_vector *v)
+static void point_binary_output_control(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL))
@@ -210,7 +210,7 @@ static void run_binary_output_control(fieldscribe_vector *v)
         JUMO_CONTROLLER_BINARY_OUTPUT_CONTROL_OUTPUT_10_MASK) != 0U)
 }
 
-static void run_program_run_time(fieldscribe_vector *v)
+static void point_program_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROGRAM_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -220,7 +220,7 @@ static void run_program_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_program_run_time_frame, u32, uint32_t)
 }
 
-static void run_program_remaining_time(fieldscribe_vector *v)
+static void point_program_remaining_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_REMAINING_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROGRAM_REMAINING_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -230,7 +230,7 @@ static void run_program_remaining_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_program_remaining_time_frame, u32, uint32_t)
 }
 
-static void run_section_run_time(fieldscribe_vector *v)
+static void point_section_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SECTION_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -240,7 +240,7 @@ static void run_section_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_section_run_time_frame, u32, uint32_t)
 }
 
-static void run_section_remaining_time(fieldscribe_vector *v)
+static void point_section_remaining_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SECTION_REMAINING_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SECTION_REMAINING_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -250,7 +250,7 @@ static void run_section_remaining_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_section_remaining_time_frame, u32, uint32_t)
 }
 
-static void run_timer_1_run_time(fieldscribe_vector *v)
+static void point_timer_1_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_1_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_1_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -260,7 +260,7 @@ static void run_timer_1_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_timer_1_run_time_frame, u32, uint32_t)
 }
 
-static void run_timer_2_run_time(fieldscribe_vector *v)
+static void point_timer_2_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_2_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_2_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -270,7 +270,7 @@ static void run_timer_2_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_timer_2_run_time_frame, u32, uint32_t)
 }
 
-static void run_timer_3_run_time(fieldscribe_vector *v)
+static void point_timer_3_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_3_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_3_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -280,7 +280,7 @@ static void run_timer_3_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_timer_3_run_time_frame, u32, uint32_t)
 }
 
-static void run_timer_4_run_time(fieldscribe_vector *v)
+static void point_timer_4_run_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_4_RUN_TIME, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_TIMER_4_RUN_TIME) FIELDSCRIBE_ONLY_READ(0, 4294967295))
@@ -290,7 +290,7 @@ static void run_timer_4_run_time(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_timer_4_run_time_frame, u32, uint32_t)
 }
 
-static void run_setpoint_1(fieldscribe_vector *v)
+static void point_setpoint_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_1, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SETPOINT_1))
@@ -303,7 +303,7 @@ static void run_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(jumo_controller_setpoint_1_frame, u32, uint32_t)
 }
 
-static void run_setpoint_2(fieldscribe_vector *v)
+static void point_setpoint_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_SETPOINT_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_SETPOINT_2))
@@ -316,7 +316,7 @@ static void run_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(jumo_controller_setpoint_2_frame, u32, uint32_t)
 }
 
-static void run_proportional_band_1_set_2(fieldscribe_vector *v)
+static void point_proportional_band_1_set_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_PROPORTIONAL_BAND_1_SET_2) FIELDSCRIBE_CODE("Pb1"))
@@ -329,7 +329,7 @@ static void run_proportional_band_1_set_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(jumo_controller_proportional_band_1_set_2_frame, u32, uint32_t)
 }
 
-static void run_value_0077(fieldscribe_vector *v)
+static void point_value_0077(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_0077, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_VALUE_0077))
@@ -340,7 +340,7 @@ static void run_value_0077(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(jumo_controller_value_0077_frame, u32, uint32_t)
 }
 
-static void run_value_00ce(fieldscribe_vector *v)
+static void point_value_00ce(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_VALUE_00CE, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_SEVERAL(JUMO_CONTROLLER_VALUE_00CE))
@@ -350,7 +350,7 @@ static void run_value_00ce(fieldscribe_vector *v)
     FIELDSCRIBE_READ(jumo_controller_value_00ce_frame, u32, uint32_t)
 }
 
-static void run_program_controller_commands(fieldscribe_vector *v)
+static void point_program_controller_commands(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS)
@@ -376,7 +376,7 @@ static void run_program_controller_commands(fieldscribe_vector *v)
         "raw"))) & JUMO_CONTROLLER_PROGRAM_CONTROLLER_COMMANDS_CHANGE_SECTION_MASK) != 0U)
 }
 
-static void run_controller_commands(fieldscribe_vector *v)
+static void point_controller_commands(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_CONTROLLER_COMMANDS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_CONTROLLER_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_CONTROLLER_COMMANDS))
@@ -410,7 +410,7 @@ static void run_controller_commands(fieldscribe_vector *v)
         "raw"))) & JUMO_CONTROLLER_CONTROLLER_COMMANDS_ABORT_SELF_OPTIMISATION_MASK) != 0U)
 }
 
-static void run_operation_commands(fieldscribe_vector *v)
+static void point_operation_commands(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_OPERATION_COMMANDS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_OPERATION_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_OPERATION_COMMANDS))
@@ -432,7 +432,7 @@ static void run_operation_commands(fieldscribe_vector *v)
         JUMO_CONTROLLER_OPERATION_COMMANDS_TEXT_DISPLAY_MASK) != 0U)
 }
 
-static void run_timer_commands(fieldscribe_vector *v)
+static void point_timer_commands(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(JUMO_CONTROLLER_TIMER_COMMANDS, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(JUMO_CONTROLLER_TIMER_COMMANDS) FIELDSCRIBE_RAWS(JUMO_CONTROLLER_TIMER_COMMANDS))
@@ -470,30 +470,30 @@ static const fieldscribe_status_name statuses[] = {
 };
 
 static const fieldscribe_adapter adapters[] = {
-    {"program_status", run_program_status},
-    {"controller_status", run_controller_status},
-    {"binary_outputs", run_binary_outputs},
-    {"binary_inputs", run_binary_inputs},
-    {"control_contacts", run_control_contacts},
-    {"binary_signals", run_binary_signals},
-    {"binary_output_control", run_binary_output_control},
-    {"program_run_time", run_program_run_time},
-    {"program_remaining_time", run_program_remaining_time},
-    {"section_run_time", run_section_run_time},
-    {"section_remaining_time", run_section_remaining_time},
-    {"timer_1_run_time", run_timer_1_run_time},
-    {"timer_2_run_time", run_timer_2_run_time},
-    {"timer_3_run_time", run_timer_3_run_time},
-    {"timer_4_run_time", run_timer_4_run_time},
-    {"setpoint_1", run_setpoint_1},
-    {"setpoint_2", run_setpoint_2},
-    {"proportional_band_1_set_2", run_proportional_band_1_set_2},
-    {"value_0077", run_value_0077},
-    {"value_00ce", run_value_00ce},
-    {"program_controller_commands", run_program_controller_commands},
-    {"controller_commands", run_controller_commands},
-    {"operation_commands", run_operation_commands},
-    {"timer_commands", run_timer_commands},
+    {"program_status", point_program_status},
+    {"controller_status", point_controller_status},
+    {"binary_outputs", point_binary_outputs},
+    {"binary_inputs", point_binary_inputs},
+    {"control_contacts", point_control_contacts},
+    {"binary_signals", point_binary_signals},
+    {"binary_output_control", point_binary_output_control},
+    {"program_run_time", point_program_run_time},
+    {"program_remaining_time", point_program_remaining_time},
+    {"section_run_time", point_section_run_time},
+    {"section_remaining_time", point_section_remaining_time},
+    {"timer_1_run_time", point_timer_1_run_time},
+    {"timer_2_run_time", point_timer_2_run_time},
+    {"timer_3_run_time", point_timer_3_run_time},
+    {"timer_4_run_time", point_timer_4_run_time},
+    {"setpoint_1", point_setpoint_1},
+    {"setpoint_2", point_setpoint_2},
+    {"proportional_band_1_set_2", point_proportional_band_1_set_2},
+    {"value_0077", point_value_0077},
+    {"value_00ce", point_value_00ce},
+    {"program_controller_commands", point_program_controller_commands},
+    {"controller_commands", point_controller_commands},
+    {"operation_commands", point_operation_commands},
+    {"timer_commands", point_timer_commands},
     {NULL, NULL}
 };
 

@@ -9,7 +9,7 @@
 #include "../nord_sk5xxe_modbus.h"
 #include "../fieldscribe_conformance_modbus.h"
 
-static void run_control_word(fieldscribe_vector *v)
+static void point_control_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_CONTROL_WORD, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_CONTROL_WORD)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_CONTROL_WORD) FIELDSCRIBE_CODE("P050[1]"))
@@ -71,7 +71,7 @@ static void run_control_word(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_4", NORD_SK5XXE_CONTROL_WORD_PARAMETER_SET_SET_4)
 }
 
-static void run_setpoint_1(fieldscribe_vector *v)
+static void point_setpoint_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_1, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_1)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_1) FIELDSCRIBE_CODE("P050[2]"))
@@ -85,7 +85,7 @@ static void run_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_1_frame, u16, uint16_t)
 }
 
-static void run_setpoint_2(fieldscribe_vector *v)
+static void point_setpoint_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_2, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_2)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_2) FIELDSCRIBE_CODE("P050[3]"))
@@ -99,7 +99,7 @@ static void run_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_2_frame, u16, uint16_t)
 }
 
-static void run_setpoint_3(fieldscribe_vector *v)
+static void point_setpoint_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_3, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_3)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_3) FIELDSCRIBE_CODE("P050[4]"))
@@ -113,7 +113,7 @@ static void run_setpoint_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_3_frame, u16, uint16_t)
 }
 
-static void run_setpoint_4(fieldscribe_vector *v)
+static void point_setpoint_4(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_4, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_4)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_4) FIELDSCRIBE_CODE("P050[5]"))
@@ -127,7 +127,7 @@ static void run_setpoint_4(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_4_frame, u16, uint16_t)
 }
 
-static void run_setpoint_5(fieldscribe_vector *v)
+static void point_setpoint_5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_SETPOINT_5, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_SETPOINT_5)
         FIELDSCRIBE_RAWS(NORD_SK5XXE_SETPOINT_5) FIELDSCRIBE_CODE("P050[6]"))
@@ -141,7 +141,7 @@ static void run_setpoint_5(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(nord_sk5xxe_setpoint_5_frame, u16, uint16_t)
 }
 
-static void run_status_word(fieldscribe_vector *v)
+static void point_status_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_STATUS_WORD, FIELDSCRIBE_SPACE("holding") FIELDSCRIBE_ONE(NORD_SK5XXE_STATUS_WORD)
         FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[1]"))
@@ -200,7 +200,7 @@ static void run_status_word(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("parameter_set", "set_4", NORD_SK5XXE_STATUS_WORD_PARAMETER_SET_SET_4)
 }
 
-static void run_actual_value_1(fieldscribe_vector *v)
+static void point_actual_value_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_1, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_1) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[2]"))
@@ -211,7 +211,7 @@ static void run_actual_value_1(fieldscribe_vector *v)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_1_frame, u16, uint16_t)
 }
 
-static void run_actual_value_2(fieldscribe_vector *v)
+static void point_actual_value_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_2, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_2) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[3]"))
@@ -222,7 +222,7 @@ static void run_actual_value_2(fieldscribe_vector *v)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_2_frame, u16, uint16_t)
 }
 
-static void run_actual_value_3(fieldscribe_vector *v)
+static void point_actual_value_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_3, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_3) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[4]"))
@@ -233,7 +233,7 @@ static void run_actual_value_3(fieldscribe_vector *v)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_3_frame, u16, uint16_t)
 }
 
-static void run_actual_value_4(fieldscribe_vector *v)
+static void point_actual_value_4(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_4, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_4) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[5]"))
@@ -244,7 +244,7 @@ static void run_actual_value_4(fieldscribe_vector *v)
     FIELDSCRIBE_READ(nord_sk5xxe_actual_value_4_frame, u16, uint16_t)
 }
 
-static void run_actual_value_5(fieldscribe_vector *v)
+static void point_actual_value_5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(NORD_SK5XXE_ACTUAL_VALUE_5, FIELDSCRIBE_SPACE("holding")
         FIELDSCRIBE_ONE(NORD_SK5XXE_ACTUAL_VALUE_5) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("P051[6]"))
@@ -268,18 +268,18 @@ static const fieldscribe_status_name statuses[] = {
 };
 
 static const fieldscribe_adapter adapters[] = {
-    {"control_word", run_control_word},
-    {"setpoint_1", run_setpoint_1},
-    {"setpoint_2", run_setpoint_2},
-    {"setpoint_3", run_setpoint_3},
-    {"setpoint_4", run_setpoint_4},
-    {"setpoint_5", run_setpoint_5},
-    {"status_word", run_status_word},
-    {"actual_value_1", run_actual_value_1},
-    {"actual_value_2", run_actual_value_2},
-    {"actual_value_3", run_actual_value_3},
-    {"actual_value_4", run_actual_value_4},
-    {"actual_value_5", run_actual_value_5},
+    {"control_word", point_control_word},
+    {"setpoint_1", point_setpoint_1},
+    {"setpoint_2", point_setpoint_2},
+    {"setpoint_3", point_setpoint_3},
+    {"setpoint_4", point_setpoint_4},
+    {"setpoint_5", point_setpoint_5},
+    {"status_word", point_status_word},
+    {"actual_value_1", point_actual_value_1},
+    {"actual_value_2", point_actual_value_2},
+    {"actual_value_3", point_actual_value_3},
+    {"actual_value_4", point_actual_value_4},
+    {"actual_value_5", point_actual_value_5},
     {NULL, NULL}
 };
 

@@ -25,7 +25,7 @@ static inline const siemens_mm4_main_setpoint_with *with_main_actual_value(field
     return &with;
 }
 
-static void run_user_access_level(fieldscribe_vector *v)
+static void point_user_access_level(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USER_ACCESS_LEVEL, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USER_ACCESS_LEVEL) FIELDSCRIBE_RAWS(SIEMENS_MM4_USER_ACCESS_LEVEL)
@@ -44,7 +44,7 @@ static void run_user_access_level(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_user_access_level_eeprom_frame, u16, uint16_t)
 }
 
-static void run_inverter_status_word(fieldscribe_vector *v)
+static void point_inverter_status_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_INVERTER_STATUS_WORD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_INVERTER_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("r0052"))
@@ -110,7 +110,7 @@ static void run_inverter_status_word(fieldscribe_vector *v)
         0U)
 }
 
-static void run_command_source(fieldscribe_vector *v)
+static void point_command_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_COMMAND_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_COMMAND_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_COMMAND_SOURCE)
@@ -129,7 +129,7 @@ static void run_command_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_command_source_eeprom_frame, u16, uint16_t)
 }
 
-static void run_p0731_source(fieldscribe_vector *v)
+static void point_p0731_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_P0731_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_P0731_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_P0731_SOURCE)
@@ -149,7 +149,7 @@ static void run_p0731_source(fieldscribe_vector *v)
         SIEMENS_MM4_P0731_SOURCE_SOURCE_BIT)
 }
 
-static void run_main_setpoint_source(fieldscribe_vector *v)
+static void point_main_setpoint_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT_SOURCE)
@@ -168,7 +168,7 @@ static void run_main_setpoint_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_main_setpoint_source_eeprom_frame, u16, uint16_t)
 }
 
-static void run_maximum_frequency(fieldscribe_vector *v)
+static void point_maximum_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAXIMUM_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_MAXIMUM_FREQUENCY) FIELDSCRIBE_CODE("P1082"))
@@ -183,7 +183,7 @@ static void run_maximum_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_maximum_frequency_eeprom_frame, u32, uint32_t)
 }
 
-static void run_jog_time_selection_source(fieldscribe_vector *v)
+static void point_jog_time_selection_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE)
@@ -204,7 +204,7 @@ static void run_jog_time_selection_source(fieldscribe_vector *v)
         "raw")), SIEMENS_MM4_JOG_TIME_SELECTION_SOURCE_SOURCE_BIT)
 }
 
-static void run_dc_braking_source(fieldscribe_vector *v)
+static void point_dc_braking_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_DC_BRAKING_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_DC_BRAKING_SOURCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_DC_BRAKING_SOURCE)
@@ -225,7 +225,7 @@ static void run_dc_braking_source(fieldscribe_vector *v)
         SIEMENS_MM4_DC_BRAKING_SOURCE_SOURCE_BIT)
 }
 
-static void run_output_phase_sequence(fieldscribe_vector *v)
+static void point_output_phase_sequence(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE) FIELDSCRIBE_RAWS(SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE)
@@ -243,7 +243,7 @@ static void run_output_phase_sequence(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_output_phase_sequence_eeprom_frame, u16, uint16_t)
 }
 
-static void run_reference_frequency(fieldscribe_vector *v)
+static void point_reference_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_REFERENCE_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_REFERENCE_FREQUENCY) FIELDSCRIBE_CODE("P2000"))
@@ -258,7 +258,7 @@ static void run_reference_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_reference_frequency_eeprom_frame, u32, uint32_t)
 }
 
-static void run_uss_normalisation_rs485(fieldscribe_vector *v)
+static void point_uss_normalisation_rs485(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS485, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS485) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS485)
@@ -279,7 +279,7 @@ static void run_uss_normalisation_rs485(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs485_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_normalisation_rs232(fieldscribe_vector *v)
+static void point_uss_normalisation_rs232(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_NORMALISATION_RS232, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_NORMALISATION_RS232) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_NORMALISATION_RS232)
@@ -300,7 +300,7 @@ static void run_uss_normalisation_rs232(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_normalisation_rs232_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_baud_rate_index_0(fieldscribe_vector *v)
+static void point_uss_baud_rate_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_0)
@@ -318,7 +318,7 @@ static void run_uss_baud_rate_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_0_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_baud_rate_index_1(fieldscribe_vector *v)
+static void point_uss_baud_rate_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_BAUD_RATE_INDEX_1)
@@ -336,7 +336,7 @@ static void run_uss_baud_rate_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_baud_rate_index_1_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_slave_address_index_0(fieldscribe_vector *v)
+static void point_uss_slave_address_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_0)
@@ -354,7 +354,7 @@ static void run_uss_slave_address_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_0_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_slave_address_index_1(fieldscribe_vector *v)
+static void point_uss_slave_address_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_SLAVE_ADDRESS_INDEX_1)
@@ -372,7 +372,7 @@ static void run_uss_slave_address_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_slave_address_index_1_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM410)
@@ -390,7 +390,7 @@ static void run_uss_pzd_length_index_0_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm410_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM420)
@@ -408,7 +408,7 @@ static void run_uss_pzd_length_index_0_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm420_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM430)
@@ -426,7 +426,7 @@ static void run_uss_pzd_length_index_0_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm430_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_0_MM440)
@@ -444,7 +444,7 @@ static void run_uss_pzd_length_index_0_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_0_mm440_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM410)
@@ -462,7 +462,7 @@ static void run_uss_pzd_length_index_1_mm410(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm410_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM420)
@@ -480,7 +480,7 @@ static void run_uss_pzd_length_index_1_mm420(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm420_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM430)
@@ -498,7 +498,7 @@ static void run_uss_pzd_length_index_1_mm430(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm430_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
+static void point_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PZD_LENGTH_INDEX_1_MM440)
@@ -516,7 +516,7 @@ static void run_uss_pzd_length_index_1_mm440(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pzd_length_index_1_mm440_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pkw_length_index_0(fieldscribe_vector *v)
+static void point_uss_pkw_length_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0)
@@ -539,7 +539,7 @@ static void run_uss_pkw_length_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_0_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_pkw_length_index_1(fieldscribe_vector *v)
+static void point_uss_pkw_length_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1) FIELDSCRIBE_RAWS(SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1)
@@ -562,7 +562,7 @@ static void run_uss_pkw_length_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE("store", siemens_mm4_uss_pkw_length_index_1_eeprom_frame, u16, uint16_t)
 }
 
-static void run_uss_telegram_off_time_index_0(fieldscribe_vector *v)
+static void point_uss_telegram_off_time_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_0)
@@ -583,7 +583,7 @@ static void run_uss_telegram_off_time_index_0(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_0, uint16_t)
 }
 
-static void run_uss_telegram_off_time_index_1(fieldscribe_vector *v)
+static void point_uss_telegram_off_time_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(SIEMENS_MM4_USS_TELEGRAM_OFF_TIME_INDEX_1)
@@ -604,7 +604,7 @@ static void run_uss_telegram_off_time_index_1(fieldscribe_vector *v)
     FIELDSCRIBE_SPECIAL_NAME(siemens_mm4_uss_telegram_off_time_index_1, uint16_t)
 }
 
-static void run_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
+static void point_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0)
@@ -628,7 +628,7 @@ static void run_uss_rs232_answer_source_index_0(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
-static void run_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
+static void point_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1)
@@ -652,7 +652,7 @@ static void run_uss_rs232_answer_source_index_1(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
-static void run_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
+static void point_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2)
@@ -676,7 +676,7 @@ static void run_uss_rs232_answer_source_index_2(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
-static void run_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
+static void point_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3)
@@ -700,7 +700,7 @@ static void run_uss_rs232_answer_source_index_3(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS232_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
-static void run_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
+static void point_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0)
@@ -724,7 +724,7 @@ static void run_uss_rs485_answer_source_index_0(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_0_SOURCE_BIT)
 }
 
-static void run_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
+static void point_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1)
@@ -748,7 +748,7 @@ static void run_uss_rs485_answer_source_index_1(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_1_SOURCE_BIT)
 }
 
-static void run_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
+static void point_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2)
@@ -772,7 +772,7 @@ static void run_uss_rs485_answer_source_index_2(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_2_SOURCE_BIT)
 }
 
-static void run_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
+static void point_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3)
@@ -796,7 +796,7 @@ static void run_uss_rs485_answer_source_index_3(fieldscribe_vector *v)
         SIEMENS_MM4_USS_RS485_ANSWER_SOURCE_INDEX_3_SOURCE_BIT)
 }
 
-static void run_control_word(fieldscribe_vector *v)
+static void point_control_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_CONTROL_WORD) FIELDSCRIBE_CODE("STW")
@@ -860,7 +860,7 @@ static void run_control_word(fieldscribe_vector *v)
         SIEMENS_MM4_CONTROL_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_CONTROL_WORD_LOCAL_CONTROL_MASK) != 0U)
 }
 
-static void run_main_setpoint(fieldscribe_vector *v)
+static void point_main_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_SETPOINT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_SETPOINT) FIELDSCRIBE_RAWS(SIEMENS_MM4_MAIN_SETPOINT)
@@ -878,7 +878,7 @@ static void run_main_setpoint(fieldscribe_vector *v)
         SIEMENS_MM4_TELEGRAM_TASK_WORDS)
 }
 
-static void run_second_control_word(fieldscribe_vector *v)
+static void point_second_control_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_CONTROL_WORD, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_CONTROL_WORD) FIELDSCRIBE_RAWS(SIEMENS_MM4_SECOND_CONTROL_WORD)
@@ -912,7 +912,7 @@ static void run_second_control_word(fieldscribe_vector *v)
         SIEMENS_MM4_SECOND_CONTROL_WORD_EXTERNAL_FAULT_MASK) != 0U)
 }
 
-static void run_status_word(fieldscribe_vector *v)
+static void point_status_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_STATUS_WORD, FIELDSCRIBE_SPACE("telegram") FIELDSCRIBE_ONE(SIEMENS_MM4_STATUS_WORD)
         FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW") FIELDSCRIBE_REFERENCE("pzd", 1))
@@ -973,7 +973,7 @@ static void run_status_word(fieldscribe_vector *v)
         SIEMENS_MM4_STATUS_WORD_ACTIVE_LOW_MASK) & SIEMENS_MM4_STATUS_WORD_INVERTER_OVERLOAD_MASK) != 0U)
 }
 
-static void run_main_actual_value(fieldscribe_vector *v)
+static void point_main_actual_value(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_MAIN_ACTUAL_VALUE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(SIEMENS_MM4_MAIN_ACTUAL_VALUE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -991,7 +991,7 @@ static void run_main_actual_value(fieldscribe_vector *v)
     FIELDSCRIBE_HEAR(siemens_mm4_main_actual_value_frame, u16, uint16_t)
 }
 
-static void run_second_status_word(fieldscribe_vector *v)
+static void point_second_status_word(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(SIEMENS_MM4_SECOND_STATUS_WORD, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(SIEMENS_MM4_SECOND_STATUS_WORD) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_CODE("ZSW2")
@@ -1019,48 +1019,48 @@ static const fieldscribe_status_name statuses[] = {
 };
 
 static const fieldscribe_adapter adapters[] = {
-    {"user_access_level", run_user_access_level},
-    {"inverter_status_word", run_inverter_status_word},
-    {"command_source", run_command_source},
-    {"p0731_source", run_p0731_source},
-    {"main_setpoint_source", run_main_setpoint_source},
-    {"maximum_frequency", run_maximum_frequency},
-    {"jog_time_selection_source", run_jog_time_selection_source},
-    {"dc_braking_source", run_dc_braking_source},
-    {"output_phase_sequence", run_output_phase_sequence},
-    {"reference_frequency", run_reference_frequency},
-    {"uss_normalisation_rs485", run_uss_normalisation_rs485},
-    {"uss_normalisation_rs232", run_uss_normalisation_rs232},
-    {"uss_baud_rate_index_0", run_uss_baud_rate_index_0},
-    {"uss_baud_rate_index_1", run_uss_baud_rate_index_1},
-    {"uss_slave_address_index_0", run_uss_slave_address_index_0},
-    {"uss_slave_address_index_1", run_uss_slave_address_index_1},
-    {"uss_pzd_length_index_0_mm410", run_uss_pzd_length_index_0_mm410},
-    {"uss_pzd_length_index_0_mm420", run_uss_pzd_length_index_0_mm420},
-    {"uss_pzd_length_index_0_mm430", run_uss_pzd_length_index_0_mm430},
-    {"uss_pzd_length_index_0_mm440", run_uss_pzd_length_index_0_mm440},
-    {"uss_pzd_length_index_1_mm410", run_uss_pzd_length_index_1_mm410},
-    {"uss_pzd_length_index_1_mm420", run_uss_pzd_length_index_1_mm420},
-    {"uss_pzd_length_index_1_mm430", run_uss_pzd_length_index_1_mm430},
-    {"uss_pzd_length_index_1_mm440", run_uss_pzd_length_index_1_mm440},
-    {"uss_pkw_length_index_0", run_uss_pkw_length_index_0},
-    {"uss_pkw_length_index_1", run_uss_pkw_length_index_1},
-    {"uss_telegram_off_time_index_0", run_uss_telegram_off_time_index_0},
-    {"uss_telegram_off_time_index_1", run_uss_telegram_off_time_index_1},
-    {"uss_rs232_answer_source_index_0", run_uss_rs232_answer_source_index_0},
-    {"uss_rs232_answer_source_index_1", run_uss_rs232_answer_source_index_1},
-    {"uss_rs232_answer_source_index_2", run_uss_rs232_answer_source_index_2},
-    {"uss_rs232_answer_source_index_3", run_uss_rs232_answer_source_index_3},
-    {"uss_rs485_answer_source_index_0", run_uss_rs485_answer_source_index_0},
-    {"uss_rs485_answer_source_index_1", run_uss_rs485_answer_source_index_1},
-    {"uss_rs485_answer_source_index_2", run_uss_rs485_answer_source_index_2},
-    {"uss_rs485_answer_source_index_3", run_uss_rs485_answer_source_index_3},
-    {"control_word", run_control_word},
-    {"main_setpoint", run_main_setpoint},
-    {"second_control_word", run_second_control_word},
-    {"status_word", run_status_word},
-    {"main_actual_value", run_main_actual_value},
-    {"second_status_word", run_second_status_word},
+    {"user_access_level", point_user_access_level},
+    {"inverter_status_word", point_inverter_status_word},
+    {"command_source", point_command_source},
+    {"p0731_source", point_p0731_source},
+    {"main_setpoint_source", point_main_setpoint_source},
+    {"maximum_frequency", point_maximum_frequency},
+    {"jog_time_selection_source", point_jog_time_selection_source},
+    {"dc_braking_source", point_dc_braking_source},
+    {"output_phase_sequence", point_output_phase_sequence},
+    {"reference_frequency", point_reference_frequency},
+    {"uss_normalisation_rs485", point_uss_normalisation_rs485},
+    {"uss_normalisation_rs232", point_uss_normalisation_rs232},
+    {"uss_baud_rate_index_0", point_uss_baud_rate_index_0},
+    {"uss_baud_rate_index_1", point_uss_baud_rate_index_1},
+    {"uss_slave_address_index_0", point_uss_slave_address_index_0},
+    {"uss_slave_address_index_1", point_uss_slave_address_index_1},
+    {"uss_pzd_length_index_0_mm410", point_uss_pzd_length_index_0_mm410},
+    {"uss_pzd_length_index_0_mm420", point_uss_pzd_length_index_0_mm420},
+    {"uss_pzd_length_index_0_mm430", point_uss_pzd_length_index_0_mm430},
+    {"uss_pzd_length_index_0_mm440", point_uss_pzd_length_index_0_mm440},
+    {"uss_pzd_length_index_1_mm410", point_uss_pzd_length_index_1_mm410},
+    {"uss_pzd_length_index_1_mm420", point_uss_pzd_length_index_1_mm420},
+    {"uss_pzd_length_index_1_mm430", point_uss_pzd_length_index_1_mm430},
+    {"uss_pzd_length_index_1_mm440", point_uss_pzd_length_index_1_mm440},
+    {"uss_pkw_length_index_0", point_uss_pkw_length_index_0},
+    {"uss_pkw_length_index_1", point_uss_pkw_length_index_1},
+    {"uss_telegram_off_time_index_0", point_uss_telegram_off_time_index_0},
+    {"uss_telegram_off_time_index_1", point_uss_telegram_off_time_index_1},
+    {"uss_rs232_answer_source_index_0", point_uss_rs232_answer_source_index_0},
+    {"uss_rs232_answer_source_index_1", point_uss_rs232_answer_source_index_1},
+    {"uss_rs232_answer_source_index_2", point_uss_rs232_answer_source_index_2},
+    {"uss_rs232_answer_source_index_3", point_uss_rs232_answer_source_index_3},
+    {"uss_rs485_answer_source_index_0", point_uss_rs485_answer_source_index_0},
+    {"uss_rs485_answer_source_index_1", point_uss_rs485_answer_source_index_1},
+    {"uss_rs485_answer_source_index_2", point_uss_rs485_answer_source_index_2},
+    {"uss_rs485_answer_source_index_3", point_uss_rs485_answer_source_index_3},
+    {"control_word", point_control_word},
+    {"main_setpoint", point_main_setpoint},
+    {"second_control_word", point_second_control_word},
+    {"status_word", point_status_word},
+    {"main_actual_value", point_main_actual_value},
+    {"second_status_word", point_second_status_word},
     {NULL, NULL}
 };
 

@@ -18,7 +18,7 @@ static inline const woodward_mpu2s_present_active_power_setpoint_with
     return &with;
 }
 
-static void run_telegram_identification(fieldscribe_vector *v)
+static void point_telegram_identification(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -31,7 +31,7 @@ static void run_telegram_identification(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_telegram_identification_frame, u16, uint16_t)
 }
 
-static void run_generator_frequency(fieldscribe_vector *v)
+static void point_generator_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_FREQUENCY, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -46,7 +46,7 @@ static void run_generator_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_frequency_frame, u16, uint16_t)
 }
 
-static void run_generator_active_power(fieldscribe_vector *v)
+static void point_generator_active_power(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER) FIELDSCRIBE_ONLY_READ((-32768), 32767)
@@ -63,7 +63,7 @@ static void run_generator_active_power(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_active_power_frame, s16, int16_t)
 }
 
-static void run_generator_power_exponent(fieldscribe_vector *v)
+static void point_generator_power_exponent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_POWER_EXPONENT) FIELDSCRIBE_ONLY_READ(0, 5) FIELDSCRIBE_CODE("PGNEXPO")
@@ -76,7 +76,7 @@ static void run_generator_power_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_power_exponent_frame, s8, int8_t)
 }
 
-static void run_generator_voltage_exponent(fieldscribe_vector *v)
+static void point_generator_voltage_exponent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-4), 4)
@@ -90,7 +90,7 @@ static void run_generator_voltage_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_exponent_frame, s8, int8_t)
 }
 
-static void run_present_active_power_setpoint(fieldscribe_vector *v)
+static void point_present_active_power_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT) FIELDSCRIBE_ONLY_READ((-32768), 32767)
@@ -107,7 +107,7 @@ static void run_present_active_power_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_present_active_power_setpoint_frame, s16, int16_t)
 }
 
-static void run_active_power_setpoint_factor(fieldscribe_vector *v)
+static void point_active_power_setpoint_factor(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_SETPOINT_FACTOR) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -121,7 +121,7 @@ static void run_active_power_setpoint_factor(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_active_power_setpoint_factor_frame, u16, uint16_t)
 }
 
-static void run_busbar_voltage_l1_l2(fieldscribe_vector *v)
+static void point_busbar_voltage_l1_l2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -138,7 +138,7 @@ static void run_busbar_voltage_l1_l2(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_busbar_voltage_l1_l2_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_l1_l2(fieldscribe_vector *v)
+static void point_mains_voltage_l1_l2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -155,7 +155,7 @@ static void run_mains_voltage_l1_l2(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l1_l2_frame, u16, uint16_t)
 }
 
-static void run_present_fault_classes(fieldscribe_vector *v)
+static void point_present_fault_classes(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PRESENT_FAULT_CLASSES, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PRESENT_FAULT_CLASSES) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -188,7 +188,7 @@ static void run_present_fault_classes(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("fault_class_0", "active", WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_ACTIVE)
 }
 
-static void run_control_register_2(fieldscribe_vector *v)
+static void point_control_register_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_CONTROL_REGISTER_2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_CONTROL_REGISTER_2) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -226,7 +226,7 @@ static void run_control_register_2(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("terminal_6_synchronisation_on", "active", WOODWARD_MPU2S_CONTROL_REGISTER_2_ACTIVE)
 }
 
-static void run_control_register_1(fieldscribe_vector *v)
+static void point_control_register_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_CONTROL_REGISTER_1, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_CONTROL_REGISTER_1) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -249,7 +249,7 @@ static void run_control_register_1(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("acknowledge_f1", "active", WOODWARD_MPU2S_CONTROL_REGISTER_1_ACTIVE)
 }
 
-static void run_internal_faults_8(fieldscribe_vector *v)
+static void point_internal_faults_8(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_8, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_8) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -280,7 +280,7 @@ static void run_internal_faults_8(fieldscribe_vector *v)
         "raw"))) & WOODWARD_MPU2S_INTERNAL_FAULTS_8_REACTIVE_POWER_CAPACITIVE_MASK) != 0U)
 }
 
-static void run_internal_faults_6(fieldscribe_vector *v)
+static void point_internal_faults_6(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_6, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_6) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -317,7 +317,7 @@ static void run_internal_faults_6(fieldscribe_vector *v)
         "raw"))) & WOODWARD_MPU2S_INTERNAL_FAULTS_6_ANALOG_INPUT_1_WIRE_BREAK_MASK) != 0U)
 }
 
-static void run_generator_voltage_l2_l3(fieldscribe_vector *v)
+static void point_generator_voltage_l2_l3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -334,7 +334,7 @@ static void run_generator_voltage_l2_l3(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l2_l3_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_l3_l1(fieldscribe_vector *v)
+static void point_generator_voltage_l3_l1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -351,7 +351,7 @@ static void run_generator_voltage_l3_l1(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l3_l1_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_l1_n(fieldscribe_vector *v)
+static void point_generator_voltage_l1_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -368,7 +368,7 @@ static void run_generator_voltage_l1_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l1_n_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_l2_n(fieldscribe_vector *v)
+static void point_generator_voltage_l2_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -385,7 +385,7 @@ static void run_generator_voltage_l2_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l2_n_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_l3_n(fieldscribe_vector *v)
+static void point_generator_voltage_l3_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -402,7 +402,7 @@ static void run_generator_voltage_l3_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l3_n_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_l1_l2(fieldscribe_vector *v)
+static void point_generator_voltage_l1_l2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -419,7 +419,7 @@ static void run_generator_voltage_l1_l2(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_voltage_l1_l2_frame, u16, uint16_t)
 }
 
-static void run_generator_current_l1(fieldscribe_vector *v)
+static void point_generator_current_l1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_CURRENT_L1, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_CURRENT_L1) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -436,7 +436,7 @@ static void run_generator_current_l1(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_current_l1_frame, u16, uint16_t)
 }
 
-static void run_generator_current_l2(fieldscribe_vector *v)
+static void point_generator_current_l2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_CURRENT_L2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_CURRENT_L2) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -453,7 +453,7 @@ static void run_generator_current_l2(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_current_l2_frame, u16, uint16_t)
 }
 
-static void run_generator_current_l3(fieldscribe_vector *v)
+static void point_generator_current_l3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_CURRENT_L3, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_CURRENT_L3) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -470,7 +470,7 @@ static void run_generator_current_l3(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_current_l3_frame, u16, uint16_t)
 }
 
-static void run_generator_cos_phi(fieldscribe_vector *v)
+static void point_generator_cos_phi(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_COS_PHI, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_COS_PHI) FIELDSCRIBE_ONLY_READ((-32768), 32767)
@@ -485,7 +485,7 @@ static void run_generator_cos_phi(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_cos_phi_frame, s16, int16_t)
 }
 
-static void run_load_sharing_participants(fieldscribe_vector *v)
+static void point_load_sharing_participants(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_LOAD_SHARING_PARTICIPANTS) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -498,7 +498,7 @@ static void run_load_sharing_participants(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_load_sharing_participants_frame, u16, uint16_t)
 }
 
-static void run_mains_state(fieldscribe_vector *v)
+static void point_mains_state(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_STATE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_STATE) FIELDSCRIBE_ONLY_READ(0, 255) FIELDSCRIBE_REFERENCE("mux", 9)
@@ -514,7 +514,7 @@ static void run_mains_state(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_state_frame, u8, uint8_t)
 }
 
-static void run_generator_state(fieldscribe_vector *v)
+static void point_generator_state(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_STATE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_STATE) FIELDSCRIBE_ONLY_READ(0, 255) FIELDSCRIBE_REFERENCE("mux", 9)
@@ -530,7 +530,7 @@ static void run_generator_state(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_state_frame, u8, uint8_t)
 }
 
-static void run_generator_current_exponent(fieldscribe_vector *v)
+static void point_generator_current_exponent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT) FIELDSCRIBE_ONLY_READ((-3), 3)
@@ -544,7 +544,7 @@ static void run_generator_current_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_current_exponent_frame, s8, int8_t)
 }
 
-static void run_busbar_frequency(fieldscribe_vector *v)
+static void point_busbar_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_FREQUENCY, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -559,7 +559,7 @@ static void run_busbar_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_busbar_frequency_frame, u16, uint16_t)
 }
 
-static void run_busbar_state(fieldscribe_vector *v)
+static void point_busbar_state(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_STATE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_STATE) FIELDSCRIBE_ONLY_READ(0, 255) FIELDSCRIBE_REFERENCE("mux", 10)
@@ -575,7 +575,7 @@ static void run_busbar_state(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_busbar_state_frame, u8, uint8_t)
 }
 
-static void run_mains_voltage_l2_l3(fieldscribe_vector *v)
+static void point_mains_voltage_l2_l3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -592,7 +592,7 @@ static void run_mains_voltage_l2_l3(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l2_l3_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_l3_l1(fieldscribe_vector *v)
+static void point_mains_voltage_l3_l1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -609,7 +609,7 @@ static void run_mains_voltage_l3_l1(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l3_l1_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_l1_n(fieldscribe_vector *v)
+static void point_mains_voltage_l1_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -626,7 +626,7 @@ static void run_mains_voltage_l1_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l1_n_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_l2_n(fieldscribe_vector *v)
+static void point_mains_voltage_l2_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -643,7 +643,7 @@ static void run_mains_voltage_l2_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l2_n_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_l3_n(fieldscribe_vector *v)
+static void point_mains_voltage_l3_n(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -660,7 +660,7 @@ static void run_mains_voltage_l3_n(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_l3_n_frame, u16, uint16_t)
 }
 
-static void run_mains_frequency(fieldscribe_vector *v)
+static void point_mains_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_FREQUENCY, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_FREQUENCY) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -675,7 +675,7 @@ static void run_mains_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_frequency_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_exponent(fieldscribe_vector *v)
+static void point_mains_voltage_exponent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-4), 4)
@@ -689,7 +689,7 @@ static void run_mains_voltage_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_mains_voltage_exponent_frame, s8, int8_t)
 }
 
-static void run_busbar_voltage_exponent(fieldscribe_vector *v)
+static void point_busbar_voltage_exponent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_VOLTAGE_EXPONENT) FIELDSCRIBE_ONLY_READ((-4), 4)
@@ -703,7 +703,7 @@ static void run_busbar_voltage_exponent(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_busbar_voltage_exponent_frame, s8, int8_t)
 }
 
-static void run_operating_hours(fieldscribe_vector *v)
+static void point_operating_hours(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OPERATING_HOURS, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_OPERATING_HOURS) FIELDSCRIBE_ONLY_READ(0, 4294967295)
@@ -716,7 +716,7 @@ static void run_operating_hours(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_operating_hours_frame, u32, uint32_t)
 }
 
-static void run_hours_until_maintenance(fieldscribe_vector *v)
+static void point_hours_until_maintenance(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_HOURS_UNTIL_MAINTENANCE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -729,7 +729,7 @@ static void run_hours_until_maintenance(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_hours_until_maintenance_frame, u16, uint16_t)
 }
 
-static void run_engine_start_counter(fieldscribe_vector *v)
+static void point_engine_start_counter(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ENGINE_START_COUNTER, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ENGINE_START_COUNTER) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -742,7 +742,7 @@ static void run_engine_start_counter(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_engine_start_counter_frame, u16, uint16_t)
 }
 
-static void run_generator_active_energy(fieldscribe_vector *v)
+static void point_generator_active_energy(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_GENERATOR_ACTIVE_ENERGY) FIELDSCRIBE_ONLY_READ(0, 4294967295)
@@ -756,7 +756,7 @@ static void run_generator_active_energy(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_generator_active_energy_frame, u32, uint32_t)
 }
 
-static void run_battery_voltage(fieldscribe_vector *v)
+static void point_battery_voltage(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BATTERY_VOLTAGE, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BATTERY_VOLTAGE) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -771,7 +771,7 @@ static void run_battery_voltage(fieldscribe_vector *v)
     FIELDSCRIBE_RECEIVED(woodward_mpu2s_battery_voltage_frame, u16, uint16_t)
 }
 
-static void run_internal_faults_1(fieldscribe_vector *v)
+static void point_internal_faults_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_1, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_1) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -817,7 +817,7 @@ static void run_internal_faults_1(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("reverse_power", "active", WOODWARD_MPU2S_INTERNAL_FAULTS_1_ACTIVE)
 }
 
-static void run_internal_faults_2(fieldscribe_vector *v)
+static void point_internal_faults_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_2, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_2) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -864,7 +864,7 @@ static void run_internal_faults_2(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("phase_shift", "active", WOODWARD_MPU2S_INTERNAL_FAULTS_2_ACTIVE)
 }
 
-static void run_internal_faults_3(fieldscribe_vector *v)
+static void point_internal_faults_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_3, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_3) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -902,7 +902,7 @@ static void run_internal_faults_3(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("maintenance_call", "active", WOODWARD_MPU2S_INTERNAL_FAULTS_3_ACTIVE)
 }
 
-static void run_internal_faults_4(fieldscribe_vector *v)
+static void point_internal_faults_4(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_4, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_4) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -955,7 +955,7 @@ static void run_internal_faults_4(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("analog_input_4_stage_2", "active", WOODWARD_MPU2S_INTERNAL_FAULTS_4_ACTIVE)
 }
 
-static void run_internal_faults_5(fieldscribe_vector *v)
+static void point_internal_faults_5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_5, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_5) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -1008,7 +1008,7 @@ static void run_internal_faults_5(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("analog_input_8_stage_2", "active", WOODWARD_MPU2S_INTERNAL_FAULTS_5_ACTIVE)
 }
 
-static void run_digital_input_faults_1_to_8(fieldscribe_vector *v)
+static void point_digital_input_faults_1_to_8(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -1061,7 +1061,7 @@ static void run_digital_input_faults_1_to_8(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("digital_input_8", "active", WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_ACTIVE)
 }
 
-static void run_digital_input_faults_9_to_16(fieldscribe_vector *v)
+static void point_digital_input_faults_9_to_16(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -1114,7 +1114,7 @@ static void run_digital_input_faults_9_to_16(fieldscribe_vector *v)
     FIELDSCRIBE_FLAG_NAME("digital_input_16", "active", WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_ACTIVE)
 }
 
-static void run_internal_faults_7(fieldscribe_vector *v)
+static void point_internal_faults_7(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INTERNAL_FAULTS_7, FIELDSCRIBE_SPACE("telegram")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INTERNAL_FAULTS_7) FIELDSCRIBE_ONLY_READ(0, 65535) FIELDSCRIBE_REFERENCE("mux",
@@ -1133,7 +1133,7 @@ static void run_internal_faults_7(fieldscribe_vector *v)
         & WOODWARD_MPU2S_INTERNAL_FAULTS_7_OVERCURRENT_INVERSE_TIME_MASK) != 0U)
 }
 
-static void run_password_level_2(fieldscribe_vector *v)
+static void point_password_level_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PASSWORD_LEVEL_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PASSWORD_LEVEL_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_PASSWORD_LEVEL_2))
@@ -1146,7 +1146,7 @@ static void run_password_level_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_password_level_2_frame, u16, uint16_t)
 }
 
-static void run_generator_frequency_setpoint(fieldscribe_vector *v)
+static void point_generator_frequency_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT)
@@ -1167,7 +1167,7 @@ static void run_generator_frequency_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_frequency_setpoint_frame, u16, uint16_t)
 }
 
-static void run_generator_rated_frequency(fieldscribe_vector *v)
+static void point_generator_rated_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY)
@@ -1186,7 +1186,7 @@ static void run_generator_rated_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_rated_frequency_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_transformer_secondary_100v(fieldscribe_vector *v)
+static void point_generator_voltage_transformer_secondary_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V)
@@ -1202,7 +1202,7 @@ static void run_generator_voltage_transformer_secondary_100v(fieldscribe_vector 
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_voltage_transformer_secondary_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_transformer_secondary_400v(fieldscribe_vector *v)
+static void point_generator_voltage_transformer_secondary_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V)
@@ -1218,7 +1218,7 @@ static void run_generator_voltage_transformer_secondary_400v(fieldscribe_vector 
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_voltage_transformer_secondary_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_transformer_primary(fieldscribe_vector *v)
+static void point_generator_voltage_transformer_primary(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY)
@@ -1234,7 +1234,7 @@ static void run_generator_voltage_transformer_primary(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_voltage_transformer_primary_frame, u16, uint16_t)
 }
 
-static void run_busbar_voltage_transformer_secondary_100v(fieldscribe_vector *v)
+static void point_busbar_voltage_transformer_secondary_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V)
@@ -1250,7 +1250,7 @@ static void run_busbar_voltage_transformer_secondary_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_busbar_voltage_transformer_secondary_100v_frame, u16, uint16_t)
 }
 
-static void run_busbar_voltage_transformer_secondary_400v(fieldscribe_vector *v)
+static void point_busbar_voltage_transformer_secondary_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V)
@@ -1266,7 +1266,7 @@ static void run_busbar_voltage_transformer_secondary_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_busbar_voltage_transformer_secondary_400v_frame, u16, uint16_t)
 }
 
-static void run_busbar_voltage_transformer_primary(fieldscribe_vector *v)
+static void point_busbar_voltage_transformer_primary(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY)
@@ -1282,7 +1282,7 @@ static void run_busbar_voltage_transformer_primary(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_busbar_voltage_transformer_primary_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_transformer_secondary_100v(fieldscribe_vector *v)
+static void point_mains_voltage_transformer_secondary_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V)
@@ -1298,7 +1298,7 @@ static void run_mains_voltage_transformer_secondary_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_voltage_transformer_secondary_100v_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_transformer_secondary_400v(fieldscribe_vector *v)
+static void point_mains_voltage_transformer_secondary_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V)
@@ -1314,7 +1314,7 @@ static void run_mains_voltage_transformer_secondary_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_voltage_transformer_secondary_400v_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_transformer_primary(fieldscribe_vector *v)
+static void point_mains_voltage_transformer_primary(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY)
@@ -1330,7 +1330,7 @@ static void run_mains_voltage_transformer_primary(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_voltage_transformer_primary_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_factor(fieldscribe_vector *v)
+static void point_generator_voltage_factor(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -1341,7 +1341,7 @@ static void run_generator_voltage_factor(fieldscribe_vector *v)
     FIELDSCRIBE_READ(woodward_mpu2s_generator_voltage_factor_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_setpoint_100v(fieldscribe_vector *v)
+static void point_generator_voltage_setpoint_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V)
@@ -1363,7 +1363,7 @@ static void run_generator_voltage_setpoint_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_voltage_setpoint_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_voltage_setpoint_400v(fieldscribe_vector *v)
+static void point_generator_voltage_setpoint_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V)
@@ -1385,7 +1385,7 @@ static void run_generator_voltage_setpoint_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_voltage_setpoint_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_rated_voltage_100v(fieldscribe_vector *v)
+static void point_generator_rated_voltage_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V)
@@ -1407,7 +1407,7 @@ static void run_generator_rated_voltage_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_rated_voltage_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_rated_voltage_400v(fieldscribe_vector *v)
+static void point_generator_rated_voltage_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V)
@@ -1429,7 +1429,7 @@ static void run_generator_rated_voltage_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_rated_voltage_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_current_transformer_ratio(fieldscribe_vector *v)
+static void point_generator_current_transformer_ratio(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO)
@@ -1445,7 +1445,7 @@ static void run_generator_current_transformer_ratio(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_current_transformer_ratio_frame, u16, uint16_t)
 }
 
-static void run_power_measurement_phases(fieldscribe_vector *v)
+static void point_power_measurement_phases(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES)
@@ -1462,7 +1462,7 @@ static void run_power_measurement_phases(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_power_measurement_phases_frame, bit, bool)
 }
 
-static void run_generator_rated_power(fieldscribe_vector *v)
+static void point_generator_rated_power(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_RATED_POWER, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_RATED_POWER) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_GENERATOR_RATED_POWER))
@@ -1475,7 +1475,7 @@ static void run_generator_rated_power(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_rated_power_frame, u16, uint16_t)
 }
 
-static void run_generator_rated_current(fieldscribe_vector *v)
+static void point_generator_rated_current(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_RATED_CURRENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_RATED_CURRENT)
@@ -1489,7 +1489,7 @@ static void run_generator_rated_current(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_rated_current_frame, u16, uint16_t)
 }
 
-static void run_generator_power_setpoint_1(fieldscribe_vector *v)
+static void point_generator_power_setpoint_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1)
@@ -1503,7 +1503,7 @@ static void run_generator_power_setpoint_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_power_setpoint_1_frame, s16, int16_t)
 }
 
-static void run_generator_power_setpoint_2(fieldscribe_vector *v)
+static void point_generator_power_setpoint_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2)
@@ -1517,7 +1517,7 @@ static void run_generator_power_setpoint_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_power_setpoint_2_frame, s16, int16_t)
 }
 
-static void run_frequency_controller(fieldscribe_vector *v)
+static void point_frequency_controller(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER))
@@ -1533,7 +1533,7 @@ static void run_frequency_controller(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_frequency_controller_frame, u8, uint8_t)
 }
 
-static void run_frequency_controller_start_frequency(fieldscribe_vector *v)
+static void point_frequency_controller_start_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY)
@@ -1554,7 +1554,7 @@ static void run_frequency_controller_start_frequency(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_frequency_controller_start_frequency_frame, u16, uint16_t)
 }
 
-static void run_frequency_controller_start_delay(fieldscribe_vector *v)
+static void point_frequency_controller_start_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY)
@@ -1575,7 +1575,7 @@ static void run_frequency_controller_start_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_frequency_controller_start_delay_frame, u16, uint16_t)
 }
 
-static void run_frequency_controller_dead_band(fieldscribe_vector *v)
+static void point_frequency_controller_dead_band(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND)
@@ -1596,7 +1596,7 @@ static void run_frequency_controller_dead_band(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_frequency_controller_dead_band_frame, u16, uint16_t)
 }
 
-static void run_frequency_controller_pulse_time(fieldscribe_vector *v)
+static void point_frequency_controller_pulse_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME)
@@ -1617,7 +1617,7 @@ static void run_frequency_controller_pulse_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_frequency_controller_pulse_time_frame, u16, uint16_t)
 }
 
-static void run_frequency_controller_proportional_gain(fieldscribe_vector *v)
+static void point_frequency_controller_proportional_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN)
@@ -1638,7 +1638,7 @@ static void run_frequency_controller_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_frequency_controller_proportional_gain_frame, u16, uint16_t)
 }
 
-static void run_voltage_controller(fieldscribe_vector *v)
+static void point_voltage_controller(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_VOLTAGE_CONTROLLER, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_VOLTAGE_CONTROLLER) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_VOLTAGE_CONTROLLER))
@@ -1654,7 +1654,7 @@ static void run_voltage_controller(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_voltage_controller_frame, u8, uint8_t)
 }
 
-static void run_voltage_controller_dead_band(fieldscribe_vector *v)
+static void point_voltage_controller_dead_band(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND)
@@ -1675,7 +1675,7 @@ static void run_voltage_controller_dead_band(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_voltage_controller_dead_band_frame, u16, uint16_t)
 }
 
-static void run_voltage_controller_pulse_time(fieldscribe_vector *v)
+static void point_voltage_controller_pulse_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME)
@@ -1696,7 +1696,7 @@ static void run_voltage_controller_pulse_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_voltage_controller_pulse_time_frame, u16, uint16_t)
 }
 
-static void run_voltage_controller_proportional_gain(fieldscribe_vector *v)
+static void point_voltage_controller_proportional_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN)
@@ -1717,7 +1717,7 @@ static void run_voltage_controller_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_voltage_controller_proportional_gain_frame, u16, uint16_t)
 }
 
-static void run_cos_phi_controller(fieldscribe_vector *v)
+static void point_cos_phi_controller(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_COS_PHI_CONTROLLER, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_COS_PHI_CONTROLLER) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_COS_PHI_CONTROLLER))
@@ -1733,7 +1733,7 @@ static void run_cos_phi_controller(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_cos_phi_controller_frame, u8, uint8_t)
 }
 
-static void run_cos_phi_controller_setpoint(fieldscribe_vector *v)
+static void point_cos_phi_controller_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT)
@@ -1752,7 +1752,7 @@ static void run_cos_phi_controller_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_cos_phi_controller_setpoint_frame, s16, int16_t)
 }
 
-static void run_cos_phi_controller_dead_band(fieldscribe_vector *v)
+static void point_cos_phi_controller_dead_band(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND)
@@ -1773,7 +1773,7 @@ static void run_cos_phi_controller_dead_band(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_cos_phi_controller_dead_band_frame, u16, uint16_t)
 }
 
-static void run_cos_phi_controller_proportional_gain(fieldscribe_vector *v)
+static void point_cos_phi_controller_proportional_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN)
@@ -1794,7 +1794,7 @@ static void run_cos_phi_controller_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_cos_phi_controller_proportional_gain_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller(fieldscribe_vector *v)
+static void point_active_power_controller(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER)
@@ -1811,7 +1811,7 @@ static void run_active_power_controller(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_active_power_controller_frame, u8, uint8_t)
 }
 
-static void run_active_power_controller_ramp(fieldscribe_vector *v)
+static void point_active_power_controller_ramp(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP)
@@ -1825,7 +1825,7 @@ static void run_active_power_controller_ramp(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_ramp_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller_maximum(fieldscribe_vector *v)
+static void point_active_power_controller_maximum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM)
@@ -1846,7 +1846,7 @@ static void run_active_power_controller_maximum(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_maximum_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller_minimum(fieldscribe_vector *v)
+static void point_active_power_controller_minimum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM)
@@ -1867,7 +1867,7 @@ static void run_active_power_controller_minimum(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_minimum_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller_dead_band(fieldscribe_vector *v)
+static void point_active_power_controller_dead_band(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND)
@@ -1888,7 +1888,7 @@ static void run_active_power_controller_dead_band(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_dead_band_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller_proportional_gain(fieldscribe_vector *v)
+static void point_active_power_controller_proportional_gain(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN)
@@ -1909,7 +1909,7 @@ static void run_active_power_controller_proportional_gain(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_proportional_gain_frame, u16, uint16_t)
 }
 
-static void run_active_power_controller_sensitivity_reduction(fieldscribe_vector *v)
+static void point_active_power_controller_sensitivity_reduction(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION)
@@ -1930,7 +1930,7 @@ static void run_active_power_controller_sensitivity_reduction(fieldscribe_vector
     FIELDSCRIBE_WRITE(woodward_mpu2s_active_power_controller_sensitivity_reduction_frame, u16, uint16_t)
 }
 
-static void run_part_load_lead_setpoint(fieldscribe_vector *v)
+static void point_part_load_lead_setpoint(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT)
@@ -1946,7 +1946,7 @@ static void run_part_load_lead_setpoint(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_part_load_lead_setpoint_frame, u16, uint16_t)
 }
 
-static void run_part_load_lead_time(fieldscribe_vector *v)
+static void point_part_load_lead_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PART_LOAD_LEAD_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PART_LOAD_LEAD_TIME) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_PART_LOAD_LEAD_TIME)
@@ -1962,7 +1962,7 @@ static void run_part_load_lead_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_part_load_lead_time_frame, u16, uint16_t)
 }
 
-static void run_control_by_interface_x1_x5(fieldscribe_vector *v)
+static void point_control_by_interface_x1_x5(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5)
@@ -1979,7 +1979,7 @@ static void run_control_by_interface_x1_x5(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_control_by_interface_x1_x5_frame, u8, uint8_t)
 }
 
-static void run_breaker_logic(fieldscribe_vector *v)
+static void point_breaker_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BREAKER_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BREAKER_LOGIC) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_BREAKER_LOGIC))
@@ -1995,7 +1995,7 @@ static void run_breaker_logic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_breaker_logic_frame, u8, uint8_t)
 }
 
-static void run_load_ramp_maximum_time(fieldscribe_vector *v)
+static void point_load_ramp_maximum_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME)
@@ -2011,7 +2011,7 @@ static void run_load_ramp_maximum_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_load_ramp_maximum_time_frame, u16, uint16_t)
 }
 
-static void run_generator_breaker_signal_logic(fieldscribe_vector *v)
+static void point_generator_breaker_signal_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC)
@@ -2028,7 +2028,7 @@ static void run_generator_breaker_signal_logic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_breaker_signal_logic_frame, bit, bool)
 }
 
-static void run_generator_breaker_open_relay_logic(fieldscribe_vector *v)
+static void point_generator_breaker_open_relay_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC)
@@ -2046,7 +2046,7 @@ static void run_generator_breaker_open_relay_logic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_breaker_open_relay_logic_frame, bit, bool)
 }
 
-static void run_synchronisation_frequency_difference_maximum(fieldscribe_vector *v)
+static void point_synchronisation_frequency_difference_maximum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM)
@@ -2067,7 +2067,7 @@ static void run_synchronisation_frequency_difference_maximum(fieldscribe_vector 
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_frequency_difference_maximum_frame, u16, uint16_t)
 }
 
-static void run_synchronisation_frequency_difference_minimum(fieldscribe_vector *v)
+static void point_synchronisation_frequency_difference_minimum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM)
@@ -2088,7 +2088,7 @@ static void run_synchronisation_frequency_difference_minimum(fieldscribe_vector 
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_frequency_difference_minimum_frame, u16, uint16_t)
 }
 
-static void run_synchronisation_voltage_difference_maximum(fieldscribe_vector *v)
+static void point_synchronisation_voltage_difference_maximum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM)
@@ -2109,7 +2109,7 @@ static void run_synchronisation_voltage_difference_maximum(fieldscribe_vector *v
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_voltage_difference_maximum_frame, u16, uint16_t)
 }
 
-static void run_synchronisation_voltage_difference_minimum(fieldscribe_vector *v)
+static void point_synchronisation_voltage_difference_minimum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM)
@@ -2130,7 +2130,7 @@ static void run_synchronisation_voltage_difference_minimum(fieldscribe_vector *v
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_voltage_difference_minimum_frame, u16, uint16_t)
 }
 
-static void run_synchronisation_pulse_time(fieldscribe_vector *v)
+static void point_synchronisation_pulse_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME)
@@ -2149,7 +2149,7 @@ static void run_synchronisation_pulse_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_pulse_time_frame, u16, uint16_t)
 }
 
-static void run_generator_breaker_pick_up_time(fieldscribe_vector *v)
+static void point_generator_breaker_pick_up_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME)
@@ -2163,7 +2163,7 @@ static void run_generator_breaker_pick_up_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_breaker_pick_up_time_frame, u16, uint16_t)
 }
 
-static void run_synchronisation_time_monitoring(fieldscribe_vector *v)
+static void point_synchronisation_time_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING)
@@ -2181,7 +2181,7 @@ static void run_synchronisation_time_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_synchronisation_time_monitoring_frame, bit, bool)
 }
 
-static void run_synchronisation_time_monitoring_delay(fieldscribe_vector *v)
+static void point_synchronisation_time_monitoring_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY)
@@ -2197,7 +2197,7 @@ static void run_synchronisation_time_monitoring_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_synchronisation_time_monitoring_delay_frame, u16, uint16_t)
 }
 
-static void run_dead_bus_start(fieldscribe_vector *v)
+static void point_dead_bus_start(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DEAD_BUS_START, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DEAD_BUS_START) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_DEAD_BUS_START))
@@ -2213,7 +2213,7 @@ static void run_dead_bus_start(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_dead_bus_start_frame, u8, uint8_t)
 }
 
-static void run_dead_bus_start_frequency_difference_maximum(fieldscribe_vector *v)
+static void point_dead_bus_start_frequency_difference_maximum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM)
@@ -2234,7 +2234,7 @@ static void run_dead_bus_start_frequency_difference_maximum(fieldscribe_vector *
     FIELDSCRIBE_WRITE(woodward_mpu2s_dead_bus_start_frequency_difference_maximum_frame, u16, uint16_t)
 }
 
-static void run_dead_bus_start_voltage_difference_maximum(fieldscribe_vector *v)
+static void point_dead_bus_start_voltage_difference_maximum(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM)
@@ -2255,7 +2255,7 @@ static void run_dead_bus_start_voltage_difference_maximum(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_dead_bus_start_voltage_difference_maximum_frame, u16, uint16_t)
 }
 
-static void run_dead_bus_start_maximum_time(fieldscribe_vector *v)
+static void point_dead_bus_start_maximum_time(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME)
@@ -2269,7 +2269,7 @@ static void run_dead_bus_start_maximum_time(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_dead_bus_start_maximum_time_frame, u16, uint16_t)
 }
 
-static void run_generator_breaker_monitoring(fieldscribe_vector *v)
+static void point_generator_breaker_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING)
@@ -2286,7 +2286,7 @@ static void run_generator_breaker_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_breaker_monitoring_frame, bit, bool)
 }
 
-static void run_automatic_breaker_unlocking(fieldscribe_vector *v)
+static void point_automatic_breaker_unlocking(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING)
@@ -2303,7 +2303,7 @@ static void run_automatic_breaker_unlocking(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_automatic_breaker_unlocking_frame, bit, bool)
 }
 
-static void run_generator_overload_monitoring(fieldscribe_vector *v)
+static void point_generator_overload_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING)
@@ -2320,7 +2320,7 @@ static void run_generator_overload_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_overload_monitoring_frame, bit, bool)
 }
 
-static void run_overload_threshold_parallel_operation(fieldscribe_vector *v)
+static void point_overload_threshold_parallel_operation(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION)
@@ -2341,7 +2341,7 @@ static void run_overload_threshold_parallel_operation(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overload_threshold_parallel_operation_frame, u16, uint16_t)
 }
 
-static void run_overload_delay_parallel_operation(fieldscribe_vector *v)
+static void point_overload_delay_parallel_operation(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION)
@@ -2362,7 +2362,7 @@ static void run_overload_delay_parallel_operation(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overload_delay_parallel_operation_frame, u16, uint16_t)
 }
 
-static void run_overload_threshold_isolated_operation(fieldscribe_vector *v)
+static void point_overload_threshold_isolated_operation(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION)
@@ -2383,7 +2383,7 @@ static void run_overload_threshold_isolated_operation(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overload_threshold_isolated_operation_frame, u16, uint16_t)
 }
 
-static void run_overload_delay_isolated_operation(fieldscribe_vector *v)
+static void point_overload_delay_isolated_operation(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION)
@@ -2404,7 +2404,7 @@ static void run_overload_delay_isolated_operation(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overload_delay_isolated_operation_frame, u16, uint16_t)
 }
 
-static void run_generator_reverse_power_monitoring(fieldscribe_vector *v)
+static void point_generator_reverse_power_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING)
@@ -2422,7 +2422,7 @@ static void run_generator_reverse_power_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_reverse_power_monitoring_frame, bit, bool)
 }
 
-static void run_reverse_power_threshold(fieldscribe_vector *v)
+static void point_reverse_power_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD)
@@ -2438,7 +2438,7 @@ static void run_reverse_power_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reverse_power_threshold_frame, s16, int16_t)
 }
 
-static void run_reverse_power_delay(fieldscribe_vector *v)
+static void point_reverse_power_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REVERSE_POWER_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REVERSE_POWER_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_REVERSE_POWER_DELAY)
@@ -2454,7 +2454,7 @@ static void run_reverse_power_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reverse_power_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_unbalanced_load_monitoring(fieldscribe_vector *v)
+static void point_generator_unbalanced_load_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING)
@@ -2474,7 +2474,7 @@ static void run_generator_unbalanced_load_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_unbalanced_load_monitoring_frame, bit, bool)
 }
 
-static void run_unbalanced_load_threshold(fieldscribe_vector *v)
+static void point_unbalanced_load_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD)
@@ -2493,7 +2493,7 @@ static void run_unbalanced_load_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_unbalanced_load_threshold_frame, u16, uint16_t)
 }
 
-static void run_unbalanced_load_delay(fieldscribe_vector *v)
+static void point_unbalanced_load_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY)
@@ -2509,7 +2509,7 @@ static void run_unbalanced_load_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_unbalanced_load_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_overcurrent_monitoring(fieldscribe_vector *v)
+static void point_generator_overcurrent_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING)
@@ -2527,7 +2527,7 @@ static void run_generator_overcurrent_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_overcurrent_monitoring_frame, bit, bool)
 }
 
-static void run_overcurrent_1_threshold(fieldscribe_vector *v)
+static void point_overcurrent_1_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD)
@@ -2543,7 +2543,7 @@ static void run_overcurrent_1_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overcurrent_1_threshold_frame, u16, uint16_t)
 }
 
-static void run_overcurrent_1_delay(fieldscribe_vector *v)
+static void point_overcurrent_1_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERCURRENT_1_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERCURRENT_1_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_OVERCURRENT_1_DELAY)
@@ -2559,7 +2559,7 @@ static void run_overcurrent_1_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overcurrent_1_delay_frame, u16, uint16_t)
 }
 
-static void run_overcurrent_2_threshold(fieldscribe_vector *v)
+static void point_overcurrent_2_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD)
@@ -2575,7 +2575,7 @@ static void run_overcurrent_2_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overcurrent_2_threshold_frame, u16, uint16_t)
 }
 
-static void run_overcurrent_2_delay(fieldscribe_vector *v)
+static void point_overcurrent_2_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_OVERCURRENT_2_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_OVERCURRENT_2_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_OVERCURRENT_2_DELAY)
@@ -2591,7 +2591,7 @@ static void run_overcurrent_2_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_overcurrent_2_delay_frame, u16, uint16_t)
 }
 
-static void run_inverse_time_overcurrent(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT)
@@ -2608,7 +2608,7 @@ static void run_inverse_time_overcurrent(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_inverse_time_overcurrent_frame, bit, bool)
 }
 
-static void run_inverse_time_overcurrent_characteristic(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_characteristic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC)
@@ -2629,7 +2629,7 @@ static void run_inverse_time_overcurrent_characteristic(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_inverse_time_overcurrent_characteristic_frame, u8, uint8_t)
 }
 
-static void run_inverse_time_overcurrent_tp(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_tp(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP)
@@ -2648,7 +2648,7 @@ static void run_inverse_time_overcurrent_tp(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_inverse_time_overcurrent_tp_frame, u16, uint16_t)
 }
 
-static void run_inverse_time_overcurrent_ip(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_ip(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP)
@@ -2667,7 +2667,7 @@ static void run_inverse_time_overcurrent_ip(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_inverse_time_overcurrent_ip_frame, u16, uint16_t)
 }
 
-static void run_inverse_time_overcurrent_istart(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_istart(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART)
@@ -2688,7 +2688,7 @@ static void run_inverse_time_overcurrent_istart(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_inverse_time_overcurrent_istart_frame, u16, uint16_t)
 }
 
-static void run_inverse_time_overcurrent_voltage_dependence(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_voltage_dependence(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE)
@@ -2708,7 +2708,7 @@ static void run_inverse_time_overcurrent_voltage_dependence(fieldscribe_vector *
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_frame, bit, bool)
 }
 
-static void run_inverse_time_overcurrent_voltage_knee(fieldscribe_vector *v)
+static void point_inverse_time_overcurrent_voltage_knee(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE)
@@ -2724,7 +2724,7 @@ static void run_inverse_time_overcurrent_voltage_knee(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_inverse_time_overcurrent_voltage_knee_frame, u16, uint16_t)
 }
 
-static void run_generator_overfrequency_monitoring(fieldscribe_vector *v)
+static void point_generator_overfrequency_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING)
@@ -2742,7 +2742,7 @@ static void run_generator_overfrequency_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_overfrequency_monitoring_frame, bit, bool)
 }
 
-static void run_generator_overfrequency_1_threshold(fieldscribe_vector *v)
+static void point_generator_overfrequency_1_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD)
@@ -2763,7 +2763,7 @@ static void run_generator_overfrequency_1_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overfrequency_1_threshold_frame, u16, uint16_t)
 }
 
-static void run_generator_overfrequency_1_delay(fieldscribe_vector *v)
+static void point_generator_overfrequency_1_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY)
@@ -2784,7 +2784,7 @@ static void run_generator_overfrequency_1_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overfrequency_1_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_overfrequency_2_threshold(fieldscribe_vector *v)
+static void point_generator_overfrequency_2_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD)
@@ -2805,7 +2805,7 @@ static void run_generator_overfrequency_2_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overfrequency_2_threshold_frame, u16, uint16_t)
 }
 
-static void run_generator_overfrequency_2_delay(fieldscribe_vector *v)
+static void point_generator_overfrequency_2_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY)
@@ -2826,7 +2826,7 @@ static void run_generator_overfrequency_2_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overfrequency_2_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_underfrequency_monitoring(fieldscribe_vector *v)
+static void point_generator_underfrequency_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING)
@@ -2846,7 +2846,7 @@ static void run_generator_underfrequency_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_underfrequency_monitoring_frame, bit, bool)
 }
 
-static void run_generator_underfrequency_1_threshold(fieldscribe_vector *v)
+static void point_generator_underfrequency_1_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD)
@@ -2867,7 +2867,7 @@ static void run_generator_underfrequency_1_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_underfrequency_1_threshold_frame, u16, uint16_t)
 }
 
-static void run_generator_underfrequency_1_delay(fieldscribe_vector *v)
+static void point_generator_underfrequency_1_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY)
@@ -2888,7 +2888,7 @@ static void run_generator_underfrequency_1_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_underfrequency_1_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_underfrequency_2_threshold(fieldscribe_vector *v)
+static void point_generator_underfrequency_2_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD)
@@ -2909,7 +2909,7 @@ static void run_generator_underfrequency_2_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_underfrequency_2_threshold_frame, u16, uint16_t)
 }
 
-static void run_generator_underfrequency_2_delay(fieldscribe_vector *v)
+static void point_generator_underfrequency_2_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY)
@@ -2930,7 +2930,7 @@ static void run_generator_underfrequency_2_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_underfrequency_2_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_monitoring(fieldscribe_vector *v)
+static void point_generator_overvoltage_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING)
@@ -2948,7 +2948,7 @@ static void run_generator_overvoltage_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_overvoltage_monitoring_frame, bit, bool)
 }
 
-static void run_generator_overvoltage_1_threshold_100v(fieldscribe_vector *v)
+static void point_generator_overvoltage_1_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V)
@@ -2970,7 +2970,7 @@ static void run_generator_overvoltage_1_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_1_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_1_threshold_400v(fieldscribe_vector *v)
+static void point_generator_overvoltage_1_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V)
@@ -2992,7 +2992,7 @@ static void run_generator_overvoltage_1_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_1_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_1_delay(fieldscribe_vector *v)
+static void point_generator_overvoltage_1_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY)
@@ -3013,7 +3013,7 @@ static void run_generator_overvoltage_1_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_1_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_2_threshold_100v(fieldscribe_vector *v)
+static void point_generator_overvoltage_2_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V)
@@ -3035,7 +3035,7 @@ static void run_generator_overvoltage_2_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_2_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_2_threshold_400v(fieldscribe_vector *v)
+static void point_generator_overvoltage_2_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V)
@@ -3057,7 +3057,7 @@ static void run_generator_overvoltage_2_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_2_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_overvoltage_2_delay(fieldscribe_vector *v)
+static void point_generator_overvoltage_2_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY)
@@ -3078,7 +3078,7 @@ static void run_generator_overvoltage_2_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_overvoltage_2_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_monitoring(fieldscribe_vector *v)
+static void point_generator_undervoltage_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING)
@@ -3096,7 +3096,7 @@ static void run_generator_undervoltage_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_generator_undervoltage_monitoring_frame, bit, bool)
 }
 
-static void run_generator_undervoltage_1_threshold_100v(fieldscribe_vector *v)
+static void point_generator_undervoltage_1_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V)
@@ -3118,7 +3118,7 @@ static void run_generator_undervoltage_1_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_1_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_1_threshold_400v(fieldscribe_vector *v)
+static void point_generator_undervoltage_1_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V)
@@ -3140,7 +3140,7 @@ static void run_generator_undervoltage_1_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_1_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_1_delay(fieldscribe_vector *v)
+static void point_generator_undervoltage_1_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY)
@@ -3161,7 +3161,7 @@ static void run_generator_undervoltage_1_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_1_delay_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_2_threshold_100v(fieldscribe_vector *v)
+static void point_generator_undervoltage_2_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V)
@@ -3183,7 +3183,7 @@ static void run_generator_undervoltage_2_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_2_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_2_threshold_400v(fieldscribe_vector *v)
+static void point_generator_undervoltage_2_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V)
@@ -3205,7 +3205,7 @@ static void run_generator_undervoltage_2_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_2_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_generator_undervoltage_2_delay(fieldscribe_vector *v)
+static void point_generator_undervoltage_2_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY)
@@ -3226,7 +3226,7 @@ static void run_generator_undervoltage_2_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_generator_undervoltage_2_delay_frame, u16, uint16_t)
 }
 
-static void run_mains_frequency_monitoring(fieldscribe_vector *v)
+static void point_mains_frequency_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING)
@@ -3243,7 +3243,7 @@ static void run_mains_frequency_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_mains_frequency_monitoring_frame, bit, bool)
 }
 
-static void run_mains_overfrequency_threshold(fieldscribe_vector *v)
+static void point_mains_overfrequency_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD)
@@ -3264,7 +3264,7 @@ static void run_mains_overfrequency_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_overfrequency_threshold_frame, u16, uint16_t)
 }
 
-static void run_mains_overfrequency_delay(fieldscribe_vector *v)
+static void point_mains_overfrequency_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY)
@@ -3283,7 +3283,7 @@ static void run_mains_overfrequency_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_overfrequency_delay_frame, u16, uint16_t)
 }
 
-static void run_mains_underfrequency_threshold(fieldscribe_vector *v)
+static void point_mains_underfrequency_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD)
@@ -3304,7 +3304,7 @@ static void run_mains_underfrequency_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_underfrequency_threshold_frame, u16, uint16_t)
 }
 
-static void run_mains_underfrequency_delay(fieldscribe_vector *v)
+static void point_mains_underfrequency_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY)
@@ -3323,7 +3323,7 @@ static void run_mains_underfrequency_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_underfrequency_delay_frame, u16, uint16_t)
 }
 
-static void run_mains_voltage_monitoring(fieldscribe_vector *v)
+static void point_mains_voltage_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING)
@@ -3340,7 +3340,7 @@ static void run_mains_voltage_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_mains_voltage_monitoring_frame, bit, bool)
 }
 
-static void run_mains_voltage_factor(fieldscribe_vector *v)
+static void point_mains_voltage_factor(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR) FIELDSCRIBE_ONLY_READ(0, 65535)
@@ -3351,7 +3351,7 @@ static void run_mains_voltage_factor(fieldscribe_vector *v)
     FIELDSCRIBE_READ(woodward_mpu2s_mains_voltage_factor_frame, u16, uint16_t)
 }
 
-static void run_mains_overvoltage_threshold_100v(fieldscribe_vector *v)
+static void point_mains_overvoltage_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V)
@@ -3373,7 +3373,7 @@ static void run_mains_overvoltage_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_overvoltage_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_mains_overvoltage_threshold_400v(fieldscribe_vector *v)
+static void point_mains_overvoltage_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V)
@@ -3395,7 +3395,7 @@ static void run_mains_overvoltage_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_overvoltage_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_mains_overvoltage_delay(fieldscribe_vector *v)
+static void point_mains_overvoltage_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY)
@@ -3411,7 +3411,7 @@ static void run_mains_overvoltage_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_overvoltage_delay_frame, u16, uint16_t)
 }
 
-static void run_mains_undervoltage_threshold_100v(fieldscribe_vector *v)
+static void point_mains_undervoltage_threshold_100v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V)
@@ -3433,7 +3433,7 @@ static void run_mains_undervoltage_threshold_100v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_undervoltage_threshold_100v_frame, u16, uint16_t)
 }
 
-static void run_mains_undervoltage_threshold_400v(fieldscribe_vector *v)
+static void point_mains_undervoltage_threshold_400v(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V)
@@ -3455,7 +3455,7 @@ static void run_mains_undervoltage_threshold_400v(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_undervoltage_threshold_400v_frame, u16, uint16_t)
 }
 
-static void run_mains_undervoltage_delay(fieldscribe_vector *v)
+static void point_mains_undervoltage_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY)
@@ -3472,7 +3472,7 @@ static void run_mains_undervoltage_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_mains_undervoltage_delay_frame, u16, uint16_t)
 }
 
-static void run_phase_shift_monitoring(fieldscribe_vector *v)
+static void point_phase_shift_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PHASE_SHIFT_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PHASE_SHIFT_MONITORING) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_PHASE_SHIFT_MONITORING))
@@ -3488,7 +3488,7 @@ static void run_phase_shift_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_phase_shift_monitoring_frame, bit, bool)
 }
 
-static void run_phase_shift_monitoring_phases(fieldscribe_vector *v)
+static void point_phase_shift_monitoring_phases(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES)
@@ -3505,7 +3505,7 @@ static void run_phase_shift_monitoring_phases(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_phase_shift_monitoring_phases_frame, bit, bool)
 }
 
-static void run_phase_shift_threshold_single_phase(fieldscribe_vector *v)
+static void point_phase_shift_threshold_single_phase(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE)
@@ -3521,7 +3521,7 @@ static void run_phase_shift_threshold_single_phase(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_phase_shift_threshold_single_phase_frame, u16, uint16_t)
 }
 
-static void run_phase_shift_threshold_three_phase(fieldscribe_vector *v)
+static void point_phase_shift_threshold_three_phase(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE)
@@ -3537,7 +3537,7 @@ static void run_phase_shift_threshold_three_phase(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_phase_shift_threshold_three_phase_frame, u16, uint16_t)
 }
 
-static void run_reactive_power_monitoring(fieldscribe_vector *v)
+static void point_reactive_power_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REACTIVE_POWER_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REACTIVE_POWER_MONITORING)
@@ -3554,7 +3554,7 @@ static void run_reactive_power_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_reactive_power_monitoring_frame, bit, bool)
 }
 
-static void run_reactive_power_threshold_inductive(fieldscribe_vector *v)
+static void point_reactive_power_threshold_inductive(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE)
@@ -3575,7 +3575,7 @@ static void run_reactive_power_threshold_inductive(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reactive_power_threshold_inductive_frame, u16, uint16_t)
 }
 
-static void run_reactive_power_delay_inductive(fieldscribe_vector *v)
+static void point_reactive_power_delay_inductive(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE)
@@ -3596,7 +3596,7 @@ static void run_reactive_power_delay_inductive(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reactive_power_delay_inductive_frame, u16, uint16_t)
 }
 
-static void run_reactive_power_threshold_capacitive(fieldscribe_vector *v)
+static void point_reactive_power_threshold_capacitive(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE)
@@ -3617,7 +3617,7 @@ static void run_reactive_power_threshold_capacitive(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reactive_power_threshold_capacitive_frame, u16, uint16_t)
 }
 
-static void run_reactive_power_delay_capacitive(fieldscribe_vector *v)
+static void point_reactive_power_delay_capacitive(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE)
@@ -3638,7 +3638,7 @@ static void run_reactive_power_delay_capacitive(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_reactive_power_delay_capacitive_frame, u16, uint16_t)
 }
 
-static void run_earth_fault_monitoring(fieldscribe_vector *v)
+static void point_earth_fault_monitoring(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_EARTH_FAULT_MONITORING, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_EARTH_FAULT_MONITORING) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_EARTH_FAULT_MONITORING))
@@ -3654,7 +3654,7 @@ static void run_earth_fault_monitoring(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_earth_fault_monitoring_frame, bit, bool)
 }
 
-static void run_earth_fault_threshold(fieldscribe_vector *v)
+static void point_earth_fault_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD)
@@ -3670,7 +3670,7 @@ static void run_earth_fault_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_earth_fault_threshold_frame, u16, uint16_t)
 }
 
-static void run_earth_fault_delay(fieldscribe_vector *v)
+static void point_earth_fault_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_EARTH_FAULT_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_EARTH_FAULT_DELAY) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_EARTH_FAULT_DELAY)
@@ -3686,7 +3686,7 @@ static void run_earth_fault_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_earth_fault_delay_frame, u16, uint16_t)
 }
 
-static void run_battery_undervoltage_threshold(fieldscribe_vector *v)
+static void point_battery_undervoltage_threshold(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD)
@@ -3707,7 +3707,7 @@ static void run_battery_undervoltage_threshold(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_battery_undervoltage_threshold_frame, u16, uint16_t)
 }
 
-static void run_battery_undervoltage_delay(fieldscribe_vector *v)
+static void point_battery_undervoltage_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY)
@@ -3726,7 +3726,7 @@ static void run_battery_undervoltage_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_battery_undervoltage_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_1_to_4_logic(fieldscribe_vector *v)
+static void point_digital_inputs_1_to_4_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC)
@@ -3752,7 +3752,7 @@ static void run_digital_inputs_1_to_4_logic(fieldscribe_vector *v)
         WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_INPUT_4_MASK) != 0U)
 }
 
-static void run_digital_inputs_1_to_4_delay(fieldscribe_vector *v)
+static void point_digital_inputs_1_to_4_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY))
@@ -3777,7 +3777,7 @@ static void run_digital_inputs_1_to_4_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_1_to_4_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_1_to_4_engine_delay(fieldscribe_vector *v)
+static void point_digital_inputs_1_to_4_engine_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY)
@@ -3806,7 +3806,7 @@ static void run_digital_inputs_1_to_4_engine_delay(fieldscribe_vector *v)
         & WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_INPUT_4_MASK) != 0U)
 }
 
-static void run_digital_inputs_1_to_4_fault_class(fieldscribe_vector *v)
+static void point_digital_inputs_1_to_4_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS))
@@ -3826,7 +3826,7 @@ static void run_digital_inputs_1_to_4_fault_class(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_1_to_4_fault_class_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_5_to_8_logic(fieldscribe_vector *v)
+static void point_digital_inputs_5_to_8_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC)
@@ -3852,7 +3852,7 @@ static void run_digital_inputs_5_to_8_logic(fieldscribe_vector *v)
         WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_INPUT_8_MASK) != 0U)
 }
 
-static void run_digital_inputs_5_to_8_delay(fieldscribe_vector *v)
+static void point_digital_inputs_5_to_8_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY))
@@ -3877,7 +3877,7 @@ static void run_digital_inputs_5_to_8_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_5_to_8_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_5_to_8_engine_delay(fieldscribe_vector *v)
+static void point_digital_inputs_5_to_8_engine_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY)
@@ -3906,7 +3906,7 @@ static void run_digital_inputs_5_to_8_engine_delay(fieldscribe_vector *v)
         & WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_INPUT_8_MASK) != 0U)
 }
 
-static void run_digital_inputs_5_to_8_fault_class(fieldscribe_vector *v)
+static void point_digital_inputs_5_to_8_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS))
@@ -3926,7 +3926,7 @@ static void run_digital_inputs_5_to_8_fault_class(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_5_to_8_fault_class_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_9_to_12_logic(fieldscribe_vector *v)
+static void point_digital_inputs_9_to_12_logic(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC)
@@ -3952,7 +3952,7 @@ static void run_digital_inputs_9_to_12_logic(fieldscribe_vector *v)
         WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_INPUT_12_MASK) != 0U)
 }
 
-static void run_digital_inputs_9_to_12_delay(fieldscribe_vector *v)
+static void point_digital_inputs_9_to_12_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY))
@@ -3978,7 +3978,7 @@ static void run_digital_inputs_9_to_12_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_9_to_12_delay_frame, u16, uint16_t)
 }
 
-static void run_digital_inputs_9_to_12_engine_delay(fieldscribe_vector *v)
+static void point_digital_inputs_9_to_12_engine_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY)
@@ -4007,7 +4007,7 @@ static void run_digital_inputs_9_to_12_engine_delay(fieldscribe_vector *v)
         "raw"))) & WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_INPUT_12_MASK) != 0U)
 }
 
-static void run_digital_inputs_9_to_12_fault_class(fieldscribe_vector *v)
+static void point_digital_inputs_9_to_12_fault_class(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS))
@@ -4027,7 +4027,7 @@ static void run_digital_inputs_9_to_12_fault_class(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_digital_inputs_9_to_12_fault_class_frame, u16, uint16_t)
 }
 
-static void run_fault_text_terminal_62(fieldscribe_vector *v)
+static void point_fault_text_terminal_62(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62))
@@ -4040,7 +4040,7 @@ static void run_fault_text_terminal_62(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62)
 }
 
-static void run_fault_text_terminal_63(fieldscribe_vector *v)
+static void point_fault_text_terminal_63(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63))
@@ -4053,7 +4053,7 @@ static void run_fault_text_terminal_63(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63)
 }
 
-static void run_fault_text_terminal_64(fieldscribe_vector *v)
+static void point_fault_text_terminal_64(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64))
@@ -4066,7 +4066,7 @@ static void run_fault_text_terminal_64(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64)
 }
 
-static void run_fault_text_terminal_65(fieldscribe_vector *v)
+static void point_fault_text_terminal_65(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65))
@@ -4079,7 +4079,7 @@ static void run_fault_text_terminal_65(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65)
 }
 
-static void run_fault_text_terminal_66(fieldscribe_vector *v)
+static void point_fault_text_terminal_66(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66))
@@ -4092,7 +4092,7 @@ static void run_fault_text_terminal_66(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66)
 }
 
-static void run_fault_text_terminal_67(fieldscribe_vector *v)
+static void point_fault_text_terminal_67(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67))
@@ -4105,7 +4105,7 @@ static void run_fault_text_terminal_67(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67)
 }
 
-static void run_fault_text_terminal_68(fieldscribe_vector *v)
+static void point_fault_text_terminal_68(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68))
@@ -4118,7 +4118,7 @@ static void run_fault_text_terminal_68(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68)
 }
 
-static void run_fault_text_terminal_69(fieldscribe_vector *v)
+static void point_fault_text_terminal_69(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69))
@@ -4131,7 +4131,7 @@ static void run_fault_text_terminal_69(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69)
 }
 
-static void run_fault_text_terminal_70(fieldscribe_vector *v)
+static void point_fault_text_terminal_70(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70))
@@ -4144,7 +4144,7 @@ static void run_fault_text_terminal_70(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70)
 }
 
-static void run_fault_text_terminal_71(fieldscribe_vector *v)
+static void point_fault_text_terminal_71(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71))
@@ -4157,7 +4157,7 @@ static void run_fault_text_terminal_71(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71)
 }
 
-static void run_fault_text_terminal_72(fieldscribe_vector *v)
+static void point_fault_text_terminal_72(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72))
@@ -4170,7 +4170,7 @@ static void run_fault_text_terminal_72(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72)
 }
 
-static void run_fault_text_terminal_73(fieldscribe_vector *v)
+static void point_fault_text_terminal_73(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_SEVERAL(WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73))
@@ -4183,7 +4183,7 @@ static void run_fault_text_terminal_73(fieldscribe_vector *v)
         WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73)
 }
 
-static void run_analog_output_1_source(fieldscribe_vector *v)
+static void point_analog_output_1_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE))
@@ -4220,7 +4220,7 @@ static void run_analog_output_1_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_1_source_frame, u16, uint16_t)
 }
 
-static void run_analog_output_1_current_range(fieldscribe_vector *v)
+static void point_analog_output_1_current_range(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE)
@@ -4237,7 +4237,7 @@ static void run_analog_output_1_current_range(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_analog_output_1_current_range_frame, bit, bool)
 }
 
-static void run_analog_output_1_value_at_0_percent(fieldscribe_vector *v)
+static void point_analog_output_1_value_at_0_percent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT)
@@ -4258,7 +4258,7 @@ static void run_analog_output_1_value_at_0_percent(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_1_value_at_0_percent_frame, s16, int16_t)
 }
 
-static void run_analog_output_1_value_at_100_percent(fieldscribe_vector *v)
+static void point_analog_output_1_value_at_100_percent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT)
@@ -4279,7 +4279,7 @@ static void run_analog_output_1_value_at_100_percent(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_1_value_at_100_percent_frame, s16, int16_t)
 }
 
-static void run_analog_output_2_source(fieldscribe_vector *v)
+static void point_analog_output_2_source(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE))
@@ -4316,7 +4316,7 @@ static void run_analog_output_2_source(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_2_source_frame, u16, uint16_t)
 }
 
-static void run_analog_output_2_current_range(fieldscribe_vector *v)
+static void point_analog_output_2_current_range(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE)
@@ -4333,7 +4333,7 @@ static void run_analog_output_2_current_range(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_analog_output_2_current_range_frame, bit, bool)
 }
 
-static void run_analog_output_2_value_at_0_percent(fieldscribe_vector *v)
+static void point_analog_output_2_value_at_0_percent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT)
@@ -4354,7 +4354,7 @@ static void run_analog_output_2_value_at_0_percent(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_2_value_at_0_percent_frame, s16, int16_t)
 }
 
-static void run_analog_output_2_value_at_100_percent(fieldscribe_vector *v)
+static void point_analog_output_2_value_at_100_percent(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT)
@@ -4375,7 +4375,7 @@ static void run_analog_output_2_value_at_100_percent(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_analog_output_2_value_at_100_percent_frame, s16, int16_t)
 }
 
-static void run_relay_1_event_1(fieldscribe_vector *v)
+static void point_relay_1_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_EVENT_1))
@@ -4507,7 +4507,7 @@ static void run_relay_1_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_1_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_1_logic_1(fieldscribe_vector *v)
+static void point_relay_1_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_LOGIC_1))
@@ -4528,7 +4528,7 @@ static void run_relay_1_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_1_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_1_event_2(fieldscribe_vector *v)
+static void point_relay_1_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_EVENT_2))
@@ -4660,7 +4660,7 @@ static void run_relay_1_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_1_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_1_logic_2(fieldscribe_vector *v)
+static void point_relay_1_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_LOGIC_2))
@@ -4681,7 +4681,7 @@ static void run_relay_1_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_1_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_1_event_3(fieldscribe_vector *v)
+static void point_relay_1_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_EVENT_3))
@@ -4813,7 +4813,7 @@ static void run_relay_1_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_1_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_1_logic_3(fieldscribe_vector *v)
+static void point_relay_1_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_1_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_1_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_1_LOGIC_3))
@@ -4834,7 +4834,7 @@ static void run_relay_1_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_1_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_2_event_1(fieldscribe_vector *v)
+static void point_relay_2_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_EVENT_1))
@@ -4966,7 +4966,7 @@ static void run_relay_2_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_2_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_2_logic_1(fieldscribe_vector *v)
+static void point_relay_2_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_LOGIC_1))
@@ -4987,7 +4987,7 @@ static void run_relay_2_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_2_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_2_event_2(fieldscribe_vector *v)
+static void point_relay_2_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_EVENT_2))
@@ -5119,7 +5119,7 @@ static void run_relay_2_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_2_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_2_logic_2(fieldscribe_vector *v)
+static void point_relay_2_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_LOGIC_2))
@@ -5140,7 +5140,7 @@ static void run_relay_2_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_2_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_2_event_3(fieldscribe_vector *v)
+static void point_relay_2_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_EVENT_3))
@@ -5272,7 +5272,7 @@ static void run_relay_2_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_2_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_2_logic_3(fieldscribe_vector *v)
+static void point_relay_2_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_2_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_2_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_2_LOGIC_3))
@@ -5293,7 +5293,7 @@ static void run_relay_2_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_2_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_3_event_1(fieldscribe_vector *v)
+static void point_relay_3_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_EVENT_1))
@@ -5425,7 +5425,7 @@ static void run_relay_3_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_3_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_3_logic_1(fieldscribe_vector *v)
+static void point_relay_3_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_LOGIC_1))
@@ -5446,7 +5446,7 @@ static void run_relay_3_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_3_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_3_event_2(fieldscribe_vector *v)
+static void point_relay_3_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_EVENT_2))
@@ -5578,7 +5578,7 @@ static void run_relay_3_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_3_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_3_logic_2(fieldscribe_vector *v)
+static void point_relay_3_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_LOGIC_2))
@@ -5599,7 +5599,7 @@ static void run_relay_3_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_3_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_3_event_3(fieldscribe_vector *v)
+static void point_relay_3_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_EVENT_3))
@@ -5731,7 +5731,7 @@ static void run_relay_3_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_3_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_3_logic_3(fieldscribe_vector *v)
+static void point_relay_3_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_3_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_3_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_3_LOGIC_3))
@@ -5752,7 +5752,7 @@ static void run_relay_3_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_3_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_4_event_1(fieldscribe_vector *v)
+static void point_relay_4_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_EVENT_1))
@@ -5884,7 +5884,7 @@ static void run_relay_4_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_4_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_4_logic_1(fieldscribe_vector *v)
+static void point_relay_4_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_LOGIC_1))
@@ -5905,7 +5905,7 @@ static void run_relay_4_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_4_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_4_event_2(fieldscribe_vector *v)
+static void point_relay_4_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_EVENT_2))
@@ -6037,7 +6037,7 @@ static void run_relay_4_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_4_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_4_logic_2(fieldscribe_vector *v)
+static void point_relay_4_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_LOGIC_2))
@@ -6058,7 +6058,7 @@ static void run_relay_4_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_4_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_4_event_3(fieldscribe_vector *v)
+static void point_relay_4_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_EVENT_3))
@@ -6190,7 +6190,7 @@ static void run_relay_4_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_4_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_4_logic_3(fieldscribe_vector *v)
+static void point_relay_4_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_4_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_4_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_4_LOGIC_3))
@@ -6211,7 +6211,7 @@ static void run_relay_4_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_4_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_5_event_1(fieldscribe_vector *v)
+static void point_relay_5_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_EVENT_1))
@@ -6343,7 +6343,7 @@ static void run_relay_5_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_5_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_5_logic_1(fieldscribe_vector *v)
+static void point_relay_5_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_LOGIC_1))
@@ -6364,7 +6364,7 @@ static void run_relay_5_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_5_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_5_event_2(fieldscribe_vector *v)
+static void point_relay_5_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_EVENT_2))
@@ -6496,7 +6496,7 @@ static void run_relay_5_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_5_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_5_logic_2(fieldscribe_vector *v)
+static void point_relay_5_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_LOGIC_2))
@@ -6517,7 +6517,7 @@ static void run_relay_5_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_5_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_5_event_3(fieldscribe_vector *v)
+static void point_relay_5_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_EVENT_3))
@@ -6649,7 +6649,7 @@ static void run_relay_5_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_5_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_5_logic_3(fieldscribe_vector *v)
+static void point_relay_5_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_5_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_5_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_5_LOGIC_3))
@@ -6670,7 +6670,7 @@ static void run_relay_5_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_5_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_6_event_1(fieldscribe_vector *v)
+static void point_relay_6_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_EVENT_1))
@@ -6802,7 +6802,7 @@ static void run_relay_6_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_6_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_6_logic_1(fieldscribe_vector *v)
+static void point_relay_6_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_LOGIC_1))
@@ -6823,7 +6823,7 @@ static void run_relay_6_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_6_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_6_event_2(fieldscribe_vector *v)
+static void point_relay_6_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_EVENT_2))
@@ -6955,7 +6955,7 @@ static void run_relay_6_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_6_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_6_logic_2(fieldscribe_vector *v)
+static void point_relay_6_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_LOGIC_2))
@@ -6976,7 +6976,7 @@ static void run_relay_6_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_6_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_6_event_3(fieldscribe_vector *v)
+static void point_relay_6_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_EVENT_3))
@@ -7108,7 +7108,7 @@ static void run_relay_6_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_6_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_6_logic_3(fieldscribe_vector *v)
+static void point_relay_6_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_6_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_6_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_6_LOGIC_3))
@@ -7129,7 +7129,7 @@ static void run_relay_6_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_6_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_7_event_1(fieldscribe_vector *v)
+static void point_relay_7_event_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_EVENT_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_EVENT_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_EVENT_1))
@@ -7261,7 +7261,7 @@ static void run_relay_7_event_1(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_7_event_1_frame, u8, uint8_t)
 }
 
-static void run_relay_7_logic_1(fieldscribe_vector *v)
+static void point_relay_7_logic_1(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_LOGIC_1, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_LOGIC_1) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_LOGIC_1))
@@ -7282,7 +7282,7 @@ static void run_relay_7_logic_1(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_7_LOGIC_1_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_7_event_2(fieldscribe_vector *v)
+static void point_relay_7_event_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_EVENT_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_EVENT_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_EVENT_2))
@@ -7414,7 +7414,7 @@ static void run_relay_7_event_2(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_7_event_2_frame, u8, uint8_t)
 }
 
-static void run_relay_7_logic_2(fieldscribe_vector *v)
+static void point_relay_7_logic_2(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_LOGIC_2, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_LOGIC_2) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_LOGIC_2))
@@ -7435,7 +7435,7 @@ static void run_relay_7_logic_2(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_7_LOGIC_2_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_relay_7_event_3(fieldscribe_vector *v)
+static void point_relay_7_event_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_EVENT_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_EVENT_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_EVENT_3))
@@ -7567,7 +7567,7 @@ static void run_relay_7_event_3(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_relay_7_event_3_frame, u8, uint8_t)
 }
 
-static void run_relay_7_logic_3(fieldscribe_vector *v)
+static void point_relay_7_logic_3(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_RELAY_7_LOGIC_3, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_RELAY_7_LOGIC_3) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_RELAY_7_LOGIC_3))
@@ -7588,7 +7588,7 @@ static void run_relay_7_logic_3(fieldscribe_vector *v)
         WOODWARD_MPU2S_RELAY_7_LOGIC_3_AND_WITH_NEXT_MASK) != 0U)
 }
 
-static void run_automatic_idle_control(fieldscribe_vector *v)
+static void point_automatic_idle_control(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL) FIELDSCRIBE_RAWS(WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL))
@@ -7604,7 +7604,7 @@ static void run_automatic_idle_control(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_automatic_idle_control_frame, bit, bool)
 }
 
-static void run_shutdown(fieldscribe_vector *v)
+static void point_shutdown(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_SHUTDOWN, FIELDSCRIBE_SPACE("parameter") FIELDSCRIBE_ONE(WOODWARD_MPU2S_SHUTDOWN)
         FIELDSCRIBE_RAWS(WOODWARD_MPU2S_SHUTDOWN))
@@ -7620,7 +7620,7 @@ static void run_shutdown(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE_SHARED(woodward_mpu2s_shutdown_frame, bit, bool)
 }
 
-static void run_engine_monitoring_delay(fieldscribe_vector *v)
+static void point_engine_monitoring_delay(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_ENGINE_MONITORING_DELAY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_ENGINE_MONITORING_DELAY)
@@ -7634,7 +7634,7 @@ static void run_engine_monitoring_delay(fieldscribe_vector *v)
     FIELDSCRIBE_WRITE(woodward_mpu2s_engine_monitoring_delay_frame, u16, uint16_t)
 }
 
-static void run_monitoring_start_frequency(fieldscribe_vector *v)
+static void point_monitoring_start_frequency(fieldscribe_vector *v)
 {
     FIELDSCRIBE_ADDRESS(WOODWARD_MPU2S_MONITORING_START_FREQUENCY, FIELDSCRIBE_SPACE("parameter")
         FIELDSCRIBE_ONE(WOODWARD_MPU2S_MONITORING_START_FREQUENCY)
@@ -7666,274 +7666,274 @@ static const fieldscribe_status_name statuses[] = {
 };
 
 static const fieldscribe_adapter adapters[] = {
-    {"telegram_identification", run_telegram_identification},
-    {"generator_frequency", run_generator_frequency},
-    {"generator_active_power", run_generator_active_power},
-    {"generator_power_exponent", run_generator_power_exponent},
-    {"generator_voltage_exponent", run_generator_voltage_exponent},
-    {"present_active_power_setpoint", run_present_active_power_setpoint},
-    {"active_power_setpoint_factor", run_active_power_setpoint_factor},
-    {"busbar_voltage_l1_l2", run_busbar_voltage_l1_l2},
-    {"mains_voltage_l1_l2", run_mains_voltage_l1_l2},
-    {"present_fault_classes", run_present_fault_classes},
-    {"control_register_2", run_control_register_2},
-    {"control_register_1", run_control_register_1},
-    {"internal_faults_8", run_internal_faults_8},
-    {"internal_faults_6", run_internal_faults_6},
-    {"generator_voltage_l2_l3", run_generator_voltage_l2_l3},
-    {"generator_voltage_l3_l1", run_generator_voltage_l3_l1},
-    {"generator_voltage_l1_n", run_generator_voltage_l1_n},
-    {"generator_voltage_l2_n", run_generator_voltage_l2_n},
-    {"generator_voltage_l3_n", run_generator_voltage_l3_n},
-    {"generator_voltage_l1_l2", run_generator_voltage_l1_l2},
-    {"generator_current_l1", run_generator_current_l1},
-    {"generator_current_l2", run_generator_current_l2},
-    {"generator_current_l3", run_generator_current_l3},
-    {"generator_cos_phi", run_generator_cos_phi},
-    {"load_sharing_participants", run_load_sharing_participants},
-    {"mains_state", run_mains_state},
-    {"generator_state", run_generator_state},
-    {"generator_current_exponent", run_generator_current_exponent},
-    {"busbar_frequency", run_busbar_frequency},
-    {"busbar_state", run_busbar_state},
-    {"mains_voltage_l2_l3", run_mains_voltage_l2_l3},
-    {"mains_voltage_l3_l1", run_mains_voltage_l3_l1},
-    {"mains_voltage_l1_n", run_mains_voltage_l1_n},
-    {"mains_voltage_l2_n", run_mains_voltage_l2_n},
-    {"mains_voltage_l3_n", run_mains_voltage_l3_n},
-    {"mains_frequency", run_mains_frequency},
-    {"mains_voltage_exponent", run_mains_voltage_exponent},
-    {"busbar_voltage_exponent", run_busbar_voltage_exponent},
-    {"operating_hours", run_operating_hours},
-    {"hours_until_maintenance", run_hours_until_maintenance},
-    {"engine_start_counter", run_engine_start_counter},
-    {"generator_active_energy", run_generator_active_energy},
-    {"battery_voltage", run_battery_voltage},
-    {"internal_faults_1", run_internal_faults_1},
-    {"internal_faults_2", run_internal_faults_2},
-    {"internal_faults_3", run_internal_faults_3},
-    {"internal_faults_4", run_internal_faults_4},
-    {"internal_faults_5", run_internal_faults_5},
-    {"digital_input_faults_1_to_8", run_digital_input_faults_1_to_8},
-    {"digital_input_faults_9_to_16", run_digital_input_faults_9_to_16},
-    {"internal_faults_7", run_internal_faults_7},
-    {"password_level_2", run_password_level_2},
-    {"generator_frequency_setpoint", run_generator_frequency_setpoint},
-    {"generator_rated_frequency", run_generator_rated_frequency},
-    {"generator_voltage_transformer_secondary_100v", run_generator_voltage_transformer_secondary_100v},
-    {"generator_voltage_transformer_secondary_400v", run_generator_voltage_transformer_secondary_400v},
-    {"generator_voltage_transformer_primary", run_generator_voltage_transformer_primary},
-    {"busbar_voltage_transformer_secondary_100v", run_busbar_voltage_transformer_secondary_100v},
-    {"busbar_voltage_transformer_secondary_400v", run_busbar_voltage_transformer_secondary_400v},
-    {"busbar_voltage_transformer_primary", run_busbar_voltage_transformer_primary},
-    {"mains_voltage_transformer_secondary_100v", run_mains_voltage_transformer_secondary_100v},
-    {"mains_voltage_transformer_secondary_400v", run_mains_voltage_transformer_secondary_400v},
-    {"mains_voltage_transformer_primary", run_mains_voltage_transformer_primary},
-    {"generator_voltage_factor", run_generator_voltage_factor},
-    {"generator_voltage_setpoint_100v", run_generator_voltage_setpoint_100v},
-    {"generator_voltage_setpoint_400v", run_generator_voltage_setpoint_400v},
-    {"generator_rated_voltage_100v", run_generator_rated_voltage_100v},
-    {"generator_rated_voltage_400v", run_generator_rated_voltage_400v},
-    {"generator_current_transformer_ratio", run_generator_current_transformer_ratio},
-    {"power_measurement_phases", run_power_measurement_phases},
-    {"generator_rated_power", run_generator_rated_power},
-    {"generator_rated_current", run_generator_rated_current},
-    {"generator_power_setpoint_1", run_generator_power_setpoint_1},
-    {"generator_power_setpoint_2", run_generator_power_setpoint_2},
-    {"frequency_controller", run_frequency_controller},
-    {"frequency_controller_start_frequency", run_frequency_controller_start_frequency},
-    {"frequency_controller_start_delay", run_frequency_controller_start_delay},
-    {"frequency_controller_dead_band", run_frequency_controller_dead_band},
-    {"frequency_controller_pulse_time", run_frequency_controller_pulse_time},
-    {"frequency_controller_proportional_gain", run_frequency_controller_proportional_gain},
-    {"voltage_controller", run_voltage_controller},
-    {"voltage_controller_dead_band", run_voltage_controller_dead_band},
-    {"voltage_controller_pulse_time", run_voltage_controller_pulse_time},
-    {"voltage_controller_proportional_gain", run_voltage_controller_proportional_gain},
-    {"cos_phi_controller", run_cos_phi_controller},
-    {"cos_phi_controller_setpoint", run_cos_phi_controller_setpoint},
-    {"cos_phi_controller_dead_band", run_cos_phi_controller_dead_band},
-    {"cos_phi_controller_proportional_gain", run_cos_phi_controller_proportional_gain},
-    {"active_power_controller", run_active_power_controller},
-    {"active_power_controller_ramp", run_active_power_controller_ramp},
-    {"active_power_controller_maximum", run_active_power_controller_maximum},
-    {"active_power_controller_minimum", run_active_power_controller_minimum},
-    {"active_power_controller_dead_band", run_active_power_controller_dead_band},
-    {"active_power_controller_proportional_gain", run_active_power_controller_proportional_gain},
-    {"active_power_controller_sensitivity_reduction", run_active_power_controller_sensitivity_reduction},
-    {"part_load_lead_setpoint", run_part_load_lead_setpoint},
-    {"part_load_lead_time", run_part_load_lead_time},
-    {"control_by_interface_x1_x5", run_control_by_interface_x1_x5},
-    {"breaker_logic", run_breaker_logic},
-    {"load_ramp_maximum_time", run_load_ramp_maximum_time},
-    {"generator_breaker_signal_logic", run_generator_breaker_signal_logic},
-    {"generator_breaker_open_relay_logic", run_generator_breaker_open_relay_logic},
-    {"synchronisation_frequency_difference_maximum", run_synchronisation_frequency_difference_maximum},
-    {"synchronisation_frequency_difference_minimum", run_synchronisation_frequency_difference_minimum},
-    {"synchronisation_voltage_difference_maximum", run_synchronisation_voltage_difference_maximum},
-    {"synchronisation_voltage_difference_minimum", run_synchronisation_voltage_difference_minimum},
-    {"synchronisation_pulse_time", run_synchronisation_pulse_time},
-    {"generator_breaker_pick_up_time", run_generator_breaker_pick_up_time},
-    {"synchronisation_time_monitoring", run_synchronisation_time_monitoring},
-    {"synchronisation_time_monitoring_delay", run_synchronisation_time_monitoring_delay},
-    {"dead_bus_start", run_dead_bus_start},
-    {"dead_bus_start_frequency_difference_maximum", run_dead_bus_start_frequency_difference_maximum},
-    {"dead_bus_start_voltage_difference_maximum", run_dead_bus_start_voltage_difference_maximum},
-    {"dead_bus_start_maximum_time", run_dead_bus_start_maximum_time},
-    {"generator_breaker_monitoring", run_generator_breaker_monitoring},
-    {"automatic_breaker_unlocking", run_automatic_breaker_unlocking},
-    {"generator_overload_monitoring", run_generator_overload_monitoring},
-    {"overload_threshold_parallel_operation", run_overload_threshold_parallel_operation},
-    {"overload_delay_parallel_operation", run_overload_delay_parallel_operation},
-    {"overload_threshold_isolated_operation", run_overload_threshold_isolated_operation},
-    {"overload_delay_isolated_operation", run_overload_delay_isolated_operation},
-    {"generator_reverse_power_monitoring", run_generator_reverse_power_monitoring},
-    {"reverse_power_threshold", run_reverse_power_threshold},
-    {"reverse_power_delay", run_reverse_power_delay},
-    {"generator_unbalanced_load_monitoring", run_generator_unbalanced_load_monitoring},
-    {"unbalanced_load_threshold", run_unbalanced_load_threshold},
-    {"unbalanced_load_delay", run_unbalanced_load_delay},
-    {"generator_overcurrent_monitoring", run_generator_overcurrent_monitoring},
-    {"overcurrent_1_threshold", run_overcurrent_1_threshold},
-    {"overcurrent_1_delay", run_overcurrent_1_delay},
-    {"overcurrent_2_threshold", run_overcurrent_2_threshold},
-    {"overcurrent_2_delay", run_overcurrent_2_delay},
-    {"inverse_time_overcurrent", run_inverse_time_overcurrent},
-    {"inverse_time_overcurrent_characteristic", run_inverse_time_overcurrent_characteristic},
-    {"inverse_time_overcurrent_tp", run_inverse_time_overcurrent_tp},
-    {"inverse_time_overcurrent_ip", run_inverse_time_overcurrent_ip},
-    {"inverse_time_overcurrent_istart", run_inverse_time_overcurrent_istart},
-    {"inverse_time_overcurrent_voltage_dependence", run_inverse_time_overcurrent_voltage_dependence},
-    {"inverse_time_overcurrent_voltage_knee", run_inverse_time_overcurrent_voltage_knee},
-    {"generator_overfrequency_monitoring", run_generator_overfrequency_monitoring},
-    {"generator_overfrequency_1_threshold", run_generator_overfrequency_1_threshold},
-    {"generator_overfrequency_1_delay", run_generator_overfrequency_1_delay},
-    {"generator_overfrequency_2_threshold", run_generator_overfrequency_2_threshold},
-    {"generator_overfrequency_2_delay", run_generator_overfrequency_2_delay},
-    {"generator_underfrequency_monitoring", run_generator_underfrequency_monitoring},
-    {"generator_underfrequency_1_threshold", run_generator_underfrequency_1_threshold},
-    {"generator_underfrequency_1_delay", run_generator_underfrequency_1_delay},
-    {"generator_underfrequency_2_threshold", run_generator_underfrequency_2_threshold},
-    {"generator_underfrequency_2_delay", run_generator_underfrequency_2_delay},
-    {"generator_overvoltage_monitoring", run_generator_overvoltage_monitoring},
-    {"generator_overvoltage_1_threshold_100v", run_generator_overvoltage_1_threshold_100v},
-    {"generator_overvoltage_1_threshold_400v", run_generator_overvoltage_1_threshold_400v},
-    {"generator_overvoltage_1_delay", run_generator_overvoltage_1_delay},
-    {"generator_overvoltage_2_threshold_100v", run_generator_overvoltage_2_threshold_100v},
-    {"generator_overvoltage_2_threshold_400v", run_generator_overvoltage_2_threshold_400v},
-    {"generator_overvoltage_2_delay", run_generator_overvoltage_2_delay},
-    {"generator_undervoltage_monitoring", run_generator_undervoltage_monitoring},
-    {"generator_undervoltage_1_threshold_100v", run_generator_undervoltage_1_threshold_100v},
-    {"generator_undervoltage_1_threshold_400v", run_generator_undervoltage_1_threshold_400v},
-    {"generator_undervoltage_1_delay", run_generator_undervoltage_1_delay},
-    {"generator_undervoltage_2_threshold_100v", run_generator_undervoltage_2_threshold_100v},
-    {"generator_undervoltage_2_threshold_400v", run_generator_undervoltage_2_threshold_400v},
-    {"generator_undervoltage_2_delay", run_generator_undervoltage_2_delay},
-    {"mains_frequency_monitoring", run_mains_frequency_monitoring},
-    {"mains_overfrequency_threshold", run_mains_overfrequency_threshold},
-    {"mains_overfrequency_delay", run_mains_overfrequency_delay},
-    {"mains_underfrequency_threshold", run_mains_underfrequency_threshold},
-    {"mains_underfrequency_delay", run_mains_underfrequency_delay},
-    {"mains_voltage_monitoring", run_mains_voltage_monitoring},
-    {"mains_voltage_factor", run_mains_voltage_factor},
-    {"mains_overvoltage_threshold_100v", run_mains_overvoltage_threshold_100v},
-    {"mains_overvoltage_threshold_400v", run_mains_overvoltage_threshold_400v},
-    {"mains_overvoltage_delay", run_mains_overvoltage_delay},
-    {"mains_undervoltage_threshold_100v", run_mains_undervoltage_threshold_100v},
-    {"mains_undervoltage_threshold_400v", run_mains_undervoltage_threshold_400v},
-    {"mains_undervoltage_delay", run_mains_undervoltage_delay},
-    {"phase_shift_monitoring", run_phase_shift_monitoring},
-    {"phase_shift_monitoring_phases", run_phase_shift_monitoring_phases},
-    {"phase_shift_threshold_single_phase", run_phase_shift_threshold_single_phase},
-    {"phase_shift_threshold_three_phase", run_phase_shift_threshold_three_phase},
-    {"reactive_power_monitoring", run_reactive_power_monitoring},
-    {"reactive_power_threshold_inductive", run_reactive_power_threshold_inductive},
-    {"reactive_power_delay_inductive", run_reactive_power_delay_inductive},
-    {"reactive_power_threshold_capacitive", run_reactive_power_threshold_capacitive},
-    {"reactive_power_delay_capacitive", run_reactive_power_delay_capacitive},
-    {"earth_fault_monitoring", run_earth_fault_monitoring},
-    {"earth_fault_threshold", run_earth_fault_threshold},
-    {"earth_fault_delay", run_earth_fault_delay},
-    {"battery_undervoltage_threshold", run_battery_undervoltage_threshold},
-    {"battery_undervoltage_delay", run_battery_undervoltage_delay},
-    {"digital_inputs_1_to_4_logic", run_digital_inputs_1_to_4_logic},
-    {"digital_inputs_1_to_4_delay", run_digital_inputs_1_to_4_delay},
-    {"digital_inputs_1_to_4_engine_delay", run_digital_inputs_1_to_4_engine_delay},
-    {"digital_inputs_1_to_4_fault_class", run_digital_inputs_1_to_4_fault_class},
-    {"digital_inputs_5_to_8_logic", run_digital_inputs_5_to_8_logic},
-    {"digital_inputs_5_to_8_delay", run_digital_inputs_5_to_8_delay},
-    {"digital_inputs_5_to_8_engine_delay", run_digital_inputs_5_to_8_engine_delay},
-    {"digital_inputs_5_to_8_fault_class", run_digital_inputs_5_to_8_fault_class},
-    {"digital_inputs_9_to_12_logic", run_digital_inputs_9_to_12_logic},
-    {"digital_inputs_9_to_12_delay", run_digital_inputs_9_to_12_delay},
-    {"digital_inputs_9_to_12_engine_delay", run_digital_inputs_9_to_12_engine_delay},
-    {"digital_inputs_9_to_12_fault_class", run_digital_inputs_9_to_12_fault_class},
-    {"fault_text_terminal_62", run_fault_text_terminal_62},
-    {"fault_text_terminal_63", run_fault_text_terminal_63},
-    {"fault_text_terminal_64", run_fault_text_terminal_64},
-    {"fault_text_terminal_65", run_fault_text_terminal_65},
-    {"fault_text_terminal_66", run_fault_text_terminal_66},
-    {"fault_text_terminal_67", run_fault_text_terminal_67},
-    {"fault_text_terminal_68", run_fault_text_terminal_68},
-    {"fault_text_terminal_69", run_fault_text_terminal_69},
-    {"fault_text_terminal_70", run_fault_text_terminal_70},
-    {"fault_text_terminal_71", run_fault_text_terminal_71},
-    {"fault_text_terminal_72", run_fault_text_terminal_72},
-    {"fault_text_terminal_73", run_fault_text_terminal_73},
-    {"analog_output_1_source", run_analog_output_1_source},
-    {"analog_output_1_current_range", run_analog_output_1_current_range},
-    {"analog_output_1_value_at_0_percent", run_analog_output_1_value_at_0_percent},
-    {"analog_output_1_value_at_100_percent", run_analog_output_1_value_at_100_percent},
-    {"analog_output_2_source", run_analog_output_2_source},
-    {"analog_output_2_current_range", run_analog_output_2_current_range},
-    {"analog_output_2_value_at_0_percent", run_analog_output_2_value_at_0_percent},
-    {"analog_output_2_value_at_100_percent", run_analog_output_2_value_at_100_percent},
-    {"relay_1_event_1", run_relay_1_event_1},
-    {"relay_1_logic_1", run_relay_1_logic_1},
-    {"relay_1_event_2", run_relay_1_event_2},
-    {"relay_1_logic_2", run_relay_1_logic_2},
-    {"relay_1_event_3", run_relay_1_event_3},
-    {"relay_1_logic_3", run_relay_1_logic_3},
-    {"relay_2_event_1", run_relay_2_event_1},
-    {"relay_2_logic_1", run_relay_2_logic_1},
-    {"relay_2_event_2", run_relay_2_event_2},
-    {"relay_2_logic_2", run_relay_2_logic_2},
-    {"relay_2_event_3", run_relay_2_event_3},
-    {"relay_2_logic_3", run_relay_2_logic_3},
-    {"relay_3_event_1", run_relay_3_event_1},
-    {"relay_3_logic_1", run_relay_3_logic_1},
-    {"relay_3_event_2", run_relay_3_event_2},
-    {"relay_3_logic_2", run_relay_3_logic_2},
-    {"relay_3_event_3", run_relay_3_event_3},
-    {"relay_3_logic_3", run_relay_3_logic_3},
-    {"relay_4_event_1", run_relay_4_event_1},
-    {"relay_4_logic_1", run_relay_4_logic_1},
-    {"relay_4_event_2", run_relay_4_event_2},
-    {"relay_4_logic_2", run_relay_4_logic_2},
-    {"relay_4_event_3", run_relay_4_event_3},
-    {"relay_4_logic_3", run_relay_4_logic_3},
-    {"relay_5_event_1", run_relay_5_event_1},
-    {"relay_5_logic_1", run_relay_5_logic_1},
-    {"relay_5_event_2", run_relay_5_event_2},
-    {"relay_5_logic_2", run_relay_5_logic_2},
-    {"relay_5_event_3", run_relay_5_event_3},
-    {"relay_5_logic_3", run_relay_5_logic_3},
-    {"relay_6_event_1", run_relay_6_event_1},
-    {"relay_6_logic_1", run_relay_6_logic_1},
-    {"relay_6_event_2", run_relay_6_event_2},
-    {"relay_6_logic_2", run_relay_6_logic_2},
-    {"relay_6_event_3", run_relay_6_event_3},
-    {"relay_6_logic_3", run_relay_6_logic_3},
-    {"relay_7_event_1", run_relay_7_event_1},
-    {"relay_7_logic_1", run_relay_7_logic_1},
-    {"relay_7_event_2", run_relay_7_event_2},
-    {"relay_7_logic_2", run_relay_7_logic_2},
-    {"relay_7_event_3", run_relay_7_event_3},
-    {"relay_7_logic_3", run_relay_7_logic_3},
-    {"automatic_idle_control", run_automatic_idle_control},
-    {"shutdown", run_shutdown},
-    {"engine_monitoring_delay", run_engine_monitoring_delay},
-    {"monitoring_start_frequency", run_monitoring_start_frequency},
+    {"telegram_identification", point_telegram_identification},
+    {"generator_frequency", point_generator_frequency},
+    {"generator_active_power", point_generator_active_power},
+    {"generator_power_exponent", point_generator_power_exponent},
+    {"generator_voltage_exponent", point_generator_voltage_exponent},
+    {"present_active_power_setpoint", point_present_active_power_setpoint},
+    {"active_power_setpoint_factor", point_active_power_setpoint_factor},
+    {"busbar_voltage_l1_l2", point_busbar_voltage_l1_l2},
+    {"mains_voltage_l1_l2", point_mains_voltage_l1_l2},
+    {"present_fault_classes", point_present_fault_classes},
+    {"control_register_2", point_control_register_2},
+    {"control_register_1", point_control_register_1},
+    {"internal_faults_8", point_internal_faults_8},
+    {"internal_faults_6", point_internal_faults_6},
+    {"generator_voltage_l2_l3", point_generator_voltage_l2_l3},
+    {"generator_voltage_l3_l1", point_generator_voltage_l3_l1},
+    {"generator_voltage_l1_n", point_generator_voltage_l1_n},
+    {"generator_voltage_l2_n", point_generator_voltage_l2_n},
+    {"generator_voltage_l3_n", point_generator_voltage_l3_n},
+    {"generator_voltage_l1_l2", point_generator_voltage_l1_l2},
+    {"generator_current_l1", point_generator_current_l1},
+    {"generator_current_l2", point_generator_current_l2},
+    {"generator_current_l3", point_generator_current_l3},
+    {"generator_cos_phi", point_generator_cos_phi},
+    {"load_sharing_participants", point_load_sharing_participants},
+    {"mains_state", point_mains_state},
+    {"generator_state", point_generator_state},
+    {"generator_current_exponent", point_generator_current_exponent},
+    {"busbar_frequency", point_busbar_frequency},
+    {"busbar_state", point_busbar_state},
+    {"mains_voltage_l2_l3", point_mains_voltage_l2_l3},
+    {"mains_voltage_l3_l1", point_mains_voltage_l3_l1},
+    {"mains_voltage_l1_n", point_mains_voltage_l1_n},
+    {"mains_voltage_l2_n", point_mains_voltage_l2_n},
+    {"mains_voltage_l3_n", point_mains_voltage_l3_n},
+    {"mains_frequency", point_mains_frequency},
+    {"mains_voltage_exponent", point_mains_voltage_exponent},
+    {"busbar_voltage_exponent", point_busbar_voltage_exponent},
+    {"operating_hours", point_operating_hours},
+    {"hours_until_maintenance", point_hours_until_maintenance},
+    {"engine_start_counter", point_engine_start_counter},
+    {"generator_active_energy", point_generator_active_energy},
+    {"battery_voltage", point_battery_voltage},
+    {"internal_faults_1", point_internal_faults_1},
+    {"internal_faults_2", point_internal_faults_2},
+    {"internal_faults_3", point_internal_faults_3},
+    {"internal_faults_4", point_internal_faults_4},
+    {"internal_faults_5", point_internal_faults_5},
+    {"digital_input_faults_1_to_8", point_digital_input_faults_1_to_8},
+    {"digital_input_faults_9_to_16", point_digital_input_faults_9_to_16},
+    {"internal_faults_7", point_internal_faults_7},
+    {"password_level_2", point_password_level_2},
+    {"generator_frequency_setpoint", point_generator_frequency_setpoint},
+    {"generator_rated_frequency", point_generator_rated_frequency},
+    {"generator_voltage_transformer_secondary_100v", point_generator_voltage_transformer_secondary_100v},
+    {"generator_voltage_transformer_secondary_400v", point_generator_voltage_transformer_secondary_400v},
+    {"generator_voltage_transformer_primary", point_generator_voltage_transformer_primary},
+    {"busbar_voltage_transformer_secondary_100v", point_busbar_voltage_transformer_secondary_100v},
+    {"busbar_voltage_transformer_secondary_400v", point_busbar_voltage_transformer_secondary_400v},
+    {"busbar_voltage_transformer_primary", point_busbar_voltage_transformer_primary},
+    {"mains_voltage_transformer_secondary_100v", point_mains_voltage_transformer_secondary_100v},
+    {"mains_voltage_transformer_secondary_400v", point_mains_voltage_transformer_secondary_400v},
+    {"mains_voltage_transformer_primary", point_mains_voltage_transformer_primary},
+    {"generator_voltage_factor", point_generator_voltage_factor},
+    {"generator_voltage_setpoint_100v", point_generator_voltage_setpoint_100v},
+    {"generator_voltage_setpoint_400v", point_generator_voltage_setpoint_400v},
+    {"generator_rated_voltage_100v", point_generator_rated_voltage_100v},
+    {"generator_rated_voltage_400v", point_generator_rated_voltage_400v},
+    {"generator_current_transformer_ratio", point_generator_current_transformer_ratio},
+    {"power_measurement_phases", point_power_measurement_phases},
+    {"generator_rated_power", point_generator_rated_power},
+    {"generator_rated_current", point_generator_rated_current},
+    {"generator_power_setpoint_1", point_generator_power_setpoint_1},
+    {"generator_power_setpoint_2", point_generator_power_setpoint_2},
+    {"frequency_controller", point_frequency_controller},
+    {"frequency_controller_start_frequency", point_frequency_controller_start_frequency},
+    {"frequency_controller_start_delay", point_frequency_controller_start_delay},
+    {"frequency_controller_dead_band", point_frequency_controller_dead_band},
+    {"frequency_controller_pulse_time", point_frequency_controller_pulse_time},
+    {"frequency_controller_proportional_gain", point_frequency_controller_proportional_gain},
+    {"voltage_controller", point_voltage_controller},
+    {"voltage_controller_dead_band", point_voltage_controller_dead_band},
+    {"voltage_controller_pulse_time", point_voltage_controller_pulse_time},
+    {"voltage_controller_proportional_gain", point_voltage_controller_proportional_gain},
+    {"cos_phi_controller", point_cos_phi_controller},
+    {"cos_phi_controller_setpoint", point_cos_phi_controller_setpoint},
+    {"cos_phi_controller_dead_band", point_cos_phi_controller_dead_band},
+    {"cos_phi_controller_proportional_gain", point_cos_phi_controller_proportional_gain},
+    {"active_power_controller", point_active_power_controller},
+    {"active_power_controller_ramp", point_active_power_controller_ramp},
+    {"active_power_controller_maximum", point_active_power_controller_maximum},
+    {"active_power_controller_minimum", point_active_power_controller_minimum},
+    {"active_power_controller_dead_band", point_active_power_controller_dead_band},
+    {"active_power_controller_proportional_gain", point_active_power_controller_proportional_gain},
+    {"active_power_controller_sensitivity_reduction", point_active_power_controller_sensitivity_reduction},
+    {"part_load_lead_setpoint", point_part_load_lead_setpoint},
+    {"part_load_lead_time", point_part_load_lead_time},
+    {"control_by_interface_x1_x5", point_control_by_interface_x1_x5},
+    {"breaker_logic", point_breaker_logic},
+    {"load_ramp_maximum_time", point_load_ramp_maximum_time},
+    {"generator_breaker_signal_logic", point_generator_breaker_signal_logic},
+    {"generator_breaker_open_relay_logic", point_generator_breaker_open_relay_logic},
+    {"synchronisation_frequency_difference_maximum", point_synchronisation_frequency_difference_maximum},
+    {"synchronisation_frequency_difference_minimum", point_synchronisation_frequency_difference_minimum},
+    {"synchronisation_voltage_difference_maximum", point_synchronisation_voltage_difference_maximum},
+    {"synchronisation_voltage_difference_minimum", point_synchronisation_voltage_difference_minimum},
+    {"synchronisation_pulse_time", point_synchronisation_pulse_time},
+    {"generator_breaker_pick_up_time", point_generator_breaker_pick_up_time},
+    {"synchronisation_time_monitoring", point_synchronisation_time_monitoring},
+    {"synchronisation_time_monitoring_delay", point_synchronisation_time_monitoring_delay},
+    {"dead_bus_start", point_dead_bus_start},
+    {"dead_bus_start_frequency_difference_maximum", point_dead_bus_start_frequency_difference_maximum},
+    {"dead_bus_start_voltage_difference_maximum", point_dead_bus_start_voltage_difference_maximum},
+    {"dead_bus_start_maximum_time", point_dead_bus_start_maximum_time},
+    {"generator_breaker_monitoring", point_generator_breaker_monitoring},
+    {"automatic_breaker_unlocking", point_automatic_breaker_unlocking},
+    {"generator_overload_monitoring", point_generator_overload_monitoring},
+    {"overload_threshold_parallel_operation", point_overload_threshold_parallel_operation},
+    {"overload_delay_parallel_operation", point_overload_delay_parallel_operation},
+    {"overload_threshold_isolated_operation", point_overload_threshold_isolated_operation},
+    {"overload_delay_isolated_operation", point_overload_delay_isolated_operation},
+    {"generator_reverse_power_monitoring", point_generator_reverse_power_monitoring},
+    {"reverse_power_threshold", point_reverse_power_threshold},
+    {"reverse_power_delay", point_reverse_power_delay},
+    {"generator_unbalanced_load_monitoring", point_generator_unbalanced_load_monitoring},
+    {"unbalanced_load_threshold", point_unbalanced_load_threshold},
+    {"unbalanced_load_delay", point_unbalanced_load_delay},
+    {"generator_overcurrent_monitoring", point_generator_overcurrent_monitoring},
+    {"overcurrent_1_threshold", point_overcurrent_1_threshold},
+    {"overcurrent_1_delay", point_overcurrent_1_delay},
+    {"overcurrent_2_threshold", point_overcurrent_2_threshold},
+    {"overcurrent_2_delay", point_overcurrent_2_delay},
+    {"inverse_time_overcurrent", point_inverse_time_overcurrent},
+    {"inverse_time_overcurrent_characteristic", point_inverse_time_overcurrent_characteristic},
+    {"inverse_time_overcurrent_tp", point_inverse_time_overcurrent_tp},
+    {"inverse_time_overcurrent_ip", point_inverse_time_overcurrent_ip},
+    {"inverse_time_overcurrent_istart", point_inverse_time_overcurrent_istart},
+    {"inverse_time_overcurrent_voltage_dependence", point_inverse_time_overcurrent_voltage_dependence},
+    {"inverse_time_overcurrent_voltage_knee", point_inverse_time_overcurrent_voltage_knee},
+    {"generator_overfrequency_monitoring", point_generator_overfrequency_monitoring},
+    {"generator_overfrequency_1_threshold", point_generator_overfrequency_1_threshold},
+    {"generator_overfrequency_1_delay", point_generator_overfrequency_1_delay},
+    {"generator_overfrequency_2_threshold", point_generator_overfrequency_2_threshold},
+    {"generator_overfrequency_2_delay", point_generator_overfrequency_2_delay},
+    {"generator_underfrequency_monitoring", point_generator_underfrequency_monitoring},
+    {"generator_underfrequency_1_threshold", point_generator_underfrequency_1_threshold},
+    {"generator_underfrequency_1_delay", point_generator_underfrequency_1_delay},
+    {"generator_underfrequency_2_threshold", point_generator_underfrequency_2_threshold},
+    {"generator_underfrequency_2_delay", point_generator_underfrequency_2_delay},
+    {"generator_overvoltage_monitoring", point_generator_overvoltage_monitoring},
+    {"generator_overvoltage_1_threshold_100v", point_generator_overvoltage_1_threshold_100v},
+    {"generator_overvoltage_1_threshold_400v", point_generator_overvoltage_1_threshold_400v},
+    {"generator_overvoltage_1_delay", point_generator_overvoltage_1_delay},
+    {"generator_overvoltage_2_threshold_100v", point_generator_overvoltage_2_threshold_100v},
+    {"generator_overvoltage_2_threshold_400v", point_generator_overvoltage_2_threshold_400v},
+    {"generator_overvoltage_2_delay", point_generator_overvoltage_2_delay},
+    {"generator_undervoltage_monitoring", point_generator_undervoltage_monitoring},
+    {"generator_undervoltage_1_threshold_100v", point_generator_undervoltage_1_threshold_100v},
+    {"generator_undervoltage_1_threshold_400v", point_generator_undervoltage_1_threshold_400v},
+    {"generator_undervoltage_1_delay", point_generator_undervoltage_1_delay},
+    {"generator_undervoltage_2_threshold_100v", point_generator_undervoltage_2_threshold_100v},
+    {"generator_undervoltage_2_threshold_400v", point_generator_undervoltage_2_threshold_400v},
+    {"generator_undervoltage_2_delay", point_generator_undervoltage_2_delay},
+    {"mains_frequency_monitoring", point_mains_frequency_monitoring},
+    {"mains_overfrequency_threshold", point_mains_overfrequency_threshold},
+    {"mains_overfrequency_delay", point_mains_overfrequency_delay},
+    {"mains_underfrequency_threshold", point_mains_underfrequency_threshold},
+    {"mains_underfrequency_delay", point_mains_underfrequency_delay},
+    {"mains_voltage_monitoring", point_mains_voltage_monitoring},
+    {"mains_voltage_factor", point_mains_voltage_factor},
+    {"mains_overvoltage_threshold_100v", point_mains_overvoltage_threshold_100v},
+    {"mains_overvoltage_threshold_400v", point_mains_overvoltage_threshold_400v},
+    {"mains_overvoltage_delay", point_mains_overvoltage_delay},
+    {"mains_undervoltage_threshold_100v", point_mains_undervoltage_threshold_100v},
+    {"mains_undervoltage_threshold_400v", point_mains_undervoltage_threshold_400v},
+    {"mains_undervoltage_delay", point_mains_undervoltage_delay},
+    {"phase_shift_monitoring", point_phase_shift_monitoring},
+    {"phase_shift_monitoring_phases", point_phase_shift_monitoring_phases},
+    {"phase_shift_threshold_single_phase", point_phase_shift_threshold_single_phase},
+    {"phase_shift_threshold_three_phase", point_phase_shift_threshold_three_phase},
+    {"reactive_power_monitoring", point_reactive_power_monitoring},
+    {"reactive_power_threshold_inductive", point_reactive_power_threshold_inductive},
+    {"reactive_power_delay_inductive", point_reactive_power_delay_inductive},
+    {"reactive_power_threshold_capacitive", point_reactive_power_threshold_capacitive},
+    {"reactive_power_delay_capacitive", point_reactive_power_delay_capacitive},
+    {"earth_fault_monitoring", point_earth_fault_monitoring},
+    {"earth_fault_threshold", point_earth_fault_threshold},
+    {"earth_fault_delay", point_earth_fault_delay},
+    {"battery_undervoltage_threshold", point_battery_undervoltage_threshold},
+    {"battery_undervoltage_delay", point_battery_undervoltage_delay},
+    {"digital_inputs_1_to_4_logic", point_digital_inputs_1_to_4_logic},
+    {"digital_inputs_1_to_4_delay", point_digital_inputs_1_to_4_delay},
+    {"digital_inputs_1_to_4_engine_delay", point_digital_inputs_1_to_4_engine_delay},
+    {"digital_inputs_1_to_4_fault_class", point_digital_inputs_1_to_4_fault_class},
+    {"digital_inputs_5_to_8_logic", point_digital_inputs_5_to_8_logic},
+    {"digital_inputs_5_to_8_delay", point_digital_inputs_5_to_8_delay},
+    {"digital_inputs_5_to_8_engine_delay", point_digital_inputs_5_to_8_engine_delay},
+    {"digital_inputs_5_to_8_fault_class", point_digital_inputs_5_to_8_fault_class},
+    {"digital_inputs_9_to_12_logic", point_digital_inputs_9_to_12_logic},
+    {"digital_inputs_9_to_12_delay", point_digital_inputs_9_to_12_delay},
+    {"digital_inputs_9_to_12_engine_delay", point_digital_inputs_9_to_12_engine_delay},
+    {"digital_inputs_9_to_12_fault_class", point_digital_inputs_9_to_12_fault_class},
+    {"fault_text_terminal_62", point_fault_text_terminal_62},
+    {"fault_text_terminal_63", point_fault_text_terminal_63},
+    {"fault_text_terminal_64", point_fault_text_terminal_64},
+    {"fault_text_terminal_65", point_fault_text_terminal_65},
+    {"fault_text_terminal_66", point_fault_text_terminal_66},
+    {"fault_text_terminal_67", point_fault_text_terminal_67},
+    {"fault_text_terminal_68", point_fault_text_terminal_68},
+    {"fault_text_terminal_69", point_fault_text_terminal_69},
+    {"fault_text_terminal_70", point_fault_text_terminal_70},
+    {"fault_text_terminal_71", point_fault_text_terminal_71},
+    {"fault_text_terminal_72", point_fault_text_terminal_72},
+    {"fault_text_terminal_73", point_fault_text_terminal_73},
+    {"analog_output_1_source", point_analog_output_1_source},
+    {"analog_output_1_current_range", point_analog_output_1_current_range},
+    {"analog_output_1_value_at_0_percent", point_analog_output_1_value_at_0_percent},
+    {"analog_output_1_value_at_100_percent", point_analog_output_1_value_at_100_percent},
+    {"analog_output_2_source", point_analog_output_2_source},
+    {"analog_output_2_current_range", point_analog_output_2_current_range},
+    {"analog_output_2_value_at_0_percent", point_analog_output_2_value_at_0_percent},
+    {"analog_output_2_value_at_100_percent", point_analog_output_2_value_at_100_percent},
+    {"relay_1_event_1", point_relay_1_event_1},
+    {"relay_1_logic_1", point_relay_1_logic_1},
+    {"relay_1_event_2", point_relay_1_event_2},
+    {"relay_1_logic_2", point_relay_1_logic_2},
+    {"relay_1_event_3", point_relay_1_event_3},
+    {"relay_1_logic_3", point_relay_1_logic_3},
+    {"relay_2_event_1", point_relay_2_event_1},
+    {"relay_2_logic_1", point_relay_2_logic_1},
+    {"relay_2_event_2", point_relay_2_event_2},
+    {"relay_2_logic_2", point_relay_2_logic_2},
+    {"relay_2_event_3", point_relay_2_event_3},
+    {"relay_2_logic_3", point_relay_2_logic_3},
+    {"relay_3_event_1", point_relay_3_event_1},
+    {"relay_3_logic_1", point_relay_3_logic_1},
+    {"relay_3_event_2", point_relay_3_event_2},
+    {"relay_3_logic_2", point_relay_3_logic_2},
+    {"relay_3_event_3", point_relay_3_event_3},
+    {"relay_3_logic_3", point_relay_3_logic_3},
+    {"relay_4_event_1", point_relay_4_event_1},
+    {"relay_4_logic_1", point_relay_4_logic_1},
+    {"relay_4_event_2", point_relay_4_event_2},
+    {"relay_4_logic_2", point_relay_4_logic_2},
+    {"relay_4_event_3", point_relay_4_event_3},
+    {"relay_4_logic_3", point_relay_4_logic_3},
+    {"relay_5_event_1", point_relay_5_event_1},
+    {"relay_5_logic_1", point_relay_5_logic_1},
+    {"relay_5_event_2", point_relay_5_event_2},
+    {"relay_5_logic_2", point_relay_5_logic_2},
+    {"relay_5_event_3", point_relay_5_event_3},
+    {"relay_5_logic_3", point_relay_5_logic_3},
+    {"relay_6_event_1", point_relay_6_event_1},
+    {"relay_6_logic_1", point_relay_6_logic_1},
+    {"relay_6_event_2", point_relay_6_event_2},
+    {"relay_6_logic_2", point_relay_6_logic_2},
+    {"relay_6_event_3", point_relay_6_event_3},
+    {"relay_6_logic_3", point_relay_6_logic_3},
+    {"relay_7_event_1", point_relay_7_event_1},
+    {"relay_7_logic_1", point_relay_7_logic_1},
+    {"relay_7_event_2", point_relay_7_event_2},
+    {"relay_7_logic_2", point_relay_7_logic_2},
+    {"relay_7_event_3", point_relay_7_event_3},
+    {"relay_7_logic_3", point_relay_7_logic_3},
+    {"automatic_idle_control", point_automatic_idle_control},
+    {"shutdown", point_shutdown},
+    {"engine_monitoring_delay", point_engine_monitoring_delay},
+    {"monitoring_start_frequency", point_monitoring_start_frequency},
     {NULL, NULL}
 };
 
