@@ -51,7 +51,7 @@ def main() -> int:
 def _code(language: str, seed: str, count: int) -> Table:
     """The mutants of one language."""
     work = CACHE / language
-    base = _generated(work / "base")
+    base = _generated(work / "base", language)
     runner = [ROOT / "tests/conformance", *sorted(ROOT.glob("tests/vector*.py"))]
     state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
@@ -94,11 +94,15 @@ def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: i
     return table
 
 
-def _generated(folder: Path) -> Path:
+def _generated(folder: Path, language: str) -> Path:
     """What the compiler makes now of the shipped devices and of those that the tests made."""
     shutil.rmtree(folder, ignore_errors=True)
     command = [str(Path(sys.executable).parent / "fieldscribe"), "generate", "descriptions", "tests/devices"]
     subprocess.run([*command, "--out", str(folder)], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    if language == "c":
+        from c_device import rare_device, write_c
+
+        write_c(rare_device(), folder)  # what no description needs at once, built as a model
     return folder
 
 

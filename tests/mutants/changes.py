@@ -144,7 +144,9 @@ def _swapped_rows(text: str, tokens: Sequence[Token]) -> Iterator[list[Change]]:
         if len(first) != len(second) or any(_shape(a) != _shape(b) for a, b in zip(first, second, strict=True)):
             continue
         pairs = [
-            (a, b) for a, b in zip(first, second, strict=True) if a.kind in ("number", "string") and a.text != b.text
+            (a, b)
+            for a, b in zip(first, second, strict=True)
+            if a.kind in ("number", "string") and a.text != b.text and not _same_number(a, b)
         ]
         if pairs:
             yield [
@@ -152,6 +154,15 @@ def _swapped_rows(text: str, tokens: Sequence[Token]) -> Iterator[list[Change]]:
                 for a, b in pairs
                 if " " not in a.text + b.text
             ]
+
+
+def _same_number(one: Token, other: Token) -> bool:
+    """Whether two literals are one number in two notations, as `0U` and `0x0000U`."""
+    digits = [token.text.rstrip("UuLl").replace("_", "") for token in (one, other)]
+    try:
+        return one.kind == "number" and int(digits[0], 0) == int(digits[1], 0)
+    except ValueError:
+        return False
 
 
 def _by_line(text: str, tokens: Iterable[Token]) -> Iterator[list[Token]]:
