@@ -110,7 +110,7 @@ def _leads_beside(link: Path, device_file: Path) -> bool:
 
 def _safe_name(header: Map, report: Report) -> None:
     """A finding for a device whose files would take the place of others: of a system, a language, or our runtime."""
-    name = str(header.get("device"))
+    name = str(header.get("device") or "")
     taken = None
     if name in _UNSAFE_NAMES:
         taken = "is no safe name for a folder on every system"
