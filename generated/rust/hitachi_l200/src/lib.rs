@@ -259,6 +259,6 @@ pub const BLOCKS: &[(&str, &[Block])] = &[
 pub mod commands {
     use fieldscribe_runtime::modbus::Command;
 
-    /// Enter.
+    /// Enter: any value does; the memory stands 100000 writes.
     pub const ENTER: Command = Command::new(6, 0x0900, None);
 }

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
 //! - `reserved_coil_0004`, coil 0004h (4)
 //! - `reserved_coil_0005`, coil 0005h (5)
 //! - `unused_coil_000c`, coil 000Ch (12)

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
 //! - `limit_comparators`
 
 use fieldscribe_runtime::point;

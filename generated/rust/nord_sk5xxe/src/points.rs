@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
 //! - `p102_set_1`, `P102`, holding 1980h (6528)
 //! - `p102_set_2`, `P102`, holding 1981h (6529)
 //! - `p102_set_3`, `P102`, holding 1982h (6530)

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
 //! - `display_value`, `r0000`, parameter 0000h (0)
 //! - `firmware_version`, `r0018`, parameter 0012h (18)
 //! - `output_frequency`, `r0021`, parameter 0015h (21)

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
 //! - `reserved_word_11`, telegram `visualisation` word 000Ah (10)
 //! - `reserved_word_21`, telegram `visualisation` word 0014h (20)
 //! - `generator_reactive_power`, telegram `visualisation` word 0018h (24)

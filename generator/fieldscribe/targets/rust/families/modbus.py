@@ -71,4 +71,6 @@ def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
 def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
     for one in device.commands:
         value = "None" if one.value is None else f"Some({one.value})"
-        yield sentence(one.name), one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
+        doc = sentence(one.name).rstrip(".") + (": any value does" if one.value is None else "")
+        doc += f"; the memory stands {one.wears} writes" if one.wears is not None else ""
+        yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
