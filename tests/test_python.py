@@ -364,6 +364,10 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     assert len(everything) == len({one.name for one in sample_device().points if one.generated and one.readable})
     assert all(count <= (32 if function == 1 else 4) for function, _, count in slave.log)
     assert status(drive.read_many, "no_such_group")[0] == "no_access"
+    other = type(drive)(slave, unit=drive.unit)
+    refused = status(drive.read_many, [other.power])
+    assert refused[0] == "no_access"
+    assert "is a point of another device" in refused[1]
 
 
 def test_async_twin(package: Any, slave: Slave) -> None:

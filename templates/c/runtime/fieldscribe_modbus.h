@@ -5,8 +5,9 @@
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
- * Reading a point over a serial line:
+ * Reading a point over a serial line; `words` has as many as the point, and `frame` room for the longest answer:
  *
+ *     uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
  *     uint16_t words[1];
  *     fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &hitachi_l200_base_frequency_frame.read);
@@ -19,7 +20,9 @@
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply);
  *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, &raw);
  *
- * Writing one: fieldscribe_put_u16(frame.layout, raw, words), then fieldscribe_modbus_write(unit, &frame.write, words).
+ * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words), then
+ * fieldscribe_modbus_write(unit, &frame.write, words). To a broadcast fieldscribe_modbus_reply_length is 0: nobody
+ * answers, so do not wait.
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -63,3 +65,15 @@ def check_refusals(package: Package) -> None:
     assert (one.code, one.name, one.status) == (101, "no_access", "refused")
     assert str(one) == "the device refused the task: error 101 (no_access)"
     assert (str(other), other.name) == ("the device refused the task: error 7", None)
+
+
+def check_copies(package: Package) -> None:
+    """An error that crosses to another process, or is copied, says and holds the same."""
+    runtime = package.runtime
+    errors = [runtime.RangeError("too much"), runtime.ExceptionReplyError(2, "bad_address"), runtime.RefusedError(7)]
+    errors += [runtime.SpecialCodeError("off", "it is off"), runtime.EchoError("another", (1, 2), (3, 4))]
+    errors += [kind("some", "why") for kind in (runtime.RequestError, runtime.FrameError, runtime.TelegramError)]
+    for error in errors:
+        error.point = "A1 speed"
+        for twin in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+            assert (type(twin), str(twin), vars(twin)) == (type(error), str(error), vars(error))

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class FieldscribeError(Exception):
     """Base of all errors of generated devices; `status` is a stable name for programs.
@@ -16,6 +18,16 @@ class FieldscribeError(Exception):
     def __str__(self) -> str:
         reason = super().__str__()
         return reason if self.point is None else f"{self.point}: {reason}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies, also those between processes, have the message and all that is told beside it."""
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(kind: type[FieldscribeError], args: tuple[Any, ...], told: dict[str, Any]) -> FieldscribeError:
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(told)
+    return error
 
 
 class CodecError(FieldscribeError, ValueError):

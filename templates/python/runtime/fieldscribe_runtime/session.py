@@ -304,6 +304,8 @@ class Session(PointTable, ABC):
         points: list[Decoding[Any]] = []
         for one in what:
             point = self._resolved(one if isinstance(one, str) else one.facts.item)
+            if not isinstance(one, str) and (one.facts is not point.facts or getattr(one, "_device", self) is not self):
+                raise AccessError(f"{one.label} is a point of another device")
             self._require(point)
             if not isinstance(point, Decoding):
                 raise AccessError(f"{point.label} cannot be read")
