@@ -29,7 +29,7 @@ prove:              ## prove that no input makes the cores, parsers and builders
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/proofs/prove.py
 
-misra:              ## say which rules of MISRA C:2012 the headers of points break, and whether the table knows why
+misra:              ## say which rules of MISRA C:2012 generated headers and their runtimes break, and whether the table knows why
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/misra/misra.py
 

@@ -1,4 +1,4 @@
-"""Counts what cppcheck's MISRA addon says of the made devices' headers of points, and holds it against README.md here.
+"""Counts what cppcheck's MISRA addon says of the made devices' headers, and holds it against README.md here.
 
     .venv/bin/python tests/misra/misra.py [--accept]
 
@@ -34,16 +34,20 @@ COMMAND = ("cppcheck", "--addon=misra", "--std=c99", "--platform=unix32", "--ena
 
 
 def found(folder: Path) -> Counter[str]:
-    """How often each rule is broken in the headers of points and in what they are made of."""
+    """How often each rule is broken in the headers of points and frames, and in what they are made of."""
+    frames = []
     for name in MADE:
         device = load_device(DEVICES / name / "device.yaml", Report())
         assert device is not None
-        text = dict(c.outputs(device, render))[f"c/{name}.h"]
-        (folder / f"{name}.h").write_text(text, "utf-8")
-    core = (templates_dir() / "c" / "runtime" / "fieldscribe.h").read_text("utf-8")
-    (folder / "fieldscribe.h").write_text(core, "utf-8")
+        texts = {Path(path).name: text for path, text in c.outputs(device, render) if "conformance" not in path}
+        copied = {Path(path).name: source for path, source in c.runtime(device) if "conformance" not in path}
+        texts |= {path: (templates_dir() / source).read_text("utf-8") for path, source in copied.items()}
+        for path, text in texts.items():
+            (folder / path).write_text(text, "utf-8")
+        frames.append(f"{name}_{device.family}.h")
     source = folder / "all.c"
-    source.write_text("".join(f'#include "{name}.h"\n' for name in MADE), "utf-8")
+    includes = "".join(f'#include "{path}"\n' for path in frames)
+    source.write_text(f"#define FIELDSCRIBE_IMPLEMENTATION\n{includes}", "utf-8")
     done = subprocess.run([*COMMAND, f"-I{folder}", source], capture_output=True, text=True, check=False)
     return Counter(re.findall(r"\[misra-c2012-([0-9.]+)\]", done.stderr))
 
