@@ -72,6 +72,7 @@ def nearest(number: Fraction) -> int:
     return size if number > 0 else -size
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("compiler", ["gcc", pytest.param("clang", marks=pytest.mark.full)])
 def test_every_count_and_raw_number_of_16_bits(compiler: str, tmp_path: Path) -> None:
     """Against fractions that know nothing of the generator."""
