@@ -49,18 +49,11 @@ def _word_hint(key: str, value: Any) -> str | None:
         return None
     word = str(value).strip().lower()[:_LONGEST]
     bare = ENDIAN.sub("", word)
-    found = (
-        known.get(word)
-        or known.get(word.replace(" ", "_"))
-        or ((bare if bare in TYPE_WORDS else known.get(bare)) if key == "type" else None)
-    )
+    spelled = word if word in known else word.replace(" ", "_")
+    found = known.get(spelled) or ((bare if bare in TYPE_WORDS else known.get(bare)) if key == "type" else None)
     if found is None:
         return None
-    order = (
-        ""
-        if key != "type" or word.replace(" ", "_") in known or word in known
-        else "; the order of words goes under `words`"
-    )
+    order = "" if key != "type" or spelled in known else "; the order of words goes under `words`"
     return f"write `{key}: {found}`{order}{ALSO.get(found, '') if key == 'type' else ''}"
 
 
