@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import cantools
 import pytest
 from devices_by_family import shipped
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
-from fieldscribe.dialogue import codec
-from fieldscribe.dialogue.words import raw_of
 from fieldscribe.export.dbc import export_dbc
 from fieldscribe.export.dbc_points import decimal
 from fieldscribe.export.rules import ExportError

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from devices_by_family import coded, shipped, uss_bytes
-from fieldscribe.dialogue import codec
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.dialogue.encoding import encode_point
 from fieldscribe.dialogue.options import Options, refuse_foreign
 from fieldscribe.dialogue.refusals import RefusedError
@@ -396,7 +396,7 @@ def test_every_point_comes_back_from_its_telegram(pkw_words: int, keep: bool) ->
         raw = sample_raw(one) if one.writable and one.generated else None
         if raw is None or (keep and one.telegram is not None):
             continue
-        raw = codec.with_fixed(one, raw)
+        raw = with_fixed(one, raw)
         options = Options(pkw=pkw_words, pzd=8, keep=keep)
         (frame,) = frames_for(DEVICE, one, raw, {}, options).frames
         (heard,) = hear(frame, options=Options(pkw=pkw_words, pzd=8))

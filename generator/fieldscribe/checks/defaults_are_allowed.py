@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject, inside
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
 
@@ -46,7 +46,7 @@ def _fault(point: Point, default: Fraction) -> str | None:
 
 
 def _forbidden(point: Point, raw: int) -> str | None:
-    if not inside(raw, point.allowed):
+    if not point.allowed.holds(raw):
         return f"the range does not allow its raw number {raw}"
     if point.digits is not None:
         names = {str(entry.raw) for entry in point.digits.enum.entries}

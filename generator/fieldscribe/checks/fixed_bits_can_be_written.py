@@ -71,8 +71,7 @@ def _leaves_any(point: Point, fixed: Fixed) -> bool:
     """Whether a number with the fixed bits may be written; limits that other points set count as they are widest."""
     span = 1 << point.width
     for one in point.allowed.intervals:
-        low = one.low if isinstance(one.low, int) else one.low.least
-        high = one.high if isinstance(one.high, int) else one.high.greatest
+        low, high = one.outer
         parts = ((low, high),) if low >= 0 else ((0, high), (low + span, min(high, -1) + span))
         if any(_next(first, fixed) <= last for first, last in parts if first <= last):
             return True

@@ -6,11 +6,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.words import number_of
 from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.resolve.bounds import as_text, constant_range, round_half_away
+from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
@@ -195,10 +197,10 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
             hint = "correct the raw number, or the type"
             subject.report.error("range-outside-type", message, pairs.key_span(key), hint)
             continue
-        if raw > point.greatest and raw < 1 << point.width:
-            raw -= 1 << point.width  # a pattern of a signed number
+        if raw > point.greatest:
+            raw = number_of(raw, point.width, signed=True)
         exact = Fraction(raw * multiply + add, divide)
-        if round_half_away((given * divide - add) / multiply) != raw and abs(exact - given) > _half_digit(value):
+        if half_away((given * divide - add) / multiply) != raw and abs(exact - given) > _half_digit(value):
             said, right = f"{key} {value}", f"{key} {number_text(exact)}"
             message = f"the pair {said} is printed for `{point.name}`, the scale says {number_text(exact)}"
             subject.disagrees(Printed(point.name, "pairs", said, right, pairs.span(key), message))

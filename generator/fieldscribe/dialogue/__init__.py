@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.dialogue.options import Options
     from fieldscribe.model import Device, Point
 

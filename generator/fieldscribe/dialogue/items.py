@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.dialogue import Item
-from fieldscribe.dialogue.codec import setting_of
 from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text, unchecked_remark
 from fieldscribe.dialogue.selection import absence, label, same_meaning
 from fieldscribe.existence import absent
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Device, Point
 
 Where = tuple[str, int, int]

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.dialogue import codec
-from fieldscribe.dialogue.codec import CodecError, Settings
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.dialogue.selection import label, points_by_name
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
@@ -118,7 +119,7 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
         return RefusedError(
             "unknown_value", f"{label(point)} does not take {raw}", line(f"each digit is one of {known}")
         )
-    if codec.with_fixed(point, raw) != raw:
+    if with_fixed(point, raw) != raw:
         always = wording.fixed_text(point)
         return RefusedError("out_of_range", f"{label(point)}: raw {raw} breaks what is always written: {always}")
     asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"

@@ -72,7 +72,7 @@ def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
     if isinstance(bound, int):
         return bound
     text = _limit(bound.rule)
-    fixed = bound.least if is_low else bound.greatest
+    fixed = bound.outermost(low=is_low)
     if fixed != (point.least if is_low else point.greatest):
         text = f"{'max' if is_low else 'min'}({fixed}, {text})"
     return f"{fixed} if {_lifted(bound)} else {text}" if bound.unless else text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.resolve.bounds import MOST_EXPONENT
+from fieldscribe.arithmetic.codec import MOST_EXPONENT
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase

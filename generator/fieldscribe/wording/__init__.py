@@ -162,18 +162,12 @@ def raw_range_text(point: Point) -> str:
 
 def _is_unbounded(point: Point) -> bool:
     """Whether nothing is known of the numbers: no type, and no range that the manual prints."""
-    ends = [(one.low, one.high) for one in point.allowed.intervals]
-    return point.untyped is not None and ends == [(point.least, point.greatest)]
+    return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
     """The least and the greatest raw number that can ever be allowed."""
-    intervals = point.allowed.intervals
-    if not intervals or _is_unbounded(point):
-        return None
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
-    return min(lows), max(highs)
+    return None if _is_unbounded(point) else point.allowed.outer
 
 
 def entry_text(entry: Entry) -> str:

@@ -97,7 +97,7 @@ def _bound_text(bound: Bound, is_low: bool, point: Point, rule: Rule, points: Po
     if isinstance(bound, int):
         return shown(bound, rule)
     words = _limit_text(bound, rule, points)
-    fixed = bound.least if is_low else bound.greatest
+    fixed = bound.outermost(low=is_low)
     if fixed == (point.least if is_low else point.greatest):
         return words
     return f"{'max' if is_low == (rule[0] > 0) else 'min'}({shown(fixed, rule)}, {words})"
@@ -108,7 +108,7 @@ def _lifted_text(bound: Bound, side: str, rule: Rule) -> str:
     if isinstance(bound, int) or not bound.unless:
         return ""
     cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
-    fixed = bound.least if side == "low" else bound.greatest
+    fixed = bound.outermost(low=side == "low")
     return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, rule)}"
 
 

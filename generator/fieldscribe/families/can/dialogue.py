@@ -12,8 +12,8 @@ from fieldscribe.families.can.notation import read_frames
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.dialogue import Heard, Sent
-    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.dialogue.options import Options
     from fieldscribe.model import Device, Point
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.dialogue.codec import with_fixed
+from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
 from fieldscribe.dialogue.refusals import RefusedError
-from fieldscribe.dialogue.words import group_mask, words_of
 from fieldscribe.explain.samples import sample_raw, sample_said
 from fieldscribe.families.can.frames import CanFrame, identifier
 from fieldscribe.families.can.recognition import carries

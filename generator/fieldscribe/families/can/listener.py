@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.dialogue import Heard, Item
 from fieldscribe.dialogue.items import Directory, named_item, value_item, without_variants
 from fieldscribe.dialogue.selection import absence
-from fieldscribe.dialogue.words import raw_of
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Recognised, recognise, senders
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from fractions import Fraction
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.model import Device, Message, Point, Telegram
 

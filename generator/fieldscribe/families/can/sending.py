@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask, insert, words_of
 from fieldscribe.dialogue import Sent
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.selection import UnclearError, label, quoted
-from fieldscribe.dialogue.words import group_mask, insert, words_of
 from fieldscribe.explain.lookup import number_of
 from fieldscribe.families.can.frames import build
 from fieldscribe.families.can.recognition import carries

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.dialogue import Item
-from fieldscribe.dialogue.codec import setting_of
 from fieldscribe.dialogue.items import named_item, present_first, value_item
 from fieldscribe.dialogue.selection import absence
 from fieldscribe.explain.lookup import word_text
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from fractions import Fraction
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Command, Device, Place, Point
 
 _SPACE_OF: Mapping[int, str] = {

@@ -14,8 +14,8 @@ from fieldscribe.families.modbus.words import write_request
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.dialogue import Heard
-    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.dialogue.options import Options
     from fieldscribe.model import Device, Point
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import raw_of as raw_of_words
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.selection import label
-from fieldscribe.dialogue.words import raw_of as raw_of_words
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording.exact import hex_text

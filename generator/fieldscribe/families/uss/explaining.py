@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.dialogue.codec import with_fixed
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.dialogue.hexadecimal import spaced
 from fieldscribe.explain.samples import sample_raw, sample_said
 from fieldscribe.families.uss.links import default_link, default_unit

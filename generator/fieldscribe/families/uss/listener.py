@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.dialogue import Heard, Item
 from fieldscribe.dialogue.items import Base, Directory, named_item, value_item, without_variants
 from fieldscribe.dialogue.selection import absence
-from fieldscribe.dialogue.words import raw_of
 from fieldscribe.families.uss import remarks
 from fieldscribe.families.uss.recognition import RESPONSE_WIDTHS, TASK_WIDTHS, Part, Wrapped, part_of, recognise, split
 from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Device, Point
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")

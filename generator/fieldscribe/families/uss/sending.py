@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.words import insert, words_of
 from fieldscribe.dialogue import Sent
 from fieldscribe.dialogue.hexadecimal import spaced
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.selection import UnclearError, label
-from fieldscribe.dialogue.words import insert, words_of
 from fieldscribe.families.uss.links import default_unit, link_of
 from fieldscribe.families.uss.remarks import find_code
 from fieldscribe.families.uss.telegrams import VARIABLE, Link, Request, build, write_task
@@ -19,7 +19,7 @@ from fieldscribe.text import line
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.dialogue.options import Options
     from fieldscribe.model import Device, Point
 
