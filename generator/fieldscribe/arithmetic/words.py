@@ -15,6 +15,11 @@ def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
     return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
 
 
+INT32 = ends_of(32, signed=True)
+INT64 = ends_of(64, signed=True)
+UINT64 = ends_of(64, signed=False)
+
+
 def mask_of(width: int, low: int = 0) -> int:
     """So many ones from bit `low` on."""
     return ((1 << width) - 1) << low

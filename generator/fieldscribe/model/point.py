@@ -121,6 +121,7 @@ class Point:
     form = _Shared(lambda shape: shape.form)
     least = _Shared(lambda shape: shape.least)
     greatest = _Shared(lambda shape: shape.greatest)
+    held = _Shared(lambda shape: shape.held)
     readable = _Shared(lambda shape: shape.readable)
     writable = _Shared(lambda shape: shape.writable)
     scale_arguments = _Shared(lambda shape: shape.scale_arguments)

@@ -68,6 +68,12 @@ class Shape:
         return (1 << (self.width - self.info.signed)) - 1
 
     @cached_property
+    def held(self) -> tuple[int, int]:
+        """What the wire type holds at least and at most: of a bit group more than its own bits do."""
+        bits, signed = self.info.bits, self.info.signed
+        return (-(1 << (bits - 1)) if signed else 0, (1 << (bits - signed)) - 1)
+
+    @cached_property
     def readable(self) -> bool:
         """Whether the device answers with the point."""
         return "r" in self.access
