@@ -9,7 +9,7 @@ import hashlib
 from dataclasses import replace
 from functools import lru_cache
 
-from fieldscribe.model import Device, Entry, Enum, Flag, Point, Shape, Source, Special, Titles
+from fieldscribe.model import Device, Entry, Enum, Flag, Interner, Point, Shape, Source, Special, Titles
 
 _NOWHERE = Source("", None, None, None)
 
@@ -18,7 +18,8 @@ def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
     enums = {id(enum): _enum(enum) for enum in device.enums}
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
-    shapes = {key: _shape(shape, enums) for key, shape in shapes.items()}
+    interner = Interner()  # titles told some of them apart
+    shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
     return replace(
         device,
         title={},

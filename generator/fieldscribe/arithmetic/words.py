@@ -15,6 +15,12 @@ def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
     return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
 
 
+def fits(numbers: Iterable[int], bits: int) -> bool:
+    """Whether so many bits with a sign hold all the numbers."""
+    low, high = ends_of(bits, signed=True)
+    return all(low <= number <= high for number in numbers)
+
+
 INT32 = ends_of(32, signed=True)
 INT64 = ends_of(64, signed=True)
 UINT64 = ends_of(64, signed=False)

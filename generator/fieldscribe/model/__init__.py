@@ -14,6 +14,7 @@ from fieldscribe.model.device import (
     Role,
     Telegram,
 )
+from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
 from fieldscribe.model.point import Place, Point, Source, Unit
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
@@ -38,6 +39,7 @@ __all__ = [
     "Flag",
     "Frame",
     "Group",
+    "Interner",
     "Interval",
     "Limit",
     "Linear",

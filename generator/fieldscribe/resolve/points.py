@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Linear, Place, Point, ScaleCase, Shape, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Interner, Linear, Place, Point, ScaleCase, Shape, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import Paths, paths_of
-from fieldscribe.resolve.interning import Interner
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles

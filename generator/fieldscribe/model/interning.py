@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Allowed, Shape
+    from fieldscribe.model.rules import Allowed
+    from fieldscribe.model.shape import Shape
 
 
 class Interner:
