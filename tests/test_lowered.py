@@ -6,8 +6,9 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
+from fieldscribe.arithmetic.lines import Line, count_line
 from fieldscribe.arithmetic.rounding import half_away
-from fieldscribe.lowered import Line, count_line, lower, plan_of
+from fieldscribe.lowered import lower, plan_of
 from fieldscribe.model import Special
 from hypothesis import assume, given
 from hypothesis import strategies as st

@@ -33,10 +33,10 @@ def _fault(point: Point, default: Fraction) -> str | None:
         return None if held else "the range does not allow it"
     if point.scale is None:
         raw = default
-    elif len(point.scale) > 1 or point.scale[0].rule.factors:
+    elif point.fixed_scale is None:
         return None  # only other points tell
     else:
-        raw = default * point.scale[0].rule.ratio + point.scale[0].rule.offset
+        raw = point.fixed_scale.at(default)
     if raw.denominator != 1:
         shown = number_text(raw)
         return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"

@@ -186,7 +186,6 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         message = f"the pairs of `{point.name}` cannot be checked: {why}"
         subject.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
         return
-    multiply, add, divide = rule
     for key, value in pairs.items():
         raw = integer(key, pairs.key_span(key), subject.report)
         given = number(value, pairs.span(key), subject.report)
@@ -199,8 +198,8 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
             continue
         if raw > point.greatest:
             raw = number_of(raw, point.width, signed=True)
-        exact = Fraction(raw * multiply + add, divide)
-        if half_away((given * divide - add) / multiply) != raw and abs(exact - given) > _half_digit(value):
+        exact = rule.result(raw)
+        if half_away(rule.argument(given)) != raw and abs(exact - given) > _half_digit(value):
             said, right = f"{key} {value}", f"{key} {number_text(exact)}"
             message = f"the pair {said} is printed for `{point.name}`, the scale says {number_text(exact)}"
             subject.disagrees(Printed(point.name, "pairs", said, right, pairs.span(key), message))
@@ -217,9 +216,7 @@ def _step(point: Point) -> Fraction | None:
         return None
     if point.scale is None:
         return Fraction(1)
-    if len(point.scale) > 1 or point.scale[0].rule.factors:
-        return None
-    return abs(1 / point.scale[0].rule.ratio)
+    return None if point.fixed_scale is None else abs(1 / point.fixed_scale.ratio)
 
 
 def _flags(subject: Subject, resolved: Resolved) -> None:

@@ -23,7 +23,7 @@ def sample_raw(point: Point) -> int | None:
         return pattern_of(number, point.info.bits)
     rule = fixed_rule(point)
     if rule is not None and point.default is not None:
-        raw = (point.default * rule[2] - rule[1]) / rule[0]
+        raw = rule.argument(point.default)
         special = point.special(int(raw))
         if raw.denominator == 1 and (special is None or special.writable):
             return with_fixed(point, int(raw)) if special is None else int(raw)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.lowered.lines import Line, count_line
 from fieldscribe.lowered.plans import Plan, plan_of
 from fieldscribe.lowered.rules import Operand, Rule, rule_of
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Linear, Point
 
-__all__ = ["Line", "Lowered", "Operand", "Plan", "Rule", "count_line", "lower", "plan_of"]
+__all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "plan_of"]
 
 
 class Lowered:

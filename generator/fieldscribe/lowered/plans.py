@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.arithmetic.lines import Line, count_line, value_line
 from fieldscribe.arithmetic.rounding import nearest
 from fieldscribe.arithmetic.words import INT32, INT64
-from fieldscribe.lowered.lines import Line, count_line
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, Point
@@ -38,8 +38,8 @@ class Plan(NamedTuple):
 
 def plan_of(point: Point, low: int, high: int) -> Plan:
     """The plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    assert point.scale is not None
-    return _plan(point.scale[0].rule, point.decimals or 0, point.held, low, high)
+    assert point.fixed_scale is not None
+    return _plan(point.fixed_scale, point.decimals or 0, point.held, low, high)
 
 
 @lru_cache(maxsize=4096)
@@ -51,7 +51,7 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
     the divisor. Encoding is only ever asked for `counts`, for a count outside is refused before anything is computed;
     decoding for any raw number that the type holds.
     """
-    to_raw, to_value = count_line(rule, decimals), count_line(rule, 0).inverse
+    to_raw, to_value = count_line(rule, decimals), value_line(rule)
     to_count = to_raw.inverse
     ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
     count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])

@@ -124,6 +124,7 @@ class Point:
     held = _Shared(lambda shape: shape.held)
     readable = _Shared(lambda shape: shape.readable)
     writable = _Shared(lambda shape: shape.writable)
+    fixed_scale = _Shared(lambda shape: shape.fixed_scale)
     scale_arguments = _Shared(lambda shape: shape.scale_arguments)
 
     @property

@@ -33,6 +33,10 @@ class Linear:
     offset: Fraction
     factors: tuple[Factor, ...]
 
+    def at(self, argument: Fraction) -> Fraction:
+        """The result of a rule without factors."""
+        return argument * self.ratio + self.offset
+
 
 @dataclass(frozen=True, slots=True)
 class ScaleCase:

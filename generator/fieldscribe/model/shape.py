@@ -10,7 +10,7 @@ from fieldscribe.model.numbers import TYPES, TypeInfo
 
 if TYPE_CHECKING:
     from fieldscribe.model.numbers import Digits, Enum, Fixed, Flag, Special, Text
-    from fieldscribe.model.rules import ScaleCase
+    from fieldscribe.model.rules import Linear, ScaleCase
 
 
 @dataclass(frozen=True)
@@ -101,6 +101,11 @@ class Shape:
             (self.scale is not None, "scaled"),
         )
         return next((form for holds, form in forms if holds), "integer")
+
+    @cached_property
+    def fixed_scale(self) -> Linear | None:
+        """The rule of a scale that no other point has a part in."""
+        return self.scale[0].rule if self.scale is not None and not self.scale_arguments else None
 
     @cached_property
     def scale_arguments(self) -> tuple[str, ...]:

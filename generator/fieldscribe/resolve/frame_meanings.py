@@ -82,8 +82,8 @@ class _Said:
             except CodecError:
                 self._no_number(point, word, value)
                 return None
-        if point.scale is not None:
-            exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
+        if point.fixed_scale is not None:
+            exact = point.fixed_scale.at(exact)
         if exact.denominator != 1:
             fault = f"cannot be {value}: that is raw {number_text(exact)}"
             self._refuse("bad-number", word, fault, "give the value as printed, in the unit of the point")

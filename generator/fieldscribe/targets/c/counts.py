@@ -9,7 +9,8 @@ from fieldscribe.targets.c.literals import bare, signed, unsigned
 from fieldscribe.targets.c.reciprocals import Numbers, reciprocal
 
 if TYPE_CHECKING:
-    from fieldscribe.lowered import Line, Plan
+    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.lowered import Plan
 
 
 def linear(name: str, factor: int, add: int, cast: str) -> str:

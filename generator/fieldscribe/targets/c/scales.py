@@ -48,8 +48,8 @@ class Scaled:
 
 def scaled(point: Point, low: int, high: int) -> Scaled:
     """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    assert point.scale is not None
-    rule = point.scale[0].rule
+    assert point.fixed_scale is not None
+    rule = point.fixed_scale
     plan = plan_of(point, low, high)
     kind = "int64_t" if plan.count_wide else "int32_t"
     first, last = plan.counts

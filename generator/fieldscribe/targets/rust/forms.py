@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import count_line
 from fieldscribe.arithmetic.words import fits
-from fieldscribe.lowered import count_line
 from fieldscribe.targets.rust.literals import integer, type_name, type_range
 from fieldscribe.targets.rust.rules import rule_lines
 

@@ -98,15 +98,19 @@ def scope_of(device: Device) -> Scope:
 
 
 def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
-    form = point.form
-    enum = _enum(point)
-    raw = raw_type(point)
-    factors = point.scale_arguments if point.scale is not None else ()
-    limits = point.limit_arguments
-    arguments = tuple(dict.fromkeys((*factors, *limits))) if factors or limits else ()
-    rule = point.scale[0].rule if point.scale is not None and len(point.scale) == 1 and not factors else None
-    carried = enums[enum.name] if enum is not None else raw
-    return Subject(point, form, raw, type_name(point.item), arguments, factors, limits, rule, enum, carried)
+    enum, raw = _enum(point), raw_type(point)
+    return Subject(
+        point,
+        point.form,
+        raw,
+        type_name(point.item),
+        point.arguments,
+        point.scale_arguments,
+        point.limit_arguments,
+        point.fixed_scale,
+        enum,
+        carried=enums[enum.name] if enum is not None else raw,
+    )
 
 
 def _enum(point: Point) -> Enum | None:

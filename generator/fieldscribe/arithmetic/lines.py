@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,12 +33,29 @@ class Line(NamedTuple):
     @property
     def does_nothing(self) -> bool:
         """Whether the result is the argument."""
-        return self == (1, 0, 1)
+        return self == SAME
+
+    def result(self, argument: int | Fraction) -> Fraction:
+        """The exact result."""
+        return (Fraction(argument) * self.factor + self.add) / self.divisor
+
+    def argument(self, result: int | Fraction) -> Fraction:
+        """The exact argument that gives a result; the factor is not zero."""
+        return (Fraction(result) * self.divisor - self.add) / self.factor
 
     def meets(self, arguments: Iterable[int]) -> Iterator[int]:
         """Every integer on the way from those arguments to the division."""
         for argument in arguments:
             yield from (argument, argument * self.factor, argument * self.factor + self.add)
+
+
+SAME = Line(1, 0, 1)
+"""The result is the argument."""
+
+
+def value_line(rule: Linear) -> Line:
+    """Values from raw numbers, of a rule without factors."""
+    return count_line(rule, 0).inverse
 
 
 def count_line(rule: Linear, decimals: int) -> Line:
