@@ -14,7 +14,9 @@ EXAMPLE = """examples:
   fieldscribe schema --page > KEYS.md
 
 An editor with yaml-language-server completes and checks keys when a description starts with the line
-# yaml-language-server: $schema=schema.json"""
+# yaml-language-server: $schema=schema.json
+
+ends with 0, for it reads no description"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.files import Files
 
+_SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
 
@@ -164,7 +165,7 @@ def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
     found: dict[str, object] = {}
     for layer in layers:
-        for key in keys_of(SOURCE):
+        for key in _SOURCE:
             if key in layer:
                 found.setdefault(key, layer[key])
         if "source" in layer and isinstance(layer["source"], Map):
