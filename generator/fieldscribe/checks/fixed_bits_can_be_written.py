@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.meetings import Meetings
 
 if TYPE_CHECKING:
@@ -51,8 +52,7 @@ def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None
 
 def _compare(subject: Subject, one: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
     """Findings about two bit groups of one word; what is about both alike only once, for the other `behind`."""
-    high, low = other.point.bits or (15, 0)
-    own = ((1 << high - low + 1) - 1) << low
+    own = group_mask(other.point)
     theirs = other.point.fixed
     related = [(other.draft.span(), f"`{other.point.name}` stands here")]
     if fixed.mask & own:
