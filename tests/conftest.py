@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from c_device import Folders
 
+T = TypeVar("T")
 UNTOLD = 2.0
 """The seconds that a test of the full suite is taken to need when its marker does not tell."""
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Where processes share the work, each begins with its part of the long tests, the longest first."""
-    items[:] = dealt(items, getattr(config, "workerinput", {}).get("workercount", 1))
+    items[:] = dealt(items, seconds, getattr(config, "workerinput", {}).get("workercount", 1))
 
 
-def dealt(items: list[pytest.Item], count: int) -> list[pytest.Item]:
+def dealt(items: list[T], seconds: Callable[[T], float], count: int) -> list[T]:
     """The tests in such an order that xdist, which cuts it in equal parts, gives each process its share of long ones.
 
     Short tests stay beside those of their file, whose fixtures they share.
     """
     long = sorted((item for item in items if seconds(item)), key=seconds, reverse=True)
     short = iter([item for item in items if not seconds(item)])
-    order: list[pytest.Item] = []
+    order: list[T] = []
     for place in range(count):
         size = (len(items) - len(order)) // (count - place)
         own = long[count - 1 - place :: count]

@@ -29,7 +29,7 @@ from toolchains import compiled, run, succeed, tool
 from vector_file import counts_of, spoil
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Sequence
 
     from _pytest.mark.structures import ParameterSet
     from fieldscribe.model import Device
@@ -62,26 +62,27 @@ def builds(standards: Iterable[str], sanitized: Iterable[str]) -> list[Build]:
     return [Build(*one, "-O0", one[1] in sanitized) for one in of_all]
 
 
-def optimized(devices: Iterable[str], *languages: Sequence[str]) -> Iterator[ParameterSet]:
+def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[ParameterSet]:
     """Devices and builds: both compilers with and without floating point, for each list of standards.
 
     The standards of a list take turns, so each of them is built in each of these ways for some device.
     """
-    ways = list(enumerate(product(COMPILERS, FLOATS)))
-    for turn, device in enumerate(devices):
-        for standards, (way, (compiler, floats)) in product(languages, ways):
-            standard = standards[(turn + way) % len(standards)]
-            build = Build(compiler, standard, floats, "-O2", False)
-            yield pytest.param(device, build, id=f"{device}-{named(build)}")
+    found = []
+    for (turn, device), standards in product(enumerate(devices), languages):
+        for way, (compiler, floats) in enumerate(product(COMPILERS, FLOATS)):
+            build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
+            found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
+    return found
 
 
 AS_C = ("gcc", "c99", "float")
 AS_CPP = ("clang", "c++17", "no_float")
+QUICKEST = ("clang", "c99", "float")
 
 
 def quick_first(of_all: list[Build], *quick: tuple[str, str, str]) -> list[Build | ParameterSet]:
     """The core suite takes one build of C with floating point; of made devices also one of C++ without, by clang."""
-    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full) for one in of_all]
+    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all]
 
 
 def named(build: Build) -> str:
@@ -123,7 +124,7 @@ def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: P
     conforms(folders[device], device, build, tmp_path)
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=4)
 @pytest.mark.parametrize(("device", "build"), optimized(MADE, ("c99", "c11", "c17"), ("c++11", "c++17", "c++20")))
 def test_models_conform_optimized(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
@@ -140,13 +141,13 @@ def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Pat
     assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"]), AS_C), ids=named)
+@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"]), QUICKEST), ids=named)
 @pytest.mark.parametrize("device", SHIPPED)
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
     conforms(GENERATED, device, build, tmp_path)
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=8)
 @pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, ("c17", "c++20")))
 def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
     """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
@@ -460,7 +461,7 @@ def test_parts_of_fast_math_are_refused(flag: str, sample: Path) -> None:
     assert "Compile without -ffast-math" in run([tool("gcc"), *words, sample / "c/sample_drive.h"]).stderr
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=4)
 @pytest.mark.parametrize("flag", ["-freciprocal-math", "-fassociative-math"])
 def test_parts_of_fast_math_are_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
     """clang does not tell, and takes them back for the functions that compute.

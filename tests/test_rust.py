@@ -234,7 +234,10 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     assert max(versions) <= 85
 
 
-@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=pytest.mark.full) for device in SHIPPED)])
+LONG = pytest.mark.full(seconds=6)
+
+
+@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
 def test_conforms(workspace: Path, device: str) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -266,7 +269,7 @@ def test_vectors_of_another_description_are_refused(
     assert "is of another description" in done.stderr
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=26)
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
     done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
@@ -283,7 +286,7 @@ def test_rustfmt_changes_nothing(workspace: Path) -> None:
     assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=11)
 def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
     done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")
