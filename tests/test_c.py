@@ -147,7 +147,7 @@ def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> N
     conforms(GENERATED, device, build, tmp_path)
 
 
-@pytest.mark.full(seconds=8)
+@pytest.mark.full(seconds=10)
 @pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, ("c17", "c++20")))
 def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
     """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
