@@ -110,7 +110,7 @@ fn reads_and_writes(framing: Framing) {
     let reply = client.exchange(Request::block(1, block)).unwrap().unwrap();
     let raw = reply.raw::<points::AccelerationTime>().unwrap();
     assert_eq!(points::AccelerationTime::decode(raw), 808_714.25);
-    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength));
+    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength(None)));
     assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came")));
     let sent = client.into_transport().sent;
     assert_eq!(sent[1..3], ["0106102801f4", "010320080001"]);
@@ -138,7 +138,7 @@ fn a_reply_of_another_space_is_no_point() {
     let mut client = Client::new(Line::new(Framing::Rtu, &replies), &PROFILE, Framing::Rtu, 1);
     let mut raw = |request| client.exchange(request).unwrap().unwrap().raw::<points::BaseFrequency>();
     assert_eq!(raw(Request::new(1, 3, 0x1028, 1)), Ok(1));
-    assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace));
+    assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace(None)));
     assert_eq!(raw(Request::write_values(1, 6, 0x1028, &[500])), Ok(500));
 }
 

@@ -159,7 +159,7 @@ fn refusals_and_wrong_answers_are_told() {
     let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), &PROFILE, LINK, 3);
     let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
     assert_eq!(client.read::<points::Source>(), Err(refused));
-    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength)));
+    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(None))));
     let mut drive = client.into_transport();
     drive.longer = true;
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(3, 4), 3);
@@ -177,18 +177,18 @@ fn refusals_and_wrong_answers_are_told() {
 fn process_data_go_both_ways() {
     let fifty = 0x4248_0000;
     let mut client = Client::new(drive(), &PROFILE, LINK, 3);
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(None)));
     assert_eq!(client.cycle(), Ok(()));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(0x0331)));
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
     assert_eq!(client.set::<points::ControlWord>(flags::ControlWord(0x047F)), Ok(()));
     assert_eq!(client.set_bits::<points::Jog>(2), Ok(()));
-    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength));
-    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength));
+    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(None)));
+    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(None)));
     let setpoint = with::MainSetpoint { reference: fifty };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     let none = with::MainSetpoint { reference: 0x7F80_0000 };
-    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor));
+    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor(None)));
     let limit = with::LimitedSetpoint { reference: 0x4270_0000 };
     let far = client.set_with::<points::LimitedSetpoint>(16385, limit).unwrap_err();
     assert_eq!(far.to_string(), "limited_setpoint: raw 16385 is outside 0 to 16384");
@@ -245,7 +245,7 @@ fn words_that_the_drive_has_are_repeated() {
     let mut client = started(&mut line);
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(None)));
     client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
@@ -270,9 +270,9 @@ fn constant_bits_come_with_their_own_word() {
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(1)), Ok(()));
     assert_eq!(client.set_word(3, 7), Ok(()));
-    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength));
+    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength(None)));
     assert_eq!(client.cycle(), Ok(()));
-    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength)));
+    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength(None))));
     let sent = client.into_transport().sent;
     assert_eq!(data(&sent[0]), [0, 0x2000, 0, 0]);
     assert_eq!(data(&sent[2]), [0x0401, 0x2000, 0, 7]);

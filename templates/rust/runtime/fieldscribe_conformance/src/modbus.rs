@@ -73,7 +73,7 @@ pub fn reply(vector: &Vector) -> Outcome {
     let bytes = vector.bytes("bytes");
     let (status, items, exception) = match request.parse(&bytes) {
         Ok(reply) => ("ok", reply.items().collect::<Vec<_>>(), 0),
-        Err(ReplyError::Exception(code)) => ("exception", Vec::new(), code),
+        Err(ReplyError::Exception { code, name: None }) => ("exception", Vec::new(), code),
         Err(error) => (error.name(), Vec::new(), 0),
     };
     same(vector.text("status").as_str(), status)?;
@@ -172,12 +172,7 @@ where
 
 /// A command.
 pub fn command(vector: &Vector, profile: &'static Profile, command: Command) -> Outcome {
-    let unit = vector.raw("unit");
-    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
-    let found = client
-        .exchange(Request::command(unit, &command))
-        .map(|_| ());
-    exchanged(vector, found, name, &client.into_transport())?;
+    both!(vector, profile, |client| client.command(&command));
     same(vector.raw("value"), command.value.unwrap_or(1))
 }
 

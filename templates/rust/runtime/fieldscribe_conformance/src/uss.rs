@@ -95,7 +95,7 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
     let found = request(vector).parse(profile, link(vector), &received);
     let (status, response, error) = match found {
         Ok(reply) => ("ok", reply.response(), 0),
-        Err(ParseError::Refused(error)) => ("refused", 7, error),
+        Err(ParseError::Refused { error, .. }) => ("refused", 7, error),
         Err(error) => (error.name(), 0, 0),
     };
     let value = found.map_or(Value::Nothing, |reply| reply.value());
