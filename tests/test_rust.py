@@ -232,6 +232,33 @@ def test_vectors_of_another_description_are_refused(
     assert "is of another description" in done.stderr
 
 
+def test_vectors_that_are_not_there_say_what_to_set(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "none.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    assert done.returncode != 0
+    assert "set FIELDSCRIBE_VECTORS to the absolute path of sample_drive.txt" in done.stderr
+    assert "panicked" not in done.stderr
+
+
+def test_no_line_of_the_runtime_is_too_long() -> None:
+    """What stands in a macro, and what has no place to break, rustfmt leaves as it is."""
+    sources = sorted((templates_dir() / "rust/runtime").rglob("*.rs"))
+    lines = ((path, line) for path in sources for line in path.read_text("utf-8").splitlines())
+    assert not [(path.name, line) for path, line in lines if len(line) > 120]
+    assert len(sources) > 40
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_table_has_every_point_once(name: str) -> None:
+    device = MODELS[name]()
+    text = sources(device)["lib.rs"]
+    found = re.search(r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL)
+    assert found
+    assert found[1].split() == [subject.name for subject in scope_of(device).subjects]
+
+
 @pytest.mark.full
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")

@@ -152,7 +152,7 @@ fn parameters_are_read_and_written() {
     assert_eq!((read.as_str(), read.to_string().as_str()), (Some("Genset 1"), "Genset 1"));
     assert_eq!(format!("{read:?}"), "\"Genset 1\"");
     let umlaut = client.write::<points::Name>(Text::new("Gerät").unwrap());
-    assert_eq!(umlaut, Err(ClientError::Point(Error::BadText(None))));
+    assert_eq!(umlaut, Err(ClientError::Point(Error::BadText(Some("name")))));
     assert_eq!(client.write::<points::Password>(1234), Ok(()));
     assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came")));
     let bus = client.into_transport();

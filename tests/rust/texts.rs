@@ -60,7 +60,7 @@ fn main() {
     let raw = points::Note::encode(Text::from_bytes(b"aabbcc").unwrap()).unwrap();
     assert_eq!(points::Note::to_words(raw), [0x6161, 0x6363, 0x6262]);
     assert_eq!(points::Note::from_received([0x6161, 0x6363, 0x6262].into_iter()), Ok(raw));
-    assert_eq!(points::Note::from_received([0x6161, 0x6363].into_iter()), Err(Error::WrongLength(None)));
+    assert_eq!(points::Note::from_received([0x6161, 0x6363].into_iter()), Err(Error::WrongLength(Some("note"))));
 
     let blanks = Text::<4>::from_bytes(b"a  ").unwrap();
     assert_eq!((blanks.as_bytes(), blanks), (&b"a"[..], Text::new("a").unwrap()));

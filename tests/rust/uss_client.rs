@@ -157,9 +157,9 @@ fn parameters_are_read_and_written() {
 
 fn refusals_and_wrong_answers_are_told() {
     let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), &PROFILE, LINK, 3);
-    let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
     assert_eq!(client.read::<points::Source>(), Err(refused));
-    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(None))));
+    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(Some("reference")))));
     let mut drive = client.into_transport();
     drive.longer = true;
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(3, 4), 3);
@@ -177,18 +177,18 @@ fn refusals_and_wrong_answers_are_told() {
 fn process_data_go_both_ways() {
     let fifty = 0x4248_0000;
     let mut client = Client::new(drive(), &PROFILE, LINK, 3);
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(None)));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(Some("status_word"))));
     assert_eq!(client.cycle(), Ok(()));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(0x0331)));
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
     assert_eq!(client.set::<points::ControlWord>(flags::ControlWord(0x047F)), Ok(()));
     assert_eq!(client.set_bits::<points::Jog>(2), Ok(()));
-    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(None)));
-    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(None)));
+    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(Some("position"))));
+    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(Some("far_word"))));
     let setpoint = with::MainSetpoint { reference: fifty };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     let none = with::MainSetpoint { reference: 0x7F80_0000 };
-    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor(None)));
+    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor(Some("main_setpoint"))));
     let limit = with::LimitedSetpoint { reference: 0x4270_0000 };
     let far = client.set_with::<points::LimitedSetpoint>(16385, limit).unwrap_err();
     assert_eq!(far.to_string(), "limited_setpoint: raw 16385 is outside 0 to 16384");
@@ -245,7 +245,7 @@ fn words_that_the_drive_has_are_repeated() {
     let mut client = started(&mut line);
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(None)));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(Some("status_word"))));
     client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
@@ -257,7 +257,7 @@ fn a_refused_task_brings_process_data() {
     line.memory.clear();
     let mut client = started(&mut line);
     client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
-    let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
     client.transport().actual[0] = 0x0008;
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(8)));

@@ -748,11 +748,7 @@ fn ascending(lowest: u16, addresses: &[u16], words: u16, space: Space) -> Outcom
 }
 
 /// What came out, and that the table of all points has the point, once and there.
-pub fn listed(
-    vector: &Vector,
-    points: &[PointInfo],
-    outcome: Option<Outcome>,
-) -> Option<Outcome> {
+pub fn listed(vector: &Vector, points: &[PointInfo], outcome: Option<Outcome>) -> Option<Outcome> {
     outcome.map(|found| found.and_then(|()| is_listed(vector, points)))
 }
 

@@ -35,19 +35,21 @@ impl Access {
 /// What is known before the program runs is better asked of the point's own type.
 ///
 /// ```
-/// use fieldscribe_runtime::{point, point_table, PointInfo};
+/// use fieldscribe_runtime::{point_table, PointInfo};
 ///
-/// point! {
-///     /// Base frequency.
-///     BaseFrequency: u16 = "base_frequency", "A003";
-///     at Holding 0x1019;
-///     unit "Hz";
-///     decimals 1;
-///     => value f64 as scaled(10, 1);
-///     read { count i32; }
+/// mod points {
+///     fieldscribe_runtime::point! {
+///         /// Base frequency.
+///         BaseFrequency: u16 = "base_frequency", "A003";
+///         at Holding 0x1019;
+///         unit "Hz";
+///         decimals 1;
+///         => value f64 as scaled(10, 1);
+///         read { count i32; }
+///     }
 /// }
 ///
-/// const POINTS: &[PointInfo] = point_table! { self: BaseFrequency };
+/// const POINTS: &[PointInfo] = point_table! { points: BaseFrequency };
 ///
 /// let found = PointInfo::find(POINTS, "A003").unwrap();
 /// assert_eq!((found.name, found.address, found.unit), ("base_frequency", 0x1019, "Hz"));

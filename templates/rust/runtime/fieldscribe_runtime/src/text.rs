@@ -12,7 +12,7 @@ use crate::Error;
 ///
 /// let text: Text<16> = "Generator 1".try_into()?;
 /// assert_eq!(text.as_str(), Some("Generator 1"));
-/// assert_eq!(Text::<4>::new("too long"), Err(Error::BadText));
+/// assert_eq!(Text::<4>::new("too long"), Err(Error::BadText(None)));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]

@@ -587,5 +587,17 @@ client!(
     [],
     []
 );
-client!(AsyncClient, AsyncTransport, "One unit behind a transport that does not block.", [async], [.await]);
-client!(LocalClient, LocalTransport, "One unit behind a transport of one thread, which does not block.", [async], [.await]);
+client!(
+    AsyncClient,
+    AsyncTransport,
+    "One unit behind a transport that does not block.",
+    [async],
+    [.await]
+);
+client!(
+    LocalClient,
+    LocalTransport,
+    "One unit behind a transport of one thread, which does not block.",
+    [async],
+    [.await]
+);

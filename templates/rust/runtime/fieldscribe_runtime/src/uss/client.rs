@@ -824,5 +824,17 @@ client!(
     [],
     []
 );
-client!(AsyncClient, AsyncTransport, "One drive behind a transport that does not block.", [async], [.await]);
-client!(LocalClient, LocalTransport, "One drive behind a transport of one thread, which does not block.", [async], [.await]);
+client!(
+    AsyncClient,
+    AsyncTransport,
+    "One drive behind a transport that does not block.",
+    [async],
+    [.await]
+);
+client!(
+    LocalClient,
+    LocalTransport,
+    "One drive behind a transport of one thread, which does not block.",
+    [async],
+    [.await]
+);
