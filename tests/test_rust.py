@@ -22,7 +22,7 @@ from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import assignment, binding, calls, chained, comparison, filled
+from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
 from models import entry, kitchen_sink, point, sample_device, titles, trip_device
 from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
@@ -127,6 +127,8 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
     assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
     assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
+    assert chain("static A: B", "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
+    assert chain("static A: B", "C::new(1)", [".d()", ".e()"]) == ("static A: B = C::new(1)", "    .d()", "    .e();")
     assert comparison(8, name, "== 0") == (f"{name} == 0",)
     assert comparison(36, name, "== 0") == (name, "    == 0")
 
@@ -254,7 +256,9 @@ def test_no_line_of_the_runtime_is_too_long() -> None:
 def test_the_table_has_every_point_once(name: str) -> None:
     device = MODELS[name]()
     text = sources(device)["lib.rs"]
-    found = re.search(r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL)
+    found = re.search(
+        r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL
+    )
     assert found
     assert found[1].split() == [subject.name for subject in scope_of(device).subjects]
 

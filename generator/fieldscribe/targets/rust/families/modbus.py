@@ -47,7 +47,11 @@ def modbus_context(device: Device) -> dict[str, object]:
 
 def _exception(code: Code) -> tuple[str, str, str]:
     """What is said of an exception code, its constant and its number."""
-    return f"{sentence(code.name).rstrip('.')}: exception {code.number:02X}h.", code.name.upper(), f"0x{code.number:02X}"
+    return (
+        f"{sentence(code.name).rstrip('.')}: exception {code.number:02X}h.",
+        code.name.upper(),
+        f"0x{code.number:02X}",
+    )
 
 
 def _profile(bus: Bus) -> Lines:

@@ -30,7 +30,11 @@ def uss_context(device: Device) -> dict[str, object]:
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
             ("responses", "Response ids.", constants(bus.responses, "u8")),
-            ("exceptions", "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.", constants(bus.exceptions, "u16", "error")),
+            (
+                "exceptions",
+                "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.",
+                constants(bus.exceptions, "u16", "error"),
+            ),
         ),
     }
 
