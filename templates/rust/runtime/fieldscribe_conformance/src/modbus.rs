@@ -81,6 +81,16 @@ pub fn reply(vector: &Vector) -> Outcome {
     same(vector.count("exception"), exception)
 }
 
+/// That the profile names an exception code as the device does.
+pub fn named(vector: &Vector, profile: &Profile) -> Outcome {
+    let (code, name) = (vector.raw("number"), None);
+    let found = match profile.named(ReplyError::Exception { code, name }) {
+        ReplyError::Exception { name, .. } => name,
+        _ => None,
+    };
+    same(vector.said("name").as_deref(), found)
+}
+
 fn framing(vector: &Vector) -> Framing {
     match vector.text("framing").as_str() {
         "tcp" => Framing::Tcp,

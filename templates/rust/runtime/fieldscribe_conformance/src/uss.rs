@@ -74,6 +74,15 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
     Ok(())
 }
 
+/// That the profile names an error value as the drive does.
+pub fn named(vector: &Vector, profile: &Profile) -> Outcome {
+    let found = match profile.refusal(vector.raw("number")) {
+        ParseError::Refused { name, .. } => name,
+        _ => None,
+    };
+    same(vector.said("name").as_deref(), found)
+}
+
 /// A telegram to all units.
 pub fn broadcast(vector: &Vector, profile: &Profile) -> Outcome {
     let words: Vec<u16> = vector.numbers("words");

@@ -130,8 +130,9 @@ impl Profile {
         Self { name, ..self }
     }
 
-    /// What an error value says.
-    pub(super) fn refusal(&self, error: u16) -> ParseError {
+    /// The refusal that an error value is, with the name that the drive has for it.
+    #[must_use]
+    pub fn refusal(&self, error: u16) -> ParseError {
         let name = (self.name)(error);
         ParseError::Refused { error, name }
     }
