@@ -341,6 +341,14 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
 
 WITHOUT_COUNTS = ("float", "text", "digits")
 CLIENTS = {
+    "modbus": """use fieldscribe_runtime::{client::Transport, modbus::{Block, Client, Command}};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
+}
+pub fn command(client: &mut Client<Line>, command: &Command) -> bool { client.command(command).is_ok() }
+pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
     "can": """use fieldscribe_runtime::can::{Client, Frame, Receiver, Transport};
 pub struct Line;
 impl Transport for Line {
@@ -368,7 +376,9 @@ def probe_source(device: str) -> str:
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
         traits = " ".join(family_traits(subject, scope))
+        reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
+        bodies += parameter_probes(subject, name) if reached else ()
         item = subject.point.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
@@ -378,13 +388,7 @@ def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[st
     """Heads and bodies of functions that call what a client that blocks offers for a point."""
     point, read, write = subject.point, f"<{name} as Readable>", f"<{name} as Writable>"
     client, value = "client: &mut Client<Line>", f"<{name} as Point>::Value"
-    update = "update" if point.bits else "write_with"
     with_head, with_body = ("", "") if point.bits else (f", with: {write}::With", ", with")
-    if "::Parameter" in traits and point.readable:
-        yield f"get({client}, with: {read}::Factors) -> bool", f"client.read_with::<{name}>(with).is_ok()"
-    if "::Parameter" in traits and point.writable and (not point.bits or point.readable):
-        head = f"put({client}, value: {value}{with_head}) -> bool"
-        yield head, f"client.{update}::<{name}>(value{with_body}).is_ok()"
     if "uss::Sent" in traits and point.writable:
         head = f"send({client}, value: {value}{with_head}) -> bool"
         yield head, f"client.set{'_bits' if point.bits else '_with'}::<{name}>(value{with_body}).is_ok()"
@@ -393,6 +397,33 @@ def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[st
     if "can::Received" in traits:
         receiver = f"Receiver<<{name} as runtime::can::Received>::Telegram>"
         yield f"hear(all: &mut {receiver}, frame: &Frame) -> bool", f"all.take(frame) && all.raw::<{name}>().is_ok()"
+
+
+def parameter_probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that read and write a point over a client: values, counts, raw numbers."""
+    point, client, with_ = subject.point, "client: &mut Client<Line>", f"with: <{name} as Writable>::With"
+    value, raw, factors = (f"<{name} as {one}" for one in ("Point>::Value", "Point>::Raw", "Readable>::Factors"))
+    if point.readable:
+        yield f"get({client}, with: {factors}) -> bool", f"client.read_with::<{name}>(with).is_ok()"
+        if is_counted(subject):
+            yield f"get_count({client}, with: {factors}) -> bool", f"client.read_count_with::<{name}>(with).is_ok()"
+    if not point.writable:
+        return
+    if point.bits:
+        if point.readable and not subject.arguments and point.encodes_values:
+            yield f"put({client}, value: {value}) -> bool", f"client.update::<{name}>(value).is_ok()"
+        return
+    yield f"put_raw({client}, raw: {raw}, {with_}) -> bool", f"client.write_raw_with::<{name}>(raw, with).is_ok()"
+    if point.encodes_values:
+        yield f"put({client}, value: {value}, {with_}) -> bool", f"client.write_with::<{name}>(value, with).is_ok()"
+    if is_counted(subject):
+        head = f"put_count({client}, count: <{name} as CountWritable>::Count, {with_}) -> bool"
+        yield head, f"client.write_count_with::<{name}>(count, with).is_ok()"
+
+
+def is_counted(subject: Subject) -> bool:
+    """Whether the point has counts."""
+    return subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
 
 
 def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
@@ -406,7 +437,7 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
     if subject.point.bits:
         yield f"insert(word: u16, raw: {raw}) -> u16", f"<{name} as BitGroup>::insert(word, raw)"
     read, write = f"<{name} as Readable>", f"<{name} as Writable>"
-    counted = subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
+    counted = is_counted(subject)
     if subject.point.readable:
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"

@@ -1,14 +1,16 @@
 //! USS clients over a line of a made-up drive: what is sent, and what comes out.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::future::{ready, Future};
 use std::pin::pin;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::client::{AsyncTransport, Transport};
+use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
 use fieldscribe_runtime::uss::{
-    check_byte, AsyncClient, BuildError, Client, ClientError, Link, ParseError, Request, Value,
+    check_byte, AsyncClient, BuildError, Client, ClientError, Link, LocalClient, ParseError, Request, Value,
 };
 use odd_uss::{exceptions, flags, points, tasks, with, Error, PROFILE};
 
@@ -326,6 +328,26 @@ fn waits_without_blocking() {
     assert_eq!(client.into_transport().kept, [14]);
 }
 
+/// A line that cannot leave its thread.
+struct Shared(Rc<RefCell<Drive>>);
+
+impl LocalTransport for Shared {
+    type Error = &'static str;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        self.0.borrow_mut().answer(request, reply)
+    }
+}
+
+fn a_transport_may_stay_on_its_thread() {
+    let line = Rc::new(RefCell::new(drive()));
+    let mut client = LocalClient::new(Shared(Rc::clone(&line)), &PROFILE, LINK, 3);
+    assert_eq!(finish(client.read_count::<points::Source>()), Ok(2));
+    assert_eq!(finish(client.store_raw::<points::Source>(1)), Ok(()));
+    assert_eq!(finish(client.read::<points::Source>()), Ok(1));
+    assert_eq!((line.borrow().sent.len(), line.borrow().kept.len()), (3, 1));
+}
+
 /// A drive whose answers nobody waits for.
 struct Silent(Drive, bool);
 
@@ -371,4 +393,5 @@ fn main() {
     all_units_are_sent_valid_words();
     a_dropped_exchange_is_a_failed_one();
     waits_without_blocking();
+    a_transport_may_stay_on_its_thread();
 }
