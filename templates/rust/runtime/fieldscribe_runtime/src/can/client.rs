@@ -152,6 +152,8 @@ impl<L: Listener + ?Sized> Listener for &mut L {
 }
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {

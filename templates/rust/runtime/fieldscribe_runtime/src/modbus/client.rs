@@ -9,6 +9,8 @@ use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, R
 use crate::{Whole, Writable};
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.

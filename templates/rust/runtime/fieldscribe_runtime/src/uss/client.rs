@@ -18,6 +18,8 @@ const WORDS: usize = 16;
 const SENT: usize = 4 + 2 * (4 + WORDS);
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
