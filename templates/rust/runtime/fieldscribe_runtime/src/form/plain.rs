@@ -31,7 +31,7 @@ pub fn encode<P: Writable, V: Into<P::Raw>>(value: V, with: P::With) -> Result<P
 /// What is said of a value that is its raw number, told in the point's unit if it has one.
 #[expect(
     clippy::cast_precision_loss,
-    reason = "it is for people, and the limits of a raw number beyond that are told as one"
+    reason = "it is for people: of more than 53 bits the last ones are rounded"
 )]
 #[cold]
 fn in_units<P: Point>(error: Error, given: i128) -> Error {
