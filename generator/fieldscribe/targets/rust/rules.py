@@ -18,7 +18,7 @@ Lines = tuple[str, ...]
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
-    otherwise = "Err(runtime::Error::NoCase)"
+    otherwise = "Err(runtime::Error::NoCase(None))"
     found: list[tuple[str, list[str], str]] = []
     for case in point.scale or ():
         result = rule_of(lowered.rule(case.rule))
