@@ -27,6 +27,9 @@ _WORD = 1 << 63
 _EXACT = 1 << 53
 """Up to here every integer is a binary64 number."""
 
+_NARROW = 1 << 33
+"""All raw numbers of 32 bits are smaller."""
+
 _HALF = (1 << 52) - (1 << 8)
 """Half a raw step, in units of 2^-53, less what the roundings of roundings add."""
 
@@ -114,13 +117,21 @@ def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
 
 
 def _largest(draft: Draft, bounds: Bounds) -> int:
-    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range."""
+    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range.
+
+    Of 32 bits and less every pattern that a device may send has its count and its value. Of 64 bits few scales would be
+    left if that were asked: there it is the numbers that may be written, and decoding others says that they overflow.
+    """
     raw = max(map(abs, bounds.holds[draft]))
-    return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
+    return raw if raw < _NARROW else max(map(abs, bounds.own_hull(draft)))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
-    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any."""
+    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any.
+
+    Values in binary64 take one that is exact there. Counts are 10^decimals times as large, and twice that is below the
+    bound, because their numerator is compared with its own half on the way to rounding.
+    """
     counts = None if decimals is None else _COUNTED // (2 * 10**decimals)
     limits = [limit for limit in (_EXACT if encodes else None, counts) if limit is not None]
     return min(limits, default=None)
@@ -178,7 +189,12 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
-    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits."""
+    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits.
+
+    From a count to its raw number and back the same three products are met, one or the other way round: the raw number
+    with its offset times `down` is the numerator, and the constants are multiplied by 10^decimals at most. The factor
+    of two is the half that rounding compares with.
+    """
     return all(2 * max(one.numerator, one.constant) * 10**decimals <= _COUNTED for one in needs)
 
 
