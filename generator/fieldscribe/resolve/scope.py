@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import FAMILIES, Family
+from fieldscribe.families import family
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.units import shipped_unit
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.families.contract import Family
     from fieldscribe.language.files import Files
 
 PLAIN = Unit("", "number", "number")
@@ -65,7 +66,7 @@ class Scope:
     @property
     def family(self) -> Family:
         """The rules of the device's family."""
-        return FAMILIES[str(self.header["family"])]
+        return family(str(self.header["family"]))
 
     @property
     def axes(self) -> Mapping[str, Map]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
@@ -116,8 +117,8 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     return BusView(
         guard=f"{scope.upper}_CAN_H",
         units=device.bus.units,
-        identifier_bits=device.bus.identifier_bits or 11,
-        bitrate=device.bus.bitrate,
+        identifier_bits=identifier_bits(device.bus),
+        bitrate=of_bus(device.bus).bitrate,
         messages=tuple(_message(one, scope) for one in device.messages),
         telegrams=tuple(
             _telegram(one, cyclic[one.name], scope)
@@ -187,7 +188,7 @@ def _message(message: Message, scope: Scope) -> MessageView:
         message.name,
         _array(message, scope),
         c_comment(message.title["en"]),
-        hexadecimal(message.can_id, 3),
+        hexadecimal(message.identifier, 3),
         "true" if message.adds_unit else "false",
         tuple(roles),
     )

@@ -101,7 +101,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
 def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
     bus = device.bus
     if device.family == "uss":
-        return ("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)
+        return ("task", bus.functions), ("response", bus.codes("responses")), ("error", bus.exceptions)
     return (("exception", bus.exceptions),)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
+from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
@@ -107,7 +108,7 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         functions=functions,
         units=bus.units,
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if bus.broadcast is None else f"{bus.broadcast}U",
-        pads="true" if bus.pad_coil_bytes == "even" else "false",
+        pads="true" if of_bus(bus).pad_coil_bytes == "even" else "false",
         rtu="true" if "rtu" in framings_of(bus) else "false",
         tcp="true" if "tcp" in framings_of(bus) else "false",
         blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),

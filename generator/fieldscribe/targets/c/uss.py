@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
@@ -98,8 +99,8 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         guard=f"{scope.upper}_USS_H",
         units=bus.units,
         broadcast="FIELDSCRIBE_USS_NO_BROADCAST" if bus.broadcast is None else hexadecimal(bus.broadcast, 2),
-        pkw=bus.pkw,
-        pzd=bus.pzd,
+        pkw=of_bus(bus).pkw,
+        pzd=of_bus(bus).pzd,
         tasks=tuple(
             (tasks[code.number], hexadecimal(sum(1 << one for one in set(code.answers))), c_comment(code.title["en"]))
             for code in bus.functions
@@ -108,7 +109,7 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
             _codes(title, kind, codes, scope)
             for title, kind, codes in (
                 ("Tasks", "task", bus.functions),
-                ("Responses", "response", bus.responses),
+                ("Responses", "response", of_bus(bus).responses),
                 ("Errors", "error", bus.exceptions),
             )
             if codes

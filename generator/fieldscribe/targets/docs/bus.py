@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.can import facts as can
 from fieldscribe.families.modbus import BROADCAST
+from fieldscribe.families.modbus import facts as modbus
+from fieldscribe.families.uss import facts as uss
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
@@ -44,9 +47,9 @@ def bus_view(device: Device) -> BusView:
     return BusView(
         note=paragraph(title_text(bus.note)) if bus.note else "",
         facts=by_rows(("Fact", "Value"), [*_FACTS[device.family](bus)]),
-        functions=_tasks(bus) if bus.responses else _functions(bus),
-        function_heading="Tasks" if bus.responses else "Functions",
-        responses=_linked_codes(bus.responses, "Tasks"),
+        functions=_tasks(bus) if bus.codes("responses") else _functions(bus),
+        function_heading="Tasks" if bus.codes("responses") else "Functions",
+        responses=_linked_codes(bus.codes("responses"), "Tasks"),
         exceptions=_linked_codes(bus.exceptions, "Tasks"),
         messages=_messages(device),
         telegrams=_telegrams(device),
@@ -60,18 +63,20 @@ def _modbus_facts(bus: Bus) -> Iterator[tuple[str, str]]:
     yield "Framing", cell(", ".join(bus.framings))
     yield "Unit numbers", _span(bus.units)
     yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
-    if bus.pad_coil_bytes:
-        yield "Data bytes when coils are written", cell(f"padded to an {bus.pad_coil_bytes} number")
+    padding = modbus.of_bus(bus).pad_coil_bytes
+    if padding:
+        yield "Data bytes when coils are written", cell(f"padded to an {padding} number")
     for space, gaps in bus.gaps.items():
         spans = ", ".join(f"{address_text(low)} to {address_text(high)}" for low, high in gaps)
         yield cell(f"No request may cross ({space})"), spans
 
 
 def _can_facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    if bus.bitrate is not None:
-        yield "Bit rate", f"{bus.bitrate} bit/s"
-    if bus.identifier_bits is not None:
-        yield "Identifier", f"{bus.identifier_bits} bits"
+    own = can.of_bus(bus)
+    if own.bitrate is not None:
+        yield "Bit rate", f"{own.bitrate} bit/s"
+    if own.identifier_bits is not None:
+        yield "Identifier", f"{own.identifier_bits} bits"
     yield "Unit numbers", _span(bus.units)
 
 
@@ -79,9 +84,9 @@ def _uss_facts(bus: Bus) -> Iterator[tuple[str, str]]:
     yield "Unit numbers", _span(bus.units)
     if bus.broadcast is not None:
         yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
-    lengths = ("variable (127)" if one == _VARIABLE else str(one) for one in bus.pkw)
+    lengths = ("variable (127)" if one == _VARIABLE else str(one) for one in uss.of_bus(bus).pkw)
     yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
-    yield "Words of process data (PZD)", _span(bus.pzd)
+    yield "Words of process data (PZD)", _span(uss.of_bus(bus).pzd)
 
 
 _FACTS = {"modbus": _modbus_facts, "can": _can_facts, "uss": _uss_facts}
@@ -113,7 +118,7 @@ def _messages(device: Device) -> Table | None:
             cell(title_text(one.title)),
             cell(one.direction),
             link("message", one.answers) if one.answers else "",
-            hex_text(one.can_id, 3) + (" + unit" if one.adds_unit else ""),
+            hex_text(one.identifier, 3) + (" + unit" if one.adds_unit else ""),
             *(_role(role) for role in one.roles),
             cell(source_text(one.source, len(device.documents) > 1)),
         )

@@ -81,7 +81,7 @@ def row_lines(row: str) -> tuple[str, ...]:
 def _protocol(device: Device) -> Iterator[Table]:
     """The tables of the numbers of the protocol, and of commands."""
     bus, uss = device.bus, device.family == "uss"
-    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
+    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.codes("responses"))) if uss else ()
     refusals = "error" if uss else "exception"
     constants = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
     named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]

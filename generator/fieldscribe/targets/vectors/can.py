@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
+from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 from fieldscribe.targets.vectors.numbers import as_raw
 
@@ -82,7 +83,7 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
-    lines.add("can_bus", device.bus.identifier_bits or 11, device.bus.bitrate)
+    lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
         members = (one for one in device.points if one.generated and one.readable and one.group == group.name)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.can import facts as can_facts
+from fieldscribe.families.can.facts import identifier_bits
 from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import LAST_PARAMETER
+from fieldscribe.families.uss.facts import of_bus
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Device
@@ -42,18 +45,19 @@ def _modbus(lines: Lines, bus: Bus) -> None:
 
 
 def _can(lines: Lines, bus: Bus) -> None:
-    _limits(lines, identifier_bits=bus.identifier_bits or 11)
-    if bus.bitrate is not None:
-        lines.add("size", "bitrate", None, bus.bitrate)
+    _limits(lines, identifier_bits=identifier_bits(bus))
+    bitrate = can_facts.of_bus(bus).bitrate
+    if bitrate is not None:
+        lines.add("size", "bitrate", None, bitrate)
 
 
 def _uss(lines: Lines, bus: Bus) -> None:
     for index, code in enumerate(bus.functions):
         lines.add("function", index, code.number, None, None, sum(1 << answer for answer in set(code.answers)))
-    _limits(lines, functions=len(bus.functions), parameter_parts=len(bus.pkw))
+    _limits(lines, functions=len(bus.functions), parameter_parts=len(of_bus(bus).pkw))
     _limits(lines, broadcast=_NO_BROADCAST if bus.broadcast is None else bus.broadcast, no_broadcast=_NO_BROADCAST)
     _limits(lines, telegram_bytes=_USS_BYTES, last_parameter=LAST_PARAMETER)
-    _limits(lines, least_process_words=bus.pzd[0], most_process_words=bus.pzd[1])
+    _limits(lines, least_process_words=of_bus(bus).pzd[0], most_process_words=of_bus(bus).pzd[1])
 
 
 _OF_FAMILY = {"modbus": _modbus, "can": _can, "uss": _uss}

@@ -18,6 +18,7 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
+from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
@@ -42,8 +43,10 @@ class UssWire:
     def __init__(self, device: Device) -> None:
         self.bus = device.bus
         self.unit = device.bus.units[0]
-        pkw = next((one for one in (VARIABLE, 4, 3) if one in device.bus.pkw), 0)
-        self.link = Link(pkw, min(device.bus.pzd[1], *(most for _, most in device.bus.variant_pzd), 255))
+        pkw = next((one for one in (VARIABLE, 4, 3) if one in of_bus(device.bus).pkw), 0)
+        self.link = Link(
+            pkw, min(of_bus(device.bus).pzd[1], *(most for _, most in of_bus(device.bus).variant_pzd), 255)
+        )
         self.directions = {one.name: one.direction for one in device.telegrams}
         self.tasks = {code.number: code.answers for code in device.bus.functions}
 
@@ -124,7 +127,7 @@ class UssWire:
 def uss(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
     codes(lines, "constant", "task", device.bus.functions)
-    codes(lines, "constant", "response", device.bus.responses)
+    codes(lines, "constant", "response", of_bus(device.bus).responses)
     codes(lines, "code", "error", device.bus.exceptions)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
@@ -185,16 +188,16 @@ def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
 
 def _links(bus: Bus) -> Iterator[Link]:
     """Every length of the parameter part with two words of process data, and the ends of these."""
-    least, most = bus.pzd
+    least, most = of_bus(bus).pzd
     usual = min(max(2, least), most)
-    for pkw in bus.pkw:
+    for pkw in of_bus(bus).pkw:
         yield Link(pkw, usual)
         if pkw == 4:
             yield Link(pkw, usual, single_first=True)
     for pzd in dict.fromkeys((least, most, most + 1)):
         if pzd != usual:
-            yield Link(bus.pkw[-1], pzd)
-    if 0 in bus.pkw and least == 0:
+            yield Link(of_bus(bus).pkw[-1], pzd)
+    if 0 in of_bus(bus).pkw and least == 0:
         yield Link(0, 0)
     yield Link(5, usual)
 
@@ -223,7 +226,7 @@ def _builds(dialogue: _Dialogue) -> None:
 
 
 def _broadcasts(dialogue: _Dialogue) -> None:
-    if dialogue.link.pkw not in dialogue.bus.pkw:
+    if dialogue.link.pkw not in of_bus(dialogue.bus).pkw:
         return
     for mask in ((6, 0xFFFF, 0, 0), (2, 0xFFFF, 0, 0), (6, 0x0401, 0, 0), (0xFFFF,) * 4):
         dialogue.sent(mask, dialogue.words)
@@ -232,7 +235,7 @@ def _broadcasts(dialogue: _Dialogue) -> None:
 
 def _replies(dialogue: _Dialogue) -> None:
     bus, link, words = dialogue.bus, dialogue.link, dialogue.words
-    if link.pkw not in bus.pkw or not bus.pzd[0] <= link.pzd <= bus.pzd[1]:
+    if link.pkw not in of_bus(bus).pkw or not of_bus(bus).pzd[0] <= link.pzd <= of_bus(bus).pzd[1]:
         return
     unit = bus.units[1]
     tasks = [0] if link.pkw == 0 else sorted(code.number for code in bus.functions)
@@ -284,7 +287,7 @@ def _printed(lines: Lines, device: Device) -> None:
     for one in device.frames:
         words = _frame_words(one)
         if one.framing == "pkw" and one.direction == "request":
-            dialogue = _Dialogue(lines, bus, Link(one.pkw or VARIABLE, bus.pzd[0]))
+            dialogue = _Dialogue(lines, bus, Link(of_frame(one).pkw or VARIABLE, of_bus(bus).pzd[0]))
             request = replace(_request_of(unit, words, dialogue.link), words=dialogue.words)
             asked[one.name] = (dialogue, request)
             dialogue.built(request, one.name)
@@ -292,9 +295,9 @@ def _printed(lines: Lines, device: Device) -> None:
             dialogue, request = asked[one.answers]
             dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), one.name)
         elif one.framing == "pzd":
-            _printed_words(_Dialogue(lines, bus, Link(bus.pkw[-1], len(words))), one, words)
+            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), one, words)
         elif one.framing == "broadcast":
-            _Dialogue(lines, bus, Link(bus.pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
+            _Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
 
 
 def _printed_words(dialogue: _Dialogue, one: Frame, words: tuple[int, ...]) -> None:

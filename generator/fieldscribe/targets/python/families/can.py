@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.can.facts import identifier_bits
 from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
@@ -12,8 +13,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Role
     from fieldscribe.targets.python.scope import Scope
 
-_USUAL_BITS = 11
-
 
 def _profile(device: Device, scope: Scope) -> Node:
     """What the device says and hears."""
@@ -21,7 +20,7 @@ def _profile(device: Device, scope: Scope) -> Node:
     bus = device.bus
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
-        f"identifier_bits={bus.identifier_bits or _USUAL_BITS}",
+        f"identifier_bits={identifier_bits(bus)}",
         Group("messages=(", tuple([_message(one, scope) for one in device.messages])),
     ]
     if device.telegrams:
@@ -34,7 +33,7 @@ def _message(message: Message, scope: Scope) -> Node:
     arguments: list[Node] = [
         python_string(message.name),
         python_string(message.direction),
-        f"0x{message.can_id:X}",
+        f"0x{message.identifier:X}",
         Group("roles=(", tuple([_role(role) for role in message.roles])),
     ]
     if message.adds_unit:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
+from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
@@ -26,7 +27,7 @@ def _profile(device: Device, scope: Scope) -> Node:
         f"units=({bus.units[0]}, {bus.units[1]})",
         f"broadcast={bus.broadcast}",
     ]
-    if bus.pad_coil_bytes == "even":
+    if of_bus(bus).pad_coil_bytes == "even":
         arguments.append("pad_coil_bytes_even=True")
     if taken.broadcasts != BROADCAST:
         arguments.append(Group("broadcasts=(", tuple(f"0x{one:02X}" for one in sorted(taken.broadcasts))))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
@@ -23,8 +24,8 @@ def _profile(device: Device, scope: Scope) -> Node:
     bus = device.bus
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
-        _numbers("pkw=(", bus.pkw),
-        f"pzd=({bus.pzd[0]}, {bus.pzd[1]})",
+        _numbers("pkw=(", of_bus(bus).pkw),
+        f"pzd=({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})",
         Group("tasks={", tuple([_numbers(f"{one.number}: (", one.answers) for one in bus.functions]), "}"),
     ]
     if bus.broadcast is not None:
@@ -45,8 +46,8 @@ def _profile(device: Device, scope: Scope) -> Node:
 
 def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
     """How many words of process data variants take that take fewer than the whole product."""
-    low, high = device.bus.pzd
-    found = {tuple(variant.split("=", 1)): most for variant, most in device.bus.variant_pzd if most < high}
+    low, high = of_bus(device.bus).pzd
+    found = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
     return {(axis, value): (low, most) for (axis, value), most in found.items()}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names, constants
@@ -51,8 +52,8 @@ def can_context(device: Device) -> dict[str, object]:
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
-        "identifier_bits": bus.identifier_bits or 11,
-        "bitrate": "" if bus.bitrate is None else integer(bus.bitrate),
+        "identifier_bits": identifier_bits(bus),
+        "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
         "dialogues": tuple(_dialogues(device.messages)),
         "messages": tuple(map(_message, device.messages)),
         "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
@@ -105,10 +106,10 @@ def _carries(message: Message, kind: str) -> bool:
 
 
 def _message(message: Message) -> MessageView:
-    width = "u16" if message.can_id <= 0xFFFF else "u32"
+    width = "u16" if message.identifier <= 0xFFFF else "u32"
     roles = (f"        Role::{_role(role)}," for role in message.roles)
     adds_unit = "true" if message.adds_unit else "false"
-    head = (f"    {one}," for one in (rust_string(message.name), mask(message.can_id, width), adds_unit))
+    head = (f"    {one}," for one in (rust_string(message.name), mask(message.identifier, width), adds_unit))
     literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
     return MessageView(sentence(message.name), assignment(4, f"pub const {message.name.upper()}: Message", literal))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
+from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
@@ -48,7 +49,7 @@ def modbus_context(device: Device) -> dict[str, object]:
 def _profile(bus: Bus) -> str:
     broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
     profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
-    pads = bus.pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
+    pads = of_bus(bus).pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
     return f"{profile}.padding_coils()" if pads else profile
 
 

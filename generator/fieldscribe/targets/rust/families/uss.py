@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array
@@ -20,18 +21,18 @@ def uss_context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     return {
-        "example_link": f"Link::new({max(bus.pkw)}, {bus.pzd[0]}), {bus.units[0]}",
+        "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
-        "pzd": f"({bus.pzd[0]}, {bus.pzd[1]})",
-        "pkw": ", ".join(map(str, bus.pkw)),
+        "pzd": f"({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})",
+        "pkw": ", ".join(map(str, of_bus(bus).pkw)),
         "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
         "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
         "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
-            ("responses", "Response ids.", constants(bus.responses, "u8")),
+            ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),
             ("exceptions", "Error values of a refusal.", constants(bus.exceptions, "u16")),
         ),
     }
@@ -50,7 +51,7 @@ def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:
 
 def uss_identifiers(device: Device) -> Iterator[Identifier]:
     """The names of tasks and responses."""
-    for module, codes in (("tasks", device.bus.functions), ("responses", device.bus.responses)):
+    for module, codes in (("tasks", device.bus.functions), ("responses", of_bus(device.bus).responses)):
         for code in codes:
             yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
 
