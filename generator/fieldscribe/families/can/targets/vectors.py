@@ -6,15 +6,27 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
 from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.targets.vectors.bus import add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device, Message, Point, Telegram
+    from fieldscribe.model import Bus, Device, Message, Point, Telegram
     from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {
+    "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
+    "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
+    "can_taken": "frames:frames taken:ints",
+    "can_bus": "only:rust identifier_bits:int bitrate:int?",
+    "can_carrier": "only:rust carrier:word",
+    "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+    "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
+}
+"""Frames of a maker's own protocol."""
 
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
@@ -63,6 +75,11 @@ class CanWire:
             yield "echo_mismatch", [(sent, self._sent(answer, point.places[0].addresses[0], word ^ 0x0100))]
 
 
+def wires(device: Device) -> list[CanWire]:
+    """Parameters travel in one way."""
+    return [CanWire(device)]
+
+
 def whole_frame(frame: CanFrame) -> bytes:
     """A frame in bytes."""
     return frame.id.to_bytes(4, "big") + frame.data
@@ -77,7 +94,7 @@ def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message 
     return None, None
 
 
-def can(lines: Lines, device: Device) -> None:
+def frames(lines: Lines, device: Device) -> None:
     """Everything about the frames of a device with messages of its own."""
     for message in device.messages:
         if not any(role.kind == "word" for role in message.roles):
@@ -245,3 +262,11 @@ class _Asking:
         self.lines.add(
             "can_telegram", shown, taken, status, *((as_raw(self.point, pattern),) if status == "ok" else ())
         )
+
+
+def limits(lines: Lines, bus: Bus) -> None:
+    """How long identifiers are, and how fast the bus is."""
+    add_limits(lines, identifier_bits=identifier_bits(bus))
+    bitrate = of_bus(bus).bitrate
+    if bitrate is not None:
+        lines.add("size", "bitrate", None, bitrate)

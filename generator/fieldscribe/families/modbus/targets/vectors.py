@@ -18,6 +18,7 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
+from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
@@ -26,6 +27,15 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Device, Point
     from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {
+    "build": "status:word bytes:bytes?",
+    "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
+    "printed_build": "frame:note status:word bytes:bytes?",
+    "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
+    "block": "group:word index:int space:word function:int address:int count:int",
+}
+"""Frames, and batched reads."""
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
@@ -97,7 +107,7 @@ class ModbusWire:
                 yield reply.status, [(sent, answer)]
 
 
-def modbus_wires(device: Device) -> list[ModbusWire]:
+def wires(device: Device) -> list[ModbusWire]:
     """One for each framing that the device speaks, the one that it names first in front."""
     return [ModbusWire(device, framing) for framing in _framings(device.bus) or ("rtu",)]
 
@@ -114,7 +124,7 @@ def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
     return head + bytes((len(data),)) + data
 
 
-def modbus(lines: Lines, device: Device) -> None:
+def frames(lines: Lines, device: Device) -> None:
     """Everything about Modbus frames."""
     codes(lines, "code", "exception", device.bus.exceptions)
     commands(lines, device)
@@ -126,7 +136,7 @@ def modbus(lines: Lines, device: Device) -> None:
 
 def commands(lines: Lines, device: Device) -> None:
     """Each command sent and answered, by itself and with a refusal."""
-    for wire in modbus_wires(device):
+    for wire in wires(device):
         wire.opens(lines)
         for command in device.commands:
             value = 1 if command.value is None else command.value
@@ -334,3 +344,17 @@ def blocks(lines: Lines, device: Device) -> None:
     for group, found in device.blocks.items():
         for index, block in enumerate(found):
             lines.add("block", group, index, block.space, block.function, block.address, block.count)
+
+
+def limits(lines: Lines, bus: Bus) -> None:
+    """What functions carry, and where the protocol ends."""
+    profile = profile_of(bus)
+    known = [code.number for code in bus.functions if code.number in profile.most]
+    for index, number in enumerate(known):
+        lines.add("function", index, number, profile.most[number], int(number in profile.broadcasts))
+    add_limits(lines, functions=len(known), broadcast=NO_BROADCAST if bus.broadcast is None else bus.broadcast)
+    add_limits(lines, no_broadcast=NO_BROADCAST, rtu_bytes=_RTU_BYTES, tcp_bytes=_TCP_BYTES)
+
+
+_RTU_BYTES, _TCP_BYTES = 256, 260
+"""The longest frames that the protocol allows."""

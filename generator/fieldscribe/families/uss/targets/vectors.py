@@ -19,6 +19,7 @@ from fieldscribe.families.uss import (
     telegram,
 )
 from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
@@ -27,6 +28,16 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Device, Frame, Point
     from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {
+    "uss_build": "status:word bytes:bytes?",
+    "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
+    "uss_reply": "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?",
+    "uss_printed_build": "frame:note status:word bytes:bytes?",
+    "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
+    "words:ints?",
+}
+"""Telegrams."""
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
@@ -124,7 +135,12 @@ class UssWire:
         yield "wrong_start", [(sent, bytes((START ^ 1,)) + good[1:])]
 
 
-def uss(lines: Lines, device: Device) -> None:
+def wires(device: Device) -> list[UssWire]:
+    """Points travel in one way."""
+    return [UssWire(device)]
+
+
+def frames(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
     codes(lines, "constant", "task", device.bus.functions)
     codes(lines, "constant", "response", of_bus(device.bus).responses)
@@ -324,3 +340,18 @@ def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
     width = _TASK_WIDTHS.get(task, 0)
     value = (0, second if link.single_last else first, first << 16 | second)[width]
     return Request(unit, task, parameter, pages & 0xFF, width, value)
+
+
+def limits(lines: Lines, bus: Bus) -> None:
+    """What answers tasks, and how long the parts may be."""
+    own = of_bus(bus)
+    for index, code in enumerate(bus.functions):
+        lines.add("function", index, code.number, None, None, sum(1 << answer for answer in set(code.answers)))
+    add_limits(lines, functions=len(bus.functions), parameter_parts=len(own.pkw))
+    add_limits(lines, broadcast=NO_BROADCAST if bus.broadcast is None else bus.broadcast, no_broadcast=NO_BROADCAST)
+    add_limits(lines, telegram_bytes=_TELEGRAM_BYTES, last_parameter=LAST_PARAMETER)
+    add_limits(lines, least_process_words=own.pzd[0], most_process_words=own.pzd[1])
+
+
+_TELEGRAM_BYTES = 256
+"""The longest telegram that the protocol allows."""
