@@ -11,10 +11,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.families import family
 from fieldscribe.model import Device, Entry, Enum, Factor, Flag, Interval, Limit, Linear, Point, ScaleCase, Special
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
-from fieldscribe.families import family
 from fieldscribe.targets.vectors.kinds import KINDS, table
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.numbers import bits32, half_away, quotient

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors.kinds import KINDS, SETS, Shape, table
@@ -17,7 +18,7 @@ _SETS = {name: Shape(name, kind) for name, kind in SETS.items()}
 class Lines:
     """Collects vectors in order, and counts them."""
 
-    def __init__(self, further: Mapping[str, str]) -> None:
+    def __init__(self, further: Mapping[str, str] = MappingProxyType({})) -> None:
         """`further` are kinds that only the family of the device has."""
         self._kinds = KINDS | table(further)
         self._shapes = {name: Shape(name, kind) for name, kind in self._kinds.items()}
