@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 FAMILIES: dict[str, str] = {
     "modbus": "fieldscribe.families.modbus",
-    "uss": "fieldscribe.families.uss",
     "can": "fieldscribe.families.can",
+    "uss": "fieldscribe.families.uss",
 }
 """All families by name, with the package that each one is."""
 

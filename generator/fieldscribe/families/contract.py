@@ -41,6 +41,8 @@ class Codes:
     kind: str
     belongs_to: str | None = None
     """The section with the codes that these name as theirs."""
+    emitted: bool = True
+    """Whether generated code has names for them."""
 
 
 @dataclass(frozen=True, slots=True)

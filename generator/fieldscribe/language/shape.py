@@ -12,6 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families import FAMILIES
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.shape_checks import (
     Check,
@@ -58,6 +59,7 @@ _KNOWN = frozenset(
 def schema() -> dict[str, Any]:
     """The JSON Schema of a description file."""
     loaded: dict[str, Any] = json.loads(Path(__file__).with_name("schema.json").read_bytes())
+    loaded["definitions"]["device_file"]["properties"]["family"]["enum"] = list(FAMILIES)  # the registry decides
     return loaded
 
 

@@ -18,7 +18,7 @@ FAMILY = Family(
     last_address=0xFFFF,
     bus=BusKeys(("framings", "functions"), frozenset({"pad_coil_bytes"}), (1, 127)),
     framings=("rtu", "tcp"),
-    codes=(Codes("functions", "function", "function"), Codes("exceptions", "exception", "exception")),
+    codes=(Codes("functions", "function", "function", emitted=False), Codes("exceptions", "exception", "exception")),
     commands_in="holding",
 )
 

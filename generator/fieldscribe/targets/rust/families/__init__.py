@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from fieldscribe.targets.rust.families.can import can_context, can_identifiers, can_traits
-from fieldscribe.targets.rust.families.modbus import modbus_context
+from fieldscribe.families import family
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.families.uss import uss_context, uss_identifiers, uss_traits
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Identifier
@@ -18,21 +16,36 @@ if TYPE_CHECKING:
 
 __all__ = ["family_context", "family_identifiers", "family_traits", "space"]
 
-_CONTEXTS = {"modbus": modbus_context, "can": can_context, "uss": uss_context}
-_TRAITS = {"can": can_traits, "uss": uss_traits}
-_IDENTIFIERS = {"can": can_identifiers, "uss": uss_identifiers}
+
+class OfFamily(Protocol):
+    """What the part `targets.rust` of a family offers."""
+
+    def context(self, device: Device) -> Mapping[str, object]:
+        """What the template of the family's items sees, `<family>.rs.j2`."""
+
+    def traits(self, subject: Subject, scope: Scope) -> Iterable[str]:
+        """Each trait that a point implements for its bus, in a line."""
+
+    def identifiers(self, device: Device) -> Iterable[Identifier]:
+        """Identifiers of the family's own items: namespace, identifier, what it stands for."""
 
 
 def family_context(device: Device) -> dict[str, object]:
     """The family, and what the template of its items sees."""
-    return {"family": device.family, **_CONTEXTS[device.family](device)}
+    return {"family": device.family, **_offered(device.family).context(device)}
 
 
 def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
     """Each trait that a point implements for its bus, in a line."""
-    return _TRAITS[scope.family](subject, scope) if scope.family in _TRAITS else ()
+    return _offered(scope.family).traits(subject, scope)
 
 
 def family_identifiers(device: Device) -> Iterable[Identifier]:
-    """Identifiers of the family's own items: namespace, identifier, what it stands for."""
-    return _IDENTIFIERS[device.family](device) if device.family in _IDENTIFIERS else ()
+    """Identifiers of the family's own items; a family that says nothing to Rust has none."""
+    part: OfFamily | None = family(device.family).part("targets.rust")
+    return () if part is None else part.identifiers(device)
+
+
+def _offered(name: str) -> OfFamily:
+    offered: OfFamily = family(name).part("targets.rust")
+    return offered

@@ -13,9 +13,11 @@ from fieldscribe.targets.rust.layout import array, binding
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Bus, Code, Device
+    from fieldscribe.targets.identifiers import Identifier
+    from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -24,7 +26,7 @@ _COILS = 15
 """The function that writes several coils, whose bytes a device may want padded."""
 
 
-def modbus_context(device: Device) -> dict[str, object]:
+def context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     functions = [
@@ -44,6 +46,18 @@ def modbus_context(device: Device) -> dict[str, object]:
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
+
+
+def traits(subject: Subject, scope: Scope) -> Iterable[str]:
+    """The runtime knows of every point how it travels."""
+    del subject, scope
+    return ()
+
+
+def identifiers(device: Device) -> Iterable[Identifier]:
+    """The items of the family have names of their own in their modules."""
+    del device
+    return ()
 
 
 def _profile(bus: Bus) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits
-from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -50,7 +50,7 @@ def _role(role: Role) -> Node:
     return call("Role", (python_string(role.kind), number))
 
 
-CAN = Family(
+IN_PYTHON = Family(
     module=f"{RUNTIME}.can",
     exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
     blocking=Flavour("CanDevice", "CanTransport"),

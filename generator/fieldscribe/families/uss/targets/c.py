@@ -25,6 +25,9 @@ _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
 """The tasks that write a value of one or two words, of a parameter or (True) of an element of one."""
 
 
+NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
+
+
 @dataclass(frozen=True, slots=True)
 class CodesView:
     """Numbers of the protocol with names: enumerators with comments, and the function that tells the name."""
@@ -81,7 +84,7 @@ class BusView:
     words: tuple[WordView, ...]
 
 
-def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     """The view of `<device>_uss.h`."""
     bus = device.bus
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}

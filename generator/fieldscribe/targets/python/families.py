@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import family
 from fieldscribe.targets.python.layout import Node, call
 from fieldscribe.text import python_string
 
@@ -44,6 +45,12 @@ class Family:
     profile: Callable[[Device, Scope], Node]
     blocks: Callable[[Device, Scope], Node | None]
     maker: Callable[[Point], str]
+
+
+def in_python(device: Device) -> Family:
+    """What the device's family says of itself, in its part `targets.python`."""
+    said: Family = family(device.family).part("targets.python").IN_PYTHON
+    return said
 
 
 def usual_maker(point: Point) -> str:

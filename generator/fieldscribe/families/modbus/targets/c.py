@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, exceptions_of, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -27,6 +27,9 @@ _BROADCAST = (5, 6, 15, 16)
 """The functions that may be sent to all units, unless the manual says otherwise."""
 
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
+
+
+NAMED_CODES: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +85,7 @@ class BusView:
     exceptions: tuple[tuple[str, str, str], ...]
 
 
-def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     """The view of `<device>_modbus.h`."""
     bus = device.bus
     functions = tuple(
@@ -116,14 +119,6 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         frames=tuple(one for one in frames if one is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
-    )
-
-
-def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], ...]:
-    """The codes with which a device refuses: enumerator, number and comment."""
-    return tuple(
-        (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
-        for code in device.bus.exceptions
     )
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
 from fieldscribe.families.modbus.facts import of_bus
-from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -53,7 +53,7 @@ def _blocks(device: Device, scope: Scope) -> Node | None:
     return Group("{", tuple(made), "}")
 
 
-MODBUS = Family(
+IN_PYTHON = Family(
     module=RUNTIME,  # the names of Modbus are those of the runtime itself
     exports=frozenset({"Block", "Profile"}),
     blocking=Flavour("Device", "Transport"),

@@ -43,7 +43,7 @@ class TelegramView:
     message: str
 
 
-def can_context(device: Device) -> dict[str, object]:
+def context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
@@ -66,7 +66,7 @@ def can_context(device: Device) -> dict[str, object]:
     }
 
 
-def can_traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: Subject, scope: Scope) -> Iterator[str]:
     """A parameter is read and written word by word; a point of a telegram is received in frames."""
     point = subject.point
     if point.telegram is None:
@@ -81,7 +81,7 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[str]:
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(point.telegram)}; }}"
 
 
-def can_identifiers(device: Device) -> Iterator[Identifier]:
+def identifiers(device: Device) -> Iterator[Identifier]:
     """The names of messages and telegrams."""
     for message in device.messages:
         yield Identifier("Rust, messages", message.name.upper(), Owner("message", message.name))

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, exceptions_of, kind_of, lies, names_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
-from fieldscribe.targets.c.modbus import exceptions_of
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -21,6 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.views import DeviceView, PointView
 
 _BYTES = 8
+
+
+NAMED_CODES: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +97,7 @@ class BusView:
     cyclic: tuple[FrameView, ...]
 
 
-def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places]

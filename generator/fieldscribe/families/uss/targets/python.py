@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -62,7 +62,7 @@ def _maker(point: Point) -> str:
     return _STORED.get(usual, usual) if stored else usual
 
 
-USS = Family(
+IN_PYTHON = Family(
     module=f"{RUNTIME}.uss",
     exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
     blocking=Flavour("UssDevice", "UssTransport"),

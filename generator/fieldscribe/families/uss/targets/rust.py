@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 
-def uss_context(device: Device) -> dict[str, object]:
+def context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     return {
@@ -38,7 +38,7 @@ def uss_context(device: Device) -> dict[str, object]:
     }
 
 
-def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: Subject, scope: Scope) -> Iterator[str]:
     """A point is a parameter, or is sent, or is received in the process data."""
     point = subject.point
     if point.telegram is None:
@@ -49,7 +49,7 @@ def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:
     yield f"impl runtime::uss::{trait} {{}}"
 
 
-def uss_identifiers(device: Device) -> Iterator[Identifier]:
+def identifiers(device: Device) -> Iterator[Identifier]:
     """The names of tasks and responses."""
     for module, codes in (("tasks", device.bus.functions), ("responses", of_bus(device.bus).responses)):
         for code in codes:
