@@ -65,6 +65,13 @@ def test_docs_and_vectors(tmp_path: Path) -> None:
     assert {"limit\tstrikes\t90", "strike\t1\t0\t3141", "strike\t1\t1\t3142"} <= set(vectors)
 
 
+def test_targets_that_do_not_know_it(tmp_path: Path) -> None:
+    refused = run(described(tmp_path), "generate", "carillon", "--target", "c,docs", "--out", "out")
+    assert refused.returncode == 1
+    assert "the target c does not know the family bell; nothing of carillon was written" in refused.stderr
+    assert not (tmp_path / "out/docs").exists()
+
+
 def test_its_own_findings(tmp_path: Path) -> None:
     foreign = run(described(tmp_path, DEVICE.replace("space: tone", "space: coil")), "check", "carillon")
     assert (foreign.returncode, "unknown-space" in foreign.stdout) == (1, True)

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
+NEEDS_FAMILY = True
+
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     view, scope = device_view(device)
     yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
     frames = frames_of(device)
-    if frames is None:
-        return
     bus = frames.bus_view(device, view, scope)
     context = {"device": view, "bus": bus}
     yield f"c/{device.id}_{device.family}.h", folded(render(f"c/{device.family}.h.j2", context))
@@ -34,8 +34,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    own = () if frames_of(device) is None else (f"_{device.family}", "_conformance", f"_conformance_{device.family}")
-    for name in ("", *own):
+    for name in ("", f"_{device.family}", "_conformance", f"_conformance_{device.family}"):
         yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
 
 

@@ -69,8 +69,7 @@ _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor
 
 def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Iterable[tuple[str, str]]) -> SuiteView:
     """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
-    frames = frames_of(device)
-    named = () if frames is None else frames.NAMED_CODES
+    named = frames_of(device).NAMED_CODES
     extra: dict[str, list[str]] = {}
     for function, case in more:
         extra.setdefault(function, []).append(case)

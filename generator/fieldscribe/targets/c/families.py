@@ -31,7 +31,7 @@ class OfFamily(Protocol):
         """Macros with which points answer conformance vectors that only this family has, by their function."""
 
 
-def frames_of(device: Device) -> OfFamily | None:
-    """What is known of the frames of a device; None where the family says nothing to C."""
-    offered: OfFamily | None = family(device.family).part("targets.c")
+def frames_of(device: Device) -> OfFamily:
+    """What is known of the frames of a device."""
+    offered: OfFamily = family(device.family).part("targets.c")
     return offered

@@ -43,9 +43,8 @@ def identifiers(device: Device) -> Iterator[Identifier]:
     for alias in view.aliases:
         yield Identifier("C", alias.old, owners[alias.new]._replace(part=f"old name of {alias.new}"))
     frames = frames_of(device)
-    if frames is not None:
-        bus = frames.bus_view(device, view, scope)
-        yield from (Identifier("C", name, owner) for name, owner in frames.identifiers(bus, view))
+    bus = frames.bus_view(device, view, scope)
+    yield from (Identifier("C", name, owner) for name, owner in frames.identifiers(bus, view))
 
 
 def _of_points(view: DeviceView) -> Iterator[tuple[str, Owner]]:

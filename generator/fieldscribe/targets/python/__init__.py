@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _RUNTIME = "fieldscribe_runtime"
 
+NEEDS_FAMILY = True
+
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files of the device's package, as paths below the output folder and their text."""

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _SOURCES = ("lib", "points", "enums", "flags", "with")
 _RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
 
+NEEDS_FAMILY = True
+
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""

@@ -61,6 +61,9 @@ class _NoFrames:
         return ()
 
 
+NEEDS_FAMILY = False
+
+
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The one file of this target: its path, and one vector per line. `render` is not needed."""
     del render

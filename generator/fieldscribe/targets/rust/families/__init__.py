@@ -41,9 +41,8 @@ def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
 
 
 def family_identifiers(device: Device) -> Iterable[Identifier]:
-    """Identifiers of the family's own items; a family that says nothing to Rust has none."""
-    part: OfFamily | None = family(device.family).part("targets.rust")
-    return () if part is None else part.identifiers(device)
+    """Identifiers of the family's own items: namespace, identifier, what it stands for."""
+    return _offered(device.family).identifiers(device)
 
 
 def _offered(name: str) -> OfFamily:
