@@ -46,7 +46,10 @@ UPWARDS = {
 }
 """Imports that go up, with the reason."""
 
-NAMES_A_FAMILY: dict[str, str] = {}
+NAMES_A_FAMILY = {
+    "checks.prefixes": "it lists what the C header defines, which the target itself should say",
+    "export": "`can_id` is a key of the published contract",
+}
 """Modules outside the folders of families that name one, with the reason."""
 
 

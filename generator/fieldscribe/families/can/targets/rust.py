@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.rust.conformance import row_of
 from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Role, Telegram
+    from fieldscribe.targets.rust.families import Table
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
@@ -68,17 +71,21 @@ def context(device: Device) -> dict[str, object]:
 
 def traits(subject: Subject, scope: Scope) -> Iterator[str]:
     """A parameter is read and written word by word; a point of a telegram is received in frames."""
-    point = subject.point
-    if point.telegram is None:
+    if subject.point.telegram is None:
         yield "impl runtime::can::Parameter {}"
-        return
-    _, message = scope.telegrams.get(point.telegram, (None, None))
+    telegram = _received(subject, scope)
+    if telegram is not None:
+        yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(telegram)}; }}"
+
+
+def _received(subject: Subject, scope: Scope) -> str | None:
+    """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
+    point = subject.point
+    _, message = scope.telegrams.get(point.telegram or "", (None, None))
     if not point.readable or message is None or not message.words:
-        return
+        return None
     frames = {position // message.words for position in point.addresses}
-    # Of more words than two in several frames nobody can tell whether they belong together.
-    if len(frames) == 1 or len(point.addresses) == 2:
-        yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(point.telegram)}; }}"
+    return point.telegram if len(frames) == 1 or len(point.addresses) == 2 else None
 
 
 def identifiers(device: Device) -> Iterator[Identifier]:
@@ -130,3 +137,30 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
     return TelegramView(
         sentence(telegram.name), type_name(telegram.name), name, telegram.words, slots, message.name.upper()
     )
+
+
+def tables_of_points(scope: Scope) -> Iterator[Table]:
+    """The points that come in frames of a telegram."""
+    heard = [one for one in scope.subjects if one.form != "text" and _received(one, scope) is not None]
+    if heard:
+        yield "can_telegram", "can_telegram", tuple(row_of(one, "frames") for one in heard)
+
+
+def tables_of_frames(device: Device) -> Iterator[Table]:
+    """The telegrams that come in frames."""
+    carriers = {one.name for one in device.messages if one.words}
+    heard = [one for one in device.telegrams if one.message in carriers]
+    if heard:
+        names = tuple(f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard)
+        yield "can_taken", "can_taken", names
+        yield "can_carrier", "can_carrier", names
+
+
+IN_RUST = OfFamily(
+    context,
+    traits,
+    identifiers,
+    tables_of_points=tables_of_points,
+    tables_of_frames=tables_of_frames,
+    refusals="constant",
+)

@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import array, binding
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
     from fieldscribe.model import Bus, Code, Device
-    from fieldscribe.targets.identifiers import Identifier
-    from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -46,18 +45,6 @@ def context(device: Device) -> dict[str, object]:
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
-
-
-def traits(subject: Subject, scope: Scope) -> Iterable[str]:
-    """The runtime knows of every point how it travels."""
-    del subject, scope
-    return ()
-
-
-def identifiers(device: Device) -> Iterable[Identifier]:
-    """The items of the family have names of their own in their modules."""
-    del device
-    return ()
 
 
 def _profile(bus: Bus) -> str:
@@ -89,3 +76,6 @@ def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
         doc = sentence(one.name).rstrip(".") + (": any value does" if one.value is None else "")
         doc += f"; the memory stands {one.wears} writes" if one.wears is not None else ""
         yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
+
+
+IN_RUST = OfFamily(context)

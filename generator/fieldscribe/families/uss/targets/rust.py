@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
+from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array
 from fieldscribe.targets.rust.literals import type_name
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
+    from fieldscribe.targets.rust.families import Way
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 
@@ -62,3 +65,25 @@ def _fixed(device: Device) -> Iterator[str]:
     for point in device.points:
         if point.generated and point.telegram in sent and point.fixed is not None and point.fixed.bits:
             yield point.item
+
+
+def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+    """Words of process data go one way; parameters can be written for good."""
+    point = subject.point
+    if point.telegram is None:
+        if point.writable and point.keeps != "no":
+            yield "store", *change_of(subject, "store", "store_update")
+    elif subject.form != "text" and not point.bits:
+        yield from _process_ways(subject, scope.telegrams[point.telegram][0].direction)
+
+
+def _process_ways(subject: Subject, direction: str) -> Iterator[Way]:
+    point = subject.point
+    if direction == "response" and point.readable:
+        yield "read", "receive", (of_scale(subject),)
+    elif direction == "request" and point.writable:
+        needs = (of_scale(subject), of_all(subject))
+        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
+
+
+IN_RUST = OfFamily(context, traits, identifiers, ways)

@@ -2,49 +2,53 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.rust.families.spaces import space
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Identifier
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
-__all__ = ["family_context", "family_identifiers", "family_traits", "space"]
+Table = tuple[str, str, tuple[str, ...]]
+"""The function that a table of conformance becomes, the runner's function behind it, and its rows."""
+
+Needs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Structs and their fields."""
+
+Way = tuple[str, str, Needs]
+"""How a point travels: the kind of vector, the runner's function, and what that needs."""
 
 
-class OfFamily(Protocol):
-    """What the part `targets.rust` of a family offers."""
-
-    def context(self, device: Device) -> Mapping[str, object]:
-        """What the template of the family's items sees, `<family>.rs.j2`."""
-
-    def traits(self, subject: Subject, scope: Scope) -> Iterable[str]:
-        """Each trait that a point implements for its bus, in a line."""
-
-    def identifiers(self, device: Device) -> Iterable[Identifier]:
-        """Identifiers of the family's own items: namespace, identifier, what it stands for."""
+def nothing(*_: object) -> tuple[()]:
+    """For families that have none."""
+    return ()
 
 
-def family_context(device: Device) -> dict[str, object]:
-    """The family, and what the template of its items sees."""
-    return {"family": device.family, **_offered(device.family).context(device)}
+@dataclass(frozen=True, slots=True)
+class OfFamily:
+    """What the part `targets.rust` of a family offers as `IN_RUST`.
+
+    `context` is what the template of the family's items sees, `<family>.rs.j2`; `traits` are those that a point
+    implements for its bus, each in a line; `identifiers` those of the family's own items. The conformance program asks
+    for further `ways` of a point, for tables of points and of frames that only this family has, and for the kind of
+    vectors that the codes of refusals are.
+    """
+
+    context: Callable[[Device], Mapping[str, object]]
+    traits: Callable[[Subject, Scope], Iterable[str]] = nothing
+    identifiers: Callable[[Device], Iterable[Identifier]] = nothing
+    ways: Callable[[Subject, Scope], Iterable[Way]] = nothing
+    tables_of_points: Callable[[Scope], Iterable[Table]] = nothing
+    tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
+    refusals: str = "code"
 
 
-def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
-    """Each trait that a point implements for its bus, in a line."""
-    return _offered(scope.family).traits(subject, scope)
-
-
-def family_identifiers(device: Device) -> Iterable[Identifier]:
-    """Identifiers of the family's own items: namespace, identifier, what it stands for."""
-    return _offered(device.family).identifiers(device)
-
-
-def _offered(name: str) -> OfFamily:
-    offered: OfFamily = family(name).part("targets.rust")
-    return offered
+def in_rust(name: str) -> OfFamily:
+    """What the family of that name says of itself."""
+    said: OfFamily = family(name).part("targets.rust").IN_RUST
+    return said
