@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe.conversation.selection import UnclearError
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
@@ -25,6 +26,14 @@ def parse_hex(text: str) -> bytes:
     if not pieces:
         raise HexError("there are no bytes")
     return b"".join(_piece(piece, place) for place, piece in enumerate(pieces, 1))
+
+
+def typed_bytes(text: str, what: str, example: str) -> bytes:
+    """The bytes of a frame, called what its family calls it. Raises UnclearError."""
+    try:
+        return parse_hex(text)
+    except HexError as error:
+        raise UnclearError(f"not a {what}: {error}", f'write the bytes in hexadecimal, as in "{example}"') from error
 
 
 def rejoined(words: Sequence[str], *sizes: int) -> list[str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.answers import Heard, Item
 from fieldscribe.conversation.items import Directory, named_item, value_item, value_said, without_variants
+from fieldscribe.conversation.remarks import strange_unit, words_text
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.words import raw_of
 from fieldscribe.families.can.conversation.recognition import Recognised, recognise, senders
@@ -14,7 +15,6 @@ from fieldscribe.families.can.conversation.remarks import (
     fixed_finding,
     identifiers_text,
     message_text,
-    request_finding,
     unknown_kind,
     waiting_text,
 )
@@ -102,7 +102,7 @@ class CanListener:
             items += [self._word(receiver, telegram, point, raws.get(point.item), settings) for point in here]
             if not self._directory.at(telegram.name, at):
                 words = receiver.words((at,))[1]
-                items.append(Item(telegram.name, at, 1, f"word {at}: no point is described here ({_hex(words)})"))
+                items.append(Item(telegram.name, at, 1, f"word {at}: no point is described here ({words_text(words)})"))
         items += self._resolved(unit, telegram, settings, points)
         for point, raw in whole:
             if any(item.point == point.item and item.missing for item in items):
@@ -162,7 +162,7 @@ class CanListener:
         shown = without_variants(points, limits=asks)
         items = [self._value(unit, point, address, raw, written=asks) for point in shown]
         if not points:
-            brings = "" if raw is None else f" ({_hex((raw,))})"
+            brings = "" if raw is None else f" ({words_text((raw,))})"
             items = [Item("parameter", address, 1, f"{address_text(address)}: no point is described here{brings}")]
         findings = self._course(unit, found)
         return replace(base, kind=_kind(message), items=tuple(items), findings=tuple(findings))
@@ -178,7 +178,7 @@ class CanListener:
             return replace(item, text=f"{item.text}; {odd}", findings=(*item.findings, odd)) if odd else item
         words = {**unit.words, address: raw}
         place = point.addresses.index(address) + 1
-        part = f"word {place} of {len(point.addresses)} = {_hex((raw,))}"
+        part = f"word {place} of {len(point.addresses)} = {words_text((raw,))}"
         if not all(at in words for at in point.addresses):
             left = sum(at not in words for at in point.addresses)
             return named_item(point, base, f"{part}; {left} more words to come")
@@ -212,7 +212,8 @@ class CanListener:
         message = found.message
         if message.direction == "request":
             unit.asked[message.name] = found
-            yield from request_finding(self._device, found)
+            if found.unit is not None and (strange := strange_unit(self._device.bus, found.unit)):
+                yield strange
             return
         asked = unit.asked.get(message.answers or "")
         if asked is None:
@@ -222,7 +223,8 @@ class CanListener:
             return
         del unit.asked[message.answers or ""]
         if asked.raw is not None and asked.raw != found.raw:
-            yield f"it does not repeat what was written: {_hex((asked.raw,))} was, {_hex((found.raw or 0,))} came back"
+            was, came = (words_text((word or 0,)) for word in (asked.raw, found.raw))
+            yield f"it does not repeat what was written: {was} was, {came} came back"
 
     def _unknown(self, pasted: Pasted) -> Heard:
         """A frame that is no message of the device, or not a whole one."""
@@ -245,7 +247,3 @@ class CanListener:
 
 def _kind(message: Message) -> str:
     return {"request": "request", "response": "reply"}.get(message.direction, "cyclic")
-
-
-def _hex(words: Sequence[int]) -> str:
-    return " ".join(f"{word:04X}h" for word in words)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.conversation.remarks import strange_unit
 from fieldscribe.families.can.frames import LENGTH, CanFrame, carried, carries, checksum
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device, Message
+    from fieldscribe.model import Bus, Device, Message
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ class Recognised:
 
 def recognise(device: Device, frame: CanFrame) -> Recognised | None:
     """The message that a frame is, or is most likely meant to be; None if nothing fits."""
-    found = [_read(message, unit, frame, device.bus.units) for message, unit in senders(device, frame)]
+    found = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
     whole = [one for one in found if one is not None]
     return min(whole, key=lambda one: len(one.faults), default=None)
 
@@ -58,12 +59,7 @@ def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | No
             yield message, carried(message, frame, "unit") if carries(message, "unit") else None
 
 
-def no_unit_text(unit: int, units: tuple[int, int]) -> str:
-    """That no device has that unit number."""
-    return f"the device cannot have unit {unit}: units are {units[0]} to {units[1]}"
-
-
-def _read(message: Message, unit: int | None, frame: CanFrame, units: tuple[int, int]) -> Recognised | None:
+def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Recognised | None:
     """The frame as that message; None where the first byte that tells messages apart says that it is another."""
     if len(frame.data) != LENGTH:
         return None
@@ -72,8 +68,8 @@ def _read(message: Message, unit: int | None, frame: CanFrame, units: tuple[int,
     if fixed and fixed[0][0] != fixed[0][1]:
         return None
     faults = []
-    if unit is not None and message.direction != "request" and not units[0] <= unit <= units[1]:
-        faults.append(no_unit_text(unit, units))
+    if unit is not None and message.direction != "request" and (strange := strange_unit(bus, unit)):
+        faults.append(strange)
     for place, (role, byte) in enumerate(found):
         right = byte
         if role.kind == "constant":

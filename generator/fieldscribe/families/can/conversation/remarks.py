@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.lookup import word_text
-from fieldscribe.families.can.conversation.recognition import no_unit_text
 from fieldscribe.families.can.frames import carries
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, fixed_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from fieldscribe.families.can.conversation.recognition import Recognised
     from fieldscribe.families.can.frames import CanFrame
@@ -56,13 +55,6 @@ def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
     place = known[0][0] if known else 0
     names = ", ".join(f"{hex_text(number, 2)} {name}" for _, number, name in known)
     return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"
-
-
-def request_finding(device: Device, found: Recognised) -> Iterator[str]:
-    """What no unit will answer."""
-    low, high = device.bus.units
-    if found.unit is not None and not low <= found.unit <= high:
-        yield no_unit_text(found.unit, device.bus.units)
 
 
 def fixed_finding(point: Point, word: int) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.conversation.answers import Sent
 from fieldscribe.conversation.lookup import number_of
 from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import UnclearError, label, quoted
 from fieldscribe.conversation.words import group_mask, insert, words_of
 from fieldscribe.families.can.frames import build, carries
@@ -93,8 +94,6 @@ def _word(text: str) -> int:
 
 def _refused(device: Device, point: Point, status: str) -> RefusedError:
     if status == "bad_unit":
-        low, high = device.bus.units
-        return RefusedError(
-            status, f"{label(point)}: the device cannot have this unit number", f"units are {low} to {high}"
-        )
+        message = f"{label(point)}: the device cannot have this unit number"
+        return RefusedError(status, message, units_text(device.bus))
     return RefusedError(status, f"{label(point)}: {status.replace('_', ' ')}")

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.answers import Sent
-from fieldscribe.conversation.hexadecimal import HexError, parse_hex, rejoined, spaced
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.conversation.hexadecimal import rejoined, spaced, typed_bytes
 from fieldscribe.families.modbus.conversation.explaining import read_text, write_text
 from fieldscribe.families.modbus.conversation.listener import ModbusListener
 from fieldscribe.families.modbus.conversation.words import write_request
@@ -37,8 +36,4 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 
 
 def _bytes(text: str) -> bytes:
-    try:
-        return parse_hex(text)
-    except HexError as error:
-        hint = 'write the bytes in hexadecimal, as in "05 06 10 28 01 F4 0C 91"'
-        raise UnclearError(f"not a frame: {error}", hint) from error
+    return typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.conversation.remarks import strange_unit
 from fieldscribe.conversation.selection import label
 from fieldscribe.families.modbus.conversation.address_book import AddressBook, Area, span_text
 from fieldscribe.families.modbus.functions import BROADCAST, profile_of
@@ -86,7 +87,6 @@ def area_text(area: Area) -> str:
 def request_findings(device: Device, request: Request) -> Iterator[str]:
     """What the device will not take of a request."""
     profile = profile_of(device.bus)
-    low, high = profile.units
     most = profile.most.get(request.function)
     if most is None:
         yield f"the device does not know function {hex_text(request.function, 2)}"
@@ -94,8 +94,8 @@ def request_findings(device: Device, request: Request) -> Iterator[str]:
         yield f"the device takes at most {most} of them in one request"
     if request.unit == profile.broadcast:
         yield from _broadcast_findings(request.function, profile)
-    elif not low <= request.unit <= high:
-        yield f"the device cannot have unit {request.unit}: units are {low} to {high}"
+    elif strange := strange_unit(device.bus, request.unit):
+        yield strange
     if request.address + request.count > 0x10000:
         yield "it reaches beyond the last address"
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import label
 from fieldscribe.conversation.words import raw_of as raw_of_words
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
@@ -84,6 +85,5 @@ def _status_hint(device: Device, status: str) -> str:
         return f"it speaks {' and '.join(framings_of(device.bus))}"
     if status != "bad_unit":
         return ""
-    low, high = device.bus.units
     everyone = "" if device.bus.broadcast is None else f", or {device.bus.broadcast} for all units at once"
-    return f"units are {low} to {high}{everyone}"
+    return f"{units_text(device.bus)}{everyone}"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.hexadecimal import HexError, parse_hex, rejoined
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.conversation.hexadecimal import rejoined, typed_bytes
 from fieldscribe.families.uss.conversation.explaining import read_text, write_text
 from fieldscribe.families.uss.conversation.links import asked, link_of
 from fieldscribe.families.uss.conversation.listener import UssListener
@@ -33,8 +32,4 @@ def decode(device: Device, settings: Settings, texts: Sequence[str], options: Op
 
 
 def _bytes(text: str) -> bytes:
-    try:
-        return parse_hex(text)
-    except HexError as error:
-        hint = 'write the bytes in hexadecimal, as in "02 0E 01 143A 0000 0000 0000 0000 0000 23"'
-        raise UnclearError(f"not a telegram: {error}", hint) from error
+    return typed_bytes(text, "telegram", "02 0E 01 143A 0000 0000 0000 0000 0000 23")

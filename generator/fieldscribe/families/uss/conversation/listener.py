@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.answers import Heard, Item
 from fieldscribe.conversation.items import Base, Directory, named_item, value_item, without_variants
+from fieldscribe.conversation.remarks import words_text
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.words import raw_of
 from fieldscribe.families.uss.conversation import remarks
@@ -180,7 +181,7 @@ class UssListener:
         """What a parameter part says of its parameter."""
         part, points = brought.part, brought.points
         base = ("parameter", part.parameter, max(1, brought.width))
-        words = _hex(part.values)
+        words = words_text(part.values)
         if not points:
             carried = f" (carries {words})" if brought.width or not brought.request else ""
             return (Item(*base, f"{remarks.parameter_text(part, points)}: no point is described here{carried}"),)
@@ -195,7 +196,7 @@ class UssListener:
         """What a parameter part says of one point."""
         if brought.value is None:
             return named_item(point, base, odd=absence(self._device, point) if brought.request else "")
-        words = _hex(brought.part.values)
+        words = words_text(brought.part.values)
         if not point.generated:
             return named_item(point, base, f"carries {words}; {point.reason or 'its meaning is open'}")
         if brought.width != point.words:
@@ -262,7 +263,7 @@ class UssListener:
         """Which bits of a control word count."""
         point = next((one for name in names for one in self._directory.at(name, place)), None)
         about = point.code or point.name if point is not None else f"word {place + 1}"
-        masks = _hex(words)
+        masks = words_text(words)
         if not any(words):
             return Item("mask", at, len(words), f"mask {masks}: no bit of {about} counts")
         if words[0] == 0xFFFF and len(set(words)) == 1:
@@ -271,10 +272,6 @@ class UssListener:
         named = [flag.name for flag in flags if words[0] >> flag.low & 1]
         said = f" ({', '.join(named)})" if named else ""
         return Item("mask", at, len(words), f"mask {masks}: only these bits of {about} count{said}")
-
-
-def _hex(words: Sequence[int]) -> str:
-    return " ".join(f"{word:04X}h" for word in words)
 
 
 def _as_words(value: int, width: int) -> tuple[int, ...]:

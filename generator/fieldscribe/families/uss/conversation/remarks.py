@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.conversation.remarks import strange_unit
 from fieldscribe.families.uss.conversation.recognition import KEEPING_TASKS, TASK_WIDTHS
 from fieldscribe.text import line
 
@@ -51,9 +52,8 @@ def parameter_text(part: Part, points: list[Point]) -> str:
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
     """What the device will not take of a request."""
-    low, high = device.bus.units
-    if unit is not None and not low <= unit <= high:
-        yield f"the device cannot have unit {unit}: units are {low} to {high}"
+    if unit is not None and (strange := strange_unit(device.bus, unit)):
+        yield strange
     code = find_code(device.bus.functions, part.code)
     if code is None:
         yield f"the device does not know task {part.code}"

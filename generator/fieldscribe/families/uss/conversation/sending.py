@@ -9,6 +9,7 @@ from fieldscribe import wording
 from fieldscribe.conversation.answers import Sent
 from fieldscribe.conversation.hexadecimal import spaced
 from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import UnclearError, label
 from fieldscribe.conversation.words import insert, words_of
 from fieldscribe.families.uss.conversation.links import asked, link_of
@@ -120,8 +121,7 @@ def _built(device: Device, point: Point, link: Link, request: Request) -> bytes:
 
 def _hint(device: Device, link: Link, status: str) -> str:
     if status == "bad_unit":
-        low, high = device.bus.units
-        return f"units are {low} to {high}"
+        return units_text(device.bus)
     if status in ("bad_task", "bad_value"):
         length = "is variable" if link.pkw == VARIABLE else f"has {link.pkw} words"
         return f"the parameter part of this link {length}; take another --pkw, if the device is set so"
