@@ -18,11 +18,11 @@ from fieldscribe.conversation.samples import sample_raw
 from fieldscribe.conversation.selection import UnclearError
 from fieldscribe.conversation.texts import shown
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can import CanFrame, parse
 from fieldscribe.families.can.conversation import decode, frames_for
 from fieldscribe.families.can.conversation.listener import CanListener
 from fieldscribe.families.can.conversation.notation import Pasted, read_frames
 from fieldscribe.families.can.conversation.recognition import recognise
+from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.model import Role
 from fieldscribe.pipeline import load_device
 from hypothesis import given

@@ -16,10 +16,11 @@ from fieldscribe.conversation import codec
 from fieldscribe.conversation.words import raw_of
 from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
-from fieldscribe.families.can import CanFrame, Receiver, build, identifier, parse
 from fieldscribe.families.can.export.dbc import export_dbc
 from fieldscribe.families.can.export.dbc_points import decimal
 from fieldscribe.families.can.facts import of_bus
+from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
+from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule

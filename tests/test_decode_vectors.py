@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 import pytest
 from asked import asked as chosen
 from devices_by_family import shipped
-from fieldscribe.families import modbus, uss
 from fieldscribe.families.can.conversation import decode as decode_can
+from fieldscribe.families.modbus import requests as modbus
 from fieldscribe.families.modbus.conversation import decode as decode_modbus
+from fieldscribe.families.modbus.functions import profile_of
+from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.families.uss.conversation import decode as decode_uss
 from fieldscribe.targets.vectors import collect
 from models import made
@@ -43,7 +45,7 @@ def test_replies_of_modbus(device: Device) -> None:
         request = modbus.Request(
             one["unit"], one["function"], one["address"], one["count"], values, one["transaction"] or 0
         )
-        _, sent = modbus.build(modbus.profile_of(device.bus), one["framing"], request)
+        _, sent = modbus.build(profile_of(device.bus), one["framing"], request)
         options = chosen(framing=one["framing"], request=sent.hex())
         holds(one, decode_modbus(device, {}, [one["bytes"].hex()], options)[-1], one["status"] in ("ok", "exception"))
         judged.add(one["status"])

@@ -13,8 +13,8 @@ import pytest
 import wrong_bytes
 from c_device import kitchen
 from fieldscribe.conversation.options import Options
-from fieldscribe.families.can import CanFrame, parse
 from fieldscribe.families.can.conversation import decode
+from fieldscribe.families.can.frames import CanFrame, parse
 from python_families import AsyncCanUnit, CanUnit, can_device
 from python_package import error, imported, typed_findings, write_package
 

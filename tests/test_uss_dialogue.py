@@ -18,9 +18,9 @@ from fieldscribe.conversation.refusals import RefusedError
 from fieldscribe.conversation.samples import sample_raw
 from fieldscribe.conversation.selection import UnclearError, choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
-from fieldscribe.families.uss import Link, Request, parse, telegram
 from fieldscribe.families.uss.conversation import decode, frames_for
 from fieldscribe.families.uss.conversation.listener import UssListener
+from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
 from hypothesis import given
 from hypothesis import strategies as st
 from models import sample_device

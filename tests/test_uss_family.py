@@ -6,8 +6,17 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.uss import Link, Request, broadcast, build, check_byte, parameter_words, parse, telegram
 from fieldscribe.families.uss.facts import UssBus, of_bus
+from fieldscribe.families.uss.telegrams import (
+    Link,
+    Request,
+    broadcast,
+    build,
+    check_byte,
+    parameter_words,
+    parse,
+    telegram,
+)
 from fieldscribe.model import Bus, Code
 from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.selection import UnclearError
 from fieldscribe.families import family
@@ -16,47 +16,34 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 
-class Conversation(Protocol):
-    """What the part `conversation` of a family offers."""
+class Conversation:
+    """What the part `conversation` of a family offers; what is here holds where it offers nothing."""
 
     def decode(self, device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
         """What pasted frames say, in their order; any bytes are safe. Raises UnclearError for what is no frame."""
-
-    def frames_for(self, device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-        """The frames that write a raw number. Raises RefusedError."""
-
-    def read_text(self, device: Device, point: Point) -> str:
-        """How the point is read, with an example; empty if it cannot be read."""
-
-    def write_text(self, device: Device, point: Point) -> str:
-        """How the point is written, with an example; empty if it cannot be written."""
-
-
-class _Speechless:
-    """A family whose frames nobody has described to people."""
-
-    def decode(self, device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
-        """Nobody knows."""
         del settings, texts, options
         raise _unknown(device)
 
     def frames_for(self, device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-        """Nobody knows."""
+        """The frames that write a raw number. Raises RefusedError."""
         del point, raw, settings, options
         raise _unknown(device)
 
     def read_text(self, device: Device, point: Point) -> str:
-        """Nothing to say."""
+        """How the point is read, with an example; empty if it cannot be read."""
         del device, point
         return ""
 
-    write_text = read_text
+    def write_text(self, device: Device, point: Point) -> str:
+        """How the point is written, with an example; empty if it cannot be written."""
+        del device, point
+        return ""
 
 
 def conversation_of(device: Device) -> Conversation:
     """What the device's family knows of frames."""
-    offered: Conversation | None = family(device.family).part("conversation")
-    return _Speechless() if offered is None else offered
+    offered: Conversation = family(device.family).part("conversation") or Conversation()
+    return offered
 
 
 def _unknown(device: Device) -> UnclearError:

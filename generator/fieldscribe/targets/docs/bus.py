@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, link, paragraph, source_text, target
@@ -36,7 +36,7 @@ class BusView:
 def bus_view(device: Device) -> BusView:
     """The bus section of a device."""
     bus, own = device.bus, family(device.family)
-    part: OfFamily = own.part("targets.docs") or _Plain()
+    part: OfFamily = own.part("targets.docs") or OfFamily()
     asks = next((one for one in own.codes if one.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
     serial = [
@@ -59,25 +59,15 @@ def bus_view(device: Device) -> BusView:
     )
 
 
-class OfFamily(Protocol):
-    """What the part `targets.docs` of a family offers."""
+class OfFamily:
+    """What the part `targets.docs` of a family offers; what is here holds where it offers nothing."""
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
         """What people must know of the line, with what it is called."""
-
-    def goes_to_all(self, function: Code) -> bool:
-        """Whether a function goes to all units at once where the description does not say it."""
-
-
-class _Plain:
-    """A family that has nothing to add."""
-
-    def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
-        """The units."""
         yield "Unit numbers", span(bus.units)
 
     def goes_to_all(self, function: Code) -> bool:
-        """Nobody knows."""
+        """Whether a function goes to all units at once where the description does not say it."""
         del function
         return False
 

@@ -6,7 +6,7 @@ Nothing here is shared with the other targets: a wrong rule in one of them canno
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.targets.vectors.bus import add_limits
@@ -28,10 +28,13 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.exchanges import Wire
 
 
-class OfFamily(Protocol):
-    """What the part `targets.vectors` of a family offers."""
+NEEDS_FAMILY = False
 
-    KINDS: Mapping[str, str]
+
+class OfFamily:
+    """What the part `targets.vectors` of a family offers; what is here holds where it offers nothing."""
+
+    KINDS: Mapping[str, str] = MappingProxyType({})
     """Kinds of vectors that only this family has, with the fields of their lines."""
 
     def limits(self, lines: Lines, bus: Bus) -> None:
@@ -42,26 +45,8 @@ class OfFamily(Protocol):
 
     def wires(self, device: Device) -> Sequence[Wire]:
         """The ways in which points travel, the usual one first."""
-
-
-class _NoFrames:
-    """A family whose frames have no vectors."""
-
-    KINDS: Mapping[str, str] = MappingProxyType({})
-
-    def limits(self, lines: Lines, bus: Bus) -> None:
-        """None."""
-
-    def frames(self, lines: Lines, device: Device) -> None:
-        """None."""
-
-    def wires(self, device: Device) -> Sequence[Wire]:
-        """None."""
         del device
         return ()
-
-
-NEEDS_FAMILY = False
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -78,7 +63,7 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
-    own: OfFamily = family(device.family).part("targets.vectors") or _NoFrames()
+    own: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
     lines = Lines(own.KINDS)
     shapes = Shapes()
     oracle = Oracle({point.name: point for point in reversed(device.points)})

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
 from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.families.can.frames import CanFrame, build, checksum, identifier, parse
+from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.targets.vectors.bus import add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 from fieldscribe.targets.vectors.numbers import as_raw

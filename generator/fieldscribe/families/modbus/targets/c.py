@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import framings_of
 from fieldscribe.families.modbus.facts import of_bus
+from fieldscribe.families.modbus.functions import framings_of
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Layouts, exceptions_of, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss import (
+from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.uss.telegrams import (
     DOUBLE_RESPONSES,
     LAST_PARAMETER,
     START,
@@ -18,7 +19,6 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
-from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
