@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 HOUSE = Path(fieldscribe.__file__).parent
 
 ROOMS = (
-    ("words, places, files of the package", "__init__ text names diagnostics reading report resources render"),
+    ("words, places, files of the package", "__init__ text names diagnostics kinds reading report resources render"),
     ("the neutral model", "existence model plain"),
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),

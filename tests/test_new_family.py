@@ -7,9 +7,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fieldscribe.families import FAMILIES
-from fieldscribe.language import shape
-
 HERE = Path(__file__).parent
 WITH_BELLS = (
     "from fieldscribe.families import FAMILIES; FAMILIES['bell'] = 'toy_family'; "
@@ -89,8 +86,3 @@ def test_what_people_ask(tmp_path: Path) -> None:
     assert "frames of the family bell are not known here" in run(folder, "decode", "carillon", "31 42").stderr
     exported = json.loads(run(folder, "export", "json", "carillon").stdout)
     assert (exported["family"], exported["points"][1]["space"]) == ("bell", "tone")
-
-
-def test_editors_know_the_same_families() -> None:
-    stored = json.loads(Path(shape.__file__).with_name("schema.json").read_text("utf-8"))
-    assert stored["definitions"]["device_file"]["properties"]["family"]["enum"] == list(FAMILIES)
