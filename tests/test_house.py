@@ -25,9 +25,11 @@ ROOMS = (
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),
     ("facts and frames of a family", "families.*"),
+    ("the table of keys", "language.keys"),
+    ("a family's own keys", "families.*.keys"),
     ("text to nodes", "language"),
     ("nodes to the model", "resolve"),
-    ("a family's own keys", "families.*.reading families.*.messages"),
+    ("what a family reads of its own keys", "families.*.reading families.*.messages"),
     ("the registry of targets", "targets targets.identifiers"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),
@@ -49,6 +51,9 @@ UPWARDS = {
 NAMES_A_FAMILY = {
     "checks.prefixes": "it lists what the C header defines, which the target itself should say",
     "export": "`can_id` is a key of the published contract",
+    "language.keys.files": "an example of a whole file",
+    "language.keys.meaning": "an example of an enum",
+    "language.keys.places": "examples of whole files and messages",
 }
 """Modules outside the folders of families that name one, with the reason."""
 

@@ -21,7 +21,7 @@ model: C2
 title: Carillon
 family: bell
 documents: {manual: {title: The manual, language: en}}
-bus: {units: 1..4, bitrate: 90, source: {section: Line}}
+bus: {units: 1..4, strikes: 90, source: {section: Line}}
 frames:
   - {name: ring_low, bytes: 31 42, says: {low: 1}, line: 7}
 groups:
@@ -72,7 +72,7 @@ def test_targets_that_do_not_know_it(tmp_path: Path) -> None:
 def test_its_own_findings(tmp_path: Path) -> None:
     foreign = run(described(tmp_path, DEVICE.replace("space: tone", "space: coil")), "check", "carillon")
     assert (foreign.returncode, "unknown-space" in foreign.stdout) == (1, True)
-    wrong = DEVICE.replace("bitrate: 90", "bitrate: 2000").replace("31 42", "31 42 0A")
+    wrong = DEVICE.replace("strikes: 90", "strikes: 2000").replace("31 42", "31 42 0A")
     (tmp_path / "carillon/device.yaml").write_text(wrong, "utf-8")
     told = run(tmp_path, "check", "carillon").stdout
     assert "too-many-strikes" in told

@@ -16,7 +16,7 @@ FAMILY = Family(
     folder=__package__,
     spaces={"tone": "word"},
     last_address=25,
-    bus=BusKeys(further=frozenset({"bitrate"}), last_unit=9),
+    bus=BusKeys(last_unit=9),
     framings=("strike",),
 )
 

@@ -1,4 +1,4 @@
-"""How a bell's own keys are read: the bit rate is how often it may be struck."""
+"""How a bell's own keys are read: how often it may be struck."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class BellReading(Reading):
     def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> BellBus:
         """How often a bell may be struck."""
         del scope, functions
-        return BellBus(raw.get("bitrate", 60))
+        return BellBus(raw.get("strikes", 60))
 
 
 READING = BellReading()

@@ -15,21 +15,21 @@ _OF_ALL = frozenset({"units", "exceptions", "timing", "serial", "note", "source"
 
 @dataclass(frozen=True, slots=True)
 class BusKeys:
-    """The keys that a family needs under `bus`, those that it knows besides, and how far its numbers go.
+    """The keys that a family needs under `bus`, those that it shares with some others, and how far its numbers go.
 
     `broadcast` is the one number that goes to all units, where the family has only one.
     """
 
     needed: tuple[str, ...] = ()
-    further: frozenset[str] = frozenset()
+    shared: frozenset[str] = frozenset()
     codes: tuple[int, int] = (0, 255)
     last_exception: int = 255
     last_unit: int = 255
     broadcast: int | None = None
 
     def __contains__(self, key: object) -> bool:
-        """Whether the family knows a key."""
-        return key in self.needed or key in self.further or key in _OF_ALL
+        """Whether the family has a key that others have, too, or needs it."""
+        return key in self.needed or key in self.shared or key in _OF_ALL
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +66,8 @@ class Option:
 class Family:
     """The rules of a family, as far as every stage may ask for them; what takes code is a part of its folder.
 
-    The parts are modules: `reading` (its own facts, out of the text), `checks`, `conversation`, `export`, and
-    `targets.<target>`; each room says what it asks of its part.
+    The parts are modules: `keys` (those that it alone has), `reading` (its own facts, out of the text), `checks`,
+    `conversation`, `export`, and `targets.<target>`; each room says what it asks of its part.
     """
 
     name: str

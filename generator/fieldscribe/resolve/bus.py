@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import families
+from fieldscribe.language.keys import keys_of_family
+from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Code
 from fieldscribe.resolve.drafts import humanised
@@ -16,7 +18,7 @@ from fieldscribe.resolve.values import integer, interval
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.families.contract import BusKeys
+    from fieldscribe.families.contract import BusKeys, Family
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
 _LAST_UNIT = 255
@@ -60,8 +62,8 @@ def _of_family(scope: Scope, raw: Map, keys: BusKeys) -> None:
             message = f"the key `{key}` is missing: the family {family} needs it"
             scope.report.error("missing-key", message, raw.span(), f"add `{key}: …`")
     for key in raw:
-        if key not in keys and not key.startswith("x-"):
-            known = sorted(other.name for other in families() if key in other.bus)
+        if not _knows(scope.family, key) and not key.startswith("x-"):
+            known = sorted(other.name for other in families() if _knows(other, key))
             message = f"`{key}` is nothing that the family {family} knows"
             hint = f"it belongs to {' and '.join(known)}: leave it out"
             scope.report.error("family-key", message, raw.key_span(key), hint)
@@ -69,6 +71,11 @@ def _of_family(scope: Scope, raw: Map, keys: BusKeys) -> None:
         message = f"{raw['broadcast']} is no broadcast of the family {family}"
         hint = f"write {keys.broadcast}: bit 5 of the address byte, or leave it out"
         scope.report.error("wrong-choice", message, raw.span("broadcast"), hint)
+
+
+def _knows(one: Family, key: str) -> bool:
+    """Whether a family has a key under `bus`: with others, or alone."""
+    return key in one.bus or any(own.name == key and BUS in own.places for own in keys_of_family(one))
 
 
 def ends_of(scope: Scope, raw: Map, key: str, wrong: str, last: int) -> tuple[int, int]:

@@ -22,7 +22,7 @@ def stays_whole(subject: Subject) -> None:
     """A bell that is struck too often breaks."""
     if subject.scope.bus is not None and of_bus(subject.bus).strikes > _MOST:
         text = f"no bell stands more than {_MOST} strikes in a minute"
-        subject.report.error("too-many-strikes", text, subject.scope.bus.span("bitrate"), "write a smaller `bitrate`")
+        subject.report.error("too-many-strikes", text, subject.scope.bus.span("strikes"), "write a smaller number")
 
 
 def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:

@@ -16,7 +16,7 @@ FAMILY = Family(
     folder=__package__,
     spaces={"coil": "bit", "discrete": "bit", "holding": "word", "input": "word"},
     last_address=0xFFFF,
-    bus=BusKeys(("framings", "functions"), frozenset({"pad_coil_bytes"}), (1, 127)),
+    bus=BusKeys(("framings", "functions"), codes=(1, 127)),
     framings=("rtu", "tcp"),
     codes=(Codes("functions", "function", "function", emitted=False), Codes("exceptions", "exception", "exception")),
     commands_in="holding",
