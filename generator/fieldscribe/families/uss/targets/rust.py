@@ -9,13 +9,13 @@ from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
-from fieldscribe.targets.rust.layout import array
+from fieldscribe.targets.rust.layout import array, binding
 from fieldscribe.targets.rust.literals import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device
+    from fieldscribe.model import Bus, Device
     from fieldscribe.targets.rust.families import Way
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
@@ -27,18 +27,27 @@ def context(device: Device) -> dict[str, object]:
         "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
-        "units": f"({bus.units[0]}, {bus.units[1]})",
-        "pzd": f"({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})",
+        "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
         "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
         "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
         "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
             ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),
-            ("exceptions", "Error values of a refusal.", constants(bus.exceptions, "u16")),
+            (
+                "exceptions",
+                "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.",
+                constants(bus.exceptions, "u16", "error"),
+            ),
         ),
     }
+
+
+def _profile(bus: Bus) -> str:
+    units, pzd = f"({bus.units[0]}, {bus.units[1]})", f"({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})"
+    broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
+    naming = ".naming(exceptions::name)" if bus.exceptions else ""
+    return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
 
 
 def traits(subject: Subject, scope: Scope) -> Iterator[str]:
