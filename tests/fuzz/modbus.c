@@ -40,6 +40,7 @@ int main(void)
             written[at] = value_of(&request, number, at);
         }
         request.values = request.function <= 0x04U ? NULL : written;
+        request.given = request.function <= 0x04U ? 0U : request.count;
         values = exactly(2U * (size_t)request.count);
         reply.values = values;
         reply.room = request.count;

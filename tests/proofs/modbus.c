@@ -22,6 +22,8 @@ static fieldscribe_modbus_profile profile;
 static fieldscribe_modbus_request request;
 static fieldscribe_modbus_reply reply;
 static fieldscribe_modbus_reading reading;
+static fieldscribe_modbus_reading block;
+static uint16_t address;
 static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
 static volatile uint8_t number;
@@ -46,6 +48,7 @@ static void ask(uint16_t count)
 {
     request.count = count;
     request.values = EXACTLY(count, items);
+    request.given = count;
 }
 
 /* A request of any number of items that fits into the memory of a small machine. */
@@ -55,6 +58,7 @@ static void ask_any(void)
         request.count = 0U;
     }
     request.values = many_items;
+    request.given = sizeof many_items / sizeof many_items[0];
 }
 
 /* A reply with room for so many items. */
@@ -71,7 +75,7 @@ void prove_read(uint8_t unit)
 
 void prove_write(uint8_t unit)
 {
-    request = fieldscribe_modbus_write(unit, &writing, items);
+    request = fieldscribe_modbus_write(unit, &writing, items, ITEMS);
 }
 
 void prove_send(uint8_t unit)
@@ -143,6 +147,7 @@ void prove_allows__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
+    request.given = 0U;
     if (request.function < 0x05U) {
         (void)fieldscribe_modbus_allows(&profile, &request);
     } else {
@@ -265,6 +270,7 @@ void prove_build__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
+    request.given = 0U;
     build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
     build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
 }
@@ -355,6 +361,7 @@ void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, s
     if (length <= FRAMES) {
         //@ split length;
         request.values = NULL;
+        request.given = 0U;
         into(many_items, room);
         (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, &reply);
     }
@@ -395,19 +402,38 @@ void prove_reply_length(fieldscribe_modbus_framing framing)
     (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
 }
 
-void prove_left(size_t length)
+void prove_left(size_t size, size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), length);
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), size, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), size, length);
     }
 }
 
-void prove_left__long_frame(size_t length)
+void prove_left__long_frame(size_t size, size_t length)
 {
     if (length <= LARGE) {
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, long_frame, length);
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, long_frame, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_RTU, &request, long_frame, size, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_TCP, &request, long_frame, size, length);
+    }
+}
+
+/* What is found is read to its end: all of it was brought. */
+void prove_words_in(uint16_t count)
+{
+    if (count <= SHORT && reading.count <= SHORT) {
+        const uint16_t *found;
+        //@ split count;
+        //@ split reading.count;
+        into(EXACTLY(count, items), count);
+        reply.count = count;
+        block = reading;
+        block.address = address;
+        found = fieldscribe_modbus_words_in(&block, &reply, &reading);
+        if (found != NULL && reading.count > 0U) {
+            (void)found[0];
+            (void)found[reading.count - 1U];
+        }
     }
 }

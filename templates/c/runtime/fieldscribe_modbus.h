@@ -9,20 +9,24 @@
  *
  *     uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
  *     uint16_t words[1];
- *     fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+ *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &hitachi_l200_base_frequency_frame.read);
  *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length);
  *     send(frame, length);
  *     got = 0U;
- *     while ((left = fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, frame, got)) > 0U) {
+ *     while ((left = fieldscribe_modbus_left(
+ *                 &profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, got)) > 0U) {
  *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply);
- *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, &raw);
+ *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, reply.count, &raw);
  *
- * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words), then
- * fieldscribe_modbus_write(unit, &frame.write, words). To a broadcast fieldscribe_modbus_reply_length is 0: nobody
- * answers, so do not wait.
+ * Reading a block, in the same way: point = fieldscribe_modbus_words_in(&block, &reply, &frame.read) for each of its
+ * points, then fieldscribe_take_u16(frame.layout, point, frame.read.count, &raw), which is false where it was NULL.
+ *
+ * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words, count)
+ * puts any that fits into the words, then fieldscribe_modbus_write(unit, &frame.write, words, count). Nobody answers
+ * what goes to all units: nothing is left to be received, so skip the parsing.
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"
@@ -152,8 +156,8 @@ typedef struct fieldscribe_modbus_command {
 } fieldscribe_modbus_command;
 
 /*
- * A request. `values` has `count` items for functions that write: words, or 0 and 1 for coils. For 08h `address` is the
- * sub-function (0) and values[0] the test data. `transaction` is used by TCP alone.
+ * A request. `values` has `given` items, at least `count` for functions that write: words, or 0 and 1 for coils. For
+ * 08h `address` is the sub-function (0) and values[0] the test data. `transaction` is used by TCP alone.
  */
 typedef struct fieldscribe_modbus_request {
     uint16_t transaction;
@@ -162,6 +166,7 @@ typedef struct fieldscribe_modbus_request {
     uint16_t address;
     uint16_t count;
     const uint16_t *values;
+    size_t given;
 } fieldscribe_modbus_request;
 
 /*
@@ -179,9 +184,12 @@ typedef struct fieldscribe_modbus_reply {
 FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_read(
     uint8_t unit, const fieldscribe_modbus_reading *what);
 
-/* The request that writes a point; `values` stay the caller's and are read when the frame is built. */
+/*
+ * The request that writes a point, with `given` words (or coils), which no frame is built of if they are too few. They
+ * stay the caller's and are read when the frame is built.
+ */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values);
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given);
 
 /* The request of a command. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_send(
@@ -197,9 +205,13 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request);
 
-/* How many bytes of the answer are still to be waited for when `length` of them have come; 0 when it is whole. */
-FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length);
+/*
+ * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
+ * never more than fit; 0 when it is whole, and where nobody answers.
+ */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
+    size_t length);
 
 /* Reads the answer to a request. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -224,6 +236,10 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
+/* The words of a point, or its coils, in what a block brought; NULL when that does not hold all of them. */
+FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+    const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
+
 /* The checksum of RTU frames; its low byte travels first. */
 FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length);
 
@@ -244,20 +260,20 @@ extern "C" {
 
 fieldscribe_modbus_request fieldscribe_modbus_read(uint8_t unit, const fieldscribe_modbus_reading *what)
 {
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL};
+    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL, 0U};
     return request;
 }
 
 fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values)
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, values};
+    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, values, given};
     return request;
 }
 
 fieldscribe_modbus_request fieldscribe_modbus_send(uint8_t unit, const fieldscribe_modbus_command *command)
 {
-    return fieldscribe_modbus_write(unit, &command->write, &command->value);
+    return fieldscribe_modbus_write(unit, &command->write, &command->value, 1U);
 }
 
 uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
@@ -335,7 +351,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_allows(
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
     if ((request->count == 0U) || (request->count > known->most) || (single && (request->count != 1U)) ||
-        (!fieldscribe_modbus_reads(function) && (request->values == NULL))) {
+        (!fieldscribe_modbus_reads(function) && (request->given < request->count))) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
     if ((function == 0x08U) ? (request->address != 0U) : (((uint32_t)request->address + request->count) > 0x10000U)) {
@@ -523,7 +539,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbu
     if ((function == 0x0FU) || (function == 0x10U)) {
         return (fieldscribe_modbus_get(pdu + 3) == count) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if ((request->values == NULL) || (count == 0U) ||
+    if ((request->given == 0U) ||
         (fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request))) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
@@ -633,16 +649,30 @@ uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profi
     return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
 }
 
-uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length)
+uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size, size_t length)
 {
-    const uint32_t around = fieldscribe_modbus_around(framing);
+    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U; /* the shortest answer */
     const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
-    uint32_t whole = around + 3U; /* of a refusal, which is the shortest answer */
-    if ((length >= whole) && ((bytes[code] & 0x80U) == 0U)) {
-        whole = around + fieldscribe_modbus_answer(request);
+    uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
+    if ((whole > refusal) && ((length < refusal) || ((buffer[code] & 0x80U) != 0U))) {
+        whole = refusal;
+    }
+    if (whole > size) {
+        whole = (uint32_t)size;
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
+}
+
+const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+    const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point)
+{
+    const uint32_t before = (uint32_t)point->address - block->address; /* far too many if it begins before the block */
+    if ((point->function != block->function) || (point->count > reply->count) ||
+        (before > ((uint32_t)reply->count - point->count))) {
+        return NULL;
+    }
+    return &reply->values[before];
 }
 
 #ifdef __cplusplus

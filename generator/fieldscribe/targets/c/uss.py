@@ -209,7 +209,7 @@ def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: lis
 
 
 def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
-    position = f"{{{min(point.addresses)}U}}"
+    position = f"{{{min(point.addresses)}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     return WordView(
