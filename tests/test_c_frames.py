@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -954,6 +955,45 @@ int main(void)
     image = tmp_path / "late"
     succeed([tool(compiler[0]), *compiler[1:], *WARNINGS, f"-I{folder}", "-o", image, tmp_path / "late.c"])
     succeed([image])
+
+
+RENAMED = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_uss_uss.h"
+int main(void)
+{
+    const kitchen_uss_old_main_setpoint_with with = {0U, 0x42480000U};
+    int16_t raw = 0;
+    const fieldscribe_uss_request request = fieldscribe_uss_read(3U, &kitchen_uss_old_command_source_frame.read);
+    return request.parameter == kitchen_uss_command_source_frame.read.parameter &&
+            kitchen_uss_old_maximum_frequency_eeprom_frame.write.parameter == 1082U &&
+            kitchen_uss_old_main_setpoint_encode_count(4000000, &with, &raw) == KITCHEN_USS_OK && raw == 0x3333 &&
+            kitchen_uss_old_command_source_name(KITCHEN_USS_OLD_COMMAND_SOURCE_TERMINALS) != NULL
+        ? 0
+        : 1;
+}
+"""
+
+
+def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
+    """Frames, structs and enums of its own like constants and functions."""
+    for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss"):
+        made = kitchen(name)
+        plain = replace(made, points=tuple(replace(one, was=()) for one in made.points))
+        points = tuple(replace(one, was=(f"old_{one.name}",)) if one.generated else one for one in plain.points)
+        device = replace(plain, points=points)
+        names = {one.name for one in c.identifiers(device)}
+        assert {one.name for one in c.identifiers(plain)} < names
+        for one in c.identifiers(plain):
+            if one.owner.kind == "point":
+                begin = len(f"{name}_")
+                old = "OLD_" if one.name.isupper() else "old_"
+                known = one.owner.name in {point.item for point in points if point.generated}
+                assert not known or f"{one.name[:begin]}{old}{one.name[begin:]}" in names
+    write_headers(device, tmp_path)
+    (tmp_path / "old.c").write_text(RENAMED, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, f"-I{tmp_path / 'c'}")
+    succeed([compiled("gcc", flags, tmp_path / "old.c", tmp_path / "old")])
 
 
 USER = """

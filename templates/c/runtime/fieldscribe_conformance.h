@@ -719,6 +719,11 @@ static inline bool fieldscribe_same_function(fieldscribe_function one, fieldscri
     return one == other;
 }
 
+static inline bool fieldscribe_same_object(const void *one, const void *other)
+{
+    return one == other;
+}
+
 static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 {
     return one == other;
@@ -732,6 +737,8 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 /* A struct has a name in place of an address. */
 #define FIELDSCRIBE_ALIAS_OF_STRUCT(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, sizeof(old_name) == sizeof(new_name))
+#define FIELDSCRIBE_ALIAS_OF_OBJECT(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_object(&(old_name), &(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \
