@@ -44,7 +44,7 @@ static inline fieldscribe_modbus_framing fieldscribe_framing(fieldscribe_vector 
 static inline bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
 {
     uint16_t values[FIELDSCRIBE_ROOM];
-    const uint16_t before = point->address == 0U ? 0U : 1U;
+    const uint16_t before = (uint16_t)(point->address == 0U ? 0U : 1U);
     const uint16_t count = (uint16_t)(before + point->count);
     const fieldscribe_modbus_reading block = {point->function, (uint16_t)(point->address - before), count};
     const fieldscribe_modbus_reading late = {point->function, (uint16_t)(point->address + 1U), count};
@@ -234,14 +234,14 @@ static inline bool fieldscribe_reads_text(const fieldscribe_text *text, const ui
 static fieldscribe_modbus_framing fieldscribe_read_request(
     fieldscribe_vector *v, uint16_t *values, fieldscribe_modbus_request *request)
 {
-    const size_t count = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
+    const size_t given = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
+    const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");
+    const fieldscribe_modbus_reading read = {(uint8_t)fieldscribe_bits(v, "function"),
+        (uint16_t)fieldscribe_bits(v, "address"), (uint16_t)fieldscribe_bits(v, "count")};
+    const fieldscribe_modbus_writing write = {read.function, read.address, read.count};
+    *request = fieldscribe_modbus_reads(read.function) ? fieldscribe_modbus_read(unit, &read)
+                                                       : fieldscribe_modbus_write(unit, &write, values, given);
     request->transaction = (uint16_t)fieldscribe_bits(v, "transaction");
-    request->unit = (uint8_t)fieldscribe_bits(v, "unit");
-    request->function = (uint8_t)fieldscribe_bits(v, "function");
-    request->address = (uint16_t)fieldscribe_bits(v, "address");
-    request->count = (uint16_t)fieldscribe_bits(v, "count");
-    request->values = count != 0U ? values : NULL;
-    request->given = count;
     return fieldscribe_framing(v);
 }
 
