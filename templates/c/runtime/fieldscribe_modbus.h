@@ -738,12 +738,12 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point)
 {
-    const uint32_t before = (uint32_t)point->address - block->address; /* far too many if it begins before the block */
-    if ((point->function != block->function) || (point->count > reply->count) ||
-        (before > ((uint32_t)reply->count - point->count))) {
+    uint32_t before;
+    if ((point->function != block->function) || (point->address < block->address) || (point->count > reply->count)) {
         return NULL;
     }
-    return &reply->values[before];
+    before = (uint32_t)point->address - block->address;
+    return (before > ((uint32_t)reply->count - point->count)) ? NULL : &reply->values[before];
 }
 
 #ifdef __cplusplus
