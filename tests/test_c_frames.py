@@ -1091,6 +1091,53 @@ def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
     assert sizes[2] - sizes[1] <= 264
 
 
+ONE_POINT = """
+#define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "hitachi_l200_modbus.h"
+uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+volatile size_t heard;
+volatile uint16_t shown;
+void start(void);
+static bool exchange(const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    const fieldscribe_modbus_profile *const profile = &hitachi_l200_modbus_profile;
+    size_t length = 0U;
+    return fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, request, frame, sizeof frame, &length) ==
+            FIELDSCRIBE_MODBUS_OK &&
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, request, frame, heard, reply) == FIELDSCRIBE_MODBUS_OK;
+}
+void start(void)
+{
+    uint16_t words[1];
+    uint16_t raw = 0U;
+    fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+    const fieldscribe_modbus_request request = fieldscribe_modbus_read(5U, &hitachi_l200_base_frequency_frame.read);
+    if (exchange(&request, &reply) &&
+        fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, reply.count, &raw)) {
+        shown = raw;
+    }
+    for (;;) {
+    }
+}
+"""
+
+
+def test_a_program_that_reads_registers_links_nothing_else(tmp_path: Path) -> None:
+    """Requests bring what they need: neither what writes nor what reads bits is in the image."""
+    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
+    assert device is not None
+    write_headers(device, tmp_path)
+    (tmp_path / "one.c").write_text(ONE_POINT, "utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", f"-I{tmp_path / 'c'}")
+    image = compiled("arm-none-eabi-gcc", (*flags, *SECTIONS, *WARNINGS), tmp_path / "one.c", tmp_path / "one.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    assert not re.search("take_bits|take_echo|put_writing|put_values|_tcp", symbols)
+    text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
+    print(f"Cortex-M0, -Os, one register read over RTU: .text {text} bytes")
+    assert text <= 1000
+
+
 MISUSE = {
     "no `write` of a point that is only read": (
         "(void)fieldscribe_modbus_write(1U, &kitchen_sink_@R@_frame.write, words, 2U);",

@@ -7,9 +7,16 @@
  * Points need nothing else. Frames also need functions that are defined once in a program: one C file, and no other,
  * says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames that the program uses.
  *
+ * ..._encode holds a value against the limits of the point. fieldscribe_put_u16 and its like do not: they put any raw
+ * number into words that has no more bits than the point, so take what ..._encode gave, or ask ..._check. Words come
+ * with how many there are, and too few are refused. Families say how a point is found among others: in a block
+ * (fieldscribe_modbus_words_in), a telegram (fieldscribe_can_received), process data (fieldscribe_uss_words_heard).
+ *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
  * -ffast-math, its parts and x87 arithmetic are refused with floating point: without them results are exact to the bit.
+ * Clang tells no header of the parts (-freciprocal-math and its like): on x86 they are off here; elsewhere do not give
+ * them.
  */
 #ifndef FIELDSCRIBE_H
 #define FIELDSCRIBE_H
