@@ -6,9 +6,8 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.checks.identifiers import RUST_CONSTANTS, RUST_UNKNOWN
 from fieldscribe.checks.prefixes import C_TAILS, HEADER, LAYOUT
-from fieldscribe.names import pascal
+from fieldscribe.names import RUST_CONSTANTS, RUST_UNKNOWN, pascal
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from test_good import sink
