@@ -71,6 +71,17 @@ def test_c_table(name: str) -> None:
     assert {name for name in found - known(device) if not LAYOUT.fullmatch(name)} == set()
 
 
+def test_the_headers_reserve_no_more_than_they_define() -> None:
+    """A name that no header of any family defines would be refused for nothing."""
+    found = set()
+    for device in map(kitchen, KITCHENS):
+        made = "\n".join(text for _, path, text in outputs(device, ["c"]) if path.endswith(".h") and device.id in path)
+        found |= set(c_identifiers(device))
+        found |= set(re.findall(rf"^static const .*\b{device.id}_(\w+)\[\] =", made, re.MULTILINE))
+        found |= set(re.findall(rf"^typedef .* {device.id}_(\w+);$", made, re.MULTILINE))
+    assert HEADER - found == set()
+
+
 def test_rust_table() -> None:
     """The traits have the constants that no special code may hide, and the enums the name for other numbers."""
     runtime = templates_dir() / "rust" / "runtime" / "fieldscribe_runtime" / "src" / "point.rs"
