@@ -11,6 +11,7 @@ from fieldscribe.model.device import (
     Frame,
     Group,
     Message,
+    Own,
     Role,
     Telegram,
 )
@@ -44,6 +45,7 @@ __all__ = [
     "Limit",
     "Linear",
     "Message",
+    "Own",
     "Place",
     "Point",
     "Role",
