@@ -12,16 +12,17 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from .descriptors import PointAttribute, Renamed
+from .arguments import check_name, shown
+from .commands import Command
+from .descriptors import ByVariant, PointAttribute, Renamed
 from .errors import (
     AbsentError,
     AccessError,
     EchoError,
-    FrameError,
-    NoReplyError,
+    FieldscribeError,
     RequestError,
 )
-from .lookup import find, nearest
+from .lookup import find, is_code, nearest
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
@@ -38,23 +39,57 @@ Value = float | str | tuple[int, ...] | Special
 
 _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})
+_LISTED = 4
+"""So many points of one request are listed in an error."""
 
 
 @contextmanager
-def _about(point: Point) -> Iterator[None]:
-    """What goes wrong on the bus meanwhile says which point was asked for."""
+def about(*points: Point) -> Iterator[None]:
+    """What goes wrong meanwhile says which point was asked for, or which ones one request reads."""
     try:
         yield
-    except (FrameError, RequestError, NoReplyError) as error:
-        error.point = error.point or point.label
+    except FieldscribeError as error:
+        more = f" and {len(points) - _LISTED} more" if len(points) > _LISTED else ""
+        error.point = error.point or ", ".join([one.label for one in points[:_LISTED]]) + more
+        raise
+
+
+@contextmanager
+def _needing(point: Point, other: Point) -> Iterator[None]:
+    """What goes wrong while another point is read says which one was asked for, and that it needs the other."""
+    try:
+        with about(other):
+            yield
+    except FieldscribeError as error:
+        error.point, error.needs = point.label, error.needs or error.point
+        raise
+
+
+@contextmanager
+def _of_group(group: str | None) -> Iterator[None]:
+    """What goes wrong meanwhile says of which group."""
+    try:
+        yield
+    except FieldscribeError as error:
+        error.group = group
         raise
 
 
 def check_unit(unit: int, units: tuple[int, int]) -> None:
     """Raises RequestError (bad_unit) for a unit number that the device cannot have."""
     low, high = units
-    if not isinstance(unit, int) or not low <= unit <= high:
-        raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {unit!r}")
+    if isinstance(unit, bool) or not isinstance(unit, int) or not low <= unit <= high:
+        raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {shown(unit)}")
+
+
+def check_variants(axes: Mapping[str, tuple[str, ...]], variants: Mapping[str, str | None]) -> None:
+    """Raises RequestError (bad_variant) for an axis or a value that the device has not."""
+    for axis, value in variants.items():
+        if axis not in axes:
+            known = f", only by {', '.join(axes)}" if axes else ""
+            raise RequestError("bad_variant", f"the device has no variants by {axis!r}{known}")
+        if value is not None and value not in axes[axis]:
+            raise RequestError("bad_variant", f"{axis} is one of {', '.join(axes[axis])}, not {shown(value)}")
 
 
 def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
@@ -102,11 +137,7 @@ class Session(PointTable, ABC):
     """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
-        for axis, value in variants.items():
-            if axis not in self.VARIANTS:
-                raise ValueError(f"the device has no variants by {axis!r}")
-            if value is not None and value not in self.VARIANTS[axis]:
-                raise ValueError(f"{axis} is one of {', '.join(self.VARIANTS[axis])}, not {value!r}")
+        check_variants(self.VARIANTS, variants)
         self.unit = unit
         self.variants = variants
         self._kept: dict[str, int] = {}
@@ -131,7 +162,7 @@ class Session(PointTable, ABC):
         for point in points:
             at = point.facts.at
             if at not in words:
-                with _about(point):
+                with about(point):
                     words[at] = yield from self._get_steps(at)
             raws[point.facts.item] = self._taken(point, words[at])
         return raws
@@ -139,15 +170,16 @@ class Session(PointTable, ABC):
     def _shared_word_steps(self, point: Point) -> Steps[int]:
         """The word that a bit group shares with others, as it is before the group is written."""
         if not isinstance(point, Decoding):
-            raise AccessError(f"{point.label}: the other bits of its word cannot be read back")
+            raise AccessError("the other bits of its word cannot be read back")
         return (yield from self._get_steps(point.facts.at))[0]
 
     def forget(self) -> None:
         """Read everything anew that was remembered because it changes rarely or never."""
         self._kept.clear()
 
-    def _resolved(self, what: str) -> PointAttribute[Any, Any]:
+    def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
         """A point by name, old name or code, that of this device's variant; raises AccessError."""
+        check_name("point", what)
         name = what
         if (old := self.OLD_NAMES.get(what)) is not None:
             old.warn(stacklevel=4)
@@ -175,11 +207,31 @@ class Session(PointTable, ABC):
         """Why there is no such point, or not yet."""
         axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
         if not axes:
-            near = nearest([*self.POINTS.values()], name)
-            return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
+            return self._other_meaning(name)
         if self.variants.get(axes[0]) is None:
             return f"depends on {axes[0]}: pass it when the device is made"
         return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
+
+    def _other_meaning(self, name: str) -> str:
+        """What a name is that no point has as its own: a documented point, a command, a group, or one like others."""
+        for documented, facts in self.DOCUMENTED.items():
+            if name in (documented, documented.rstrip("_")) or is_code(facts.code, name):
+                return f"is documented only{'' if documented == name else f', as {documented}'}: {facts}"
+        if isinstance(getattr(type(self), name, None), Command):
+            return f"is a command of this device: {name}.send() gives it"
+        if name in self._groups():
+            return f"is a group of this device: read_many({name!r}) reads it"
+        near = nearest([*self.POINTS.values()], name)
+        return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
+
+    def _groups(self) -> list[str]:
+        return list(dict.fromkeys([point.facts.group for point in self.POINTS.values() if point.facts.group]))
+
+    def _meant_by_group(self, group: str) -> str:
+        """What may be meant where there is no such group."""
+        if self._found(group) is not None or find(self.POINTS.values(), group):
+            return f"; it is a point: read_many([{group!r}]) reads it"
+        return f", only {', '.join(self._groups())}"
 
     def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
         """The point that another one needs; raises AccessError that says so."""
@@ -208,7 +260,7 @@ class Session(PointTable, ABC):
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        with _about(point):
+        with about(point):
             return self._taken(point, (yield from self._get_steps(point.facts.at)))
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
@@ -235,7 +287,8 @@ class Session(PointTable, ABC):
             elif item in self._kept and (not writes or other.facts.changes == _NEVER):
                 raws[name] = self._kept[item]
             else:
-                raws[name] = yield from self._read_raw_steps(other)
+                with _needing(point, other):
+                    raws[name] = yield from self._read_raw_steps(other)
         return raws
 
     def _read_steps(self, point: Decoding[T]) -> Steps[T]:
@@ -261,7 +314,7 @@ class Session(PointTable, ABC):
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
         """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
-        with _about(point):
+        with about(point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)
             try:
@@ -290,6 +343,11 @@ class Session(PointTable, ABC):
         """
         group = what if isinstance(what, str) else None
         points = self._group(what) if isinstance(what, str) else self._listed(what)
+        with _of_group(group):
+            return (yield from self._values_steps(points, group))
+
+    def _values_steps(self, points: Sequence[Decoding[Any]], group: str | None) -> Steps[dict[str, Value]]:
+        """The values of points, by name, and before them what their scales need."""
         needed = [self._needed(point, name) for point in points for name in point.scale_needs]
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
@@ -301,21 +359,33 @@ class Session(PointTable, ABC):
         return values
 
     def _listed(self, what: Iterable[str | Point]) -> list[Decoding[Any]]:
+        if isinstance(what, (Point, bytes, bytearray)) or not isinstance(what, Iterable):
+            raise AccessError(f"takes the name of a group, or a list of points and their names, not {shown(what)}")
         points: list[Decoding[Any]] = []
         for one in what:
-            point = self._resolved(one if isinstance(one, str) else one.facts.item)
-            if not isinstance(one, str) and (one.facts is not point.facts or getattr(one, "_device", self) is not self):
-                raise AccessError(f"{one.label} is a point of another device")
+            point = self._own(one)
             self._require(point)
             if not isinstance(point, Decoding):
                 raise AccessError(f"{point.label} cannot be read")
             points.append(point)
         return points
 
+    def _own(self, one: Any) -> PointAttribute[Any, Any]:
+        """The point that a caller means by a name, a code, or a point of this device."""
+        if isinstance(one, ByVariant):
+            same = getattr(type(self), one.name, None) is one
+            return self._resolved(one.name.rstrip("_") if same else one)
+        if not isinstance(one, Point):
+            return self._resolved(one)
+        point = self._resolved(one.facts.item)
+        if one.facts is not point.facts or getattr(one, "_device", self) is not self:
+            raise AccessError(f"{one.label} is a point of another device")
+        return point
+
     def _group(self, group: str) -> list[Decoding[Any]]:
         members = [point for point in self.POINTS.values() if point.facts.group == group and self._has(point)]
         if not members:
-            raise AccessError(f"there is no group {group}")
+            raise AccessError(f"there is no group {group or repr(group)}{self._meant_by_group(group)}")
         return [point for point in members if isinstance(point, Decoding) and self._travels(point)]
 
     def _travels(self, point: Point) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .arguments import raw_number
 from .records import Record
 
 if TYPE_CHECKING:
@@ -48,7 +49,9 @@ class Codes:
         self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
 
     def __call__(self, raw: int) -> Special | None:
-        """The code that a raw number is; None for a quantity."""
+        """The code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
+        if type(raw) is not int:
+            raw = raw_number(raw, 1)
         found = self._single.get(raw)
         if found is None and self._bands:
             return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..arguments import check_integer, shown
 from ..errors import RequestError, TelegramError
 from ..session import check_unit
 from .frames import recognizer
@@ -54,8 +55,11 @@ class Receiver:
 
     def _taken(self, frame: Frame, moment: float) -> int | None:
         """Which of the telegram's frames it is, from 0; None if it is another one."""
-        if not self._is_own(frame):
-            return None
+        try:
+            if not self._is_own(frame):
+                return None
+        except (AttributeError, TypeError):
+            raise RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}") from None
         data = frame.data
         place = 0 if self._multiplexer is None else data[self._multiplexer]
         if place >= len(self._slots):
@@ -81,6 +85,8 @@ class Receiver:
         Two words of two frames are believed only when the same high word came before and after the low one: a counter
         may have moved on in between. Longer runs of words, such as texts, are given as they came last.
         """
+        if not isinstance(positions, (tuple, list, range)) or not positions:
+            raise RequestError("bad_address", f"takes positions of words, as in (0, 1), not {shown(positions)}")
         found = [(self._slot(position), position % len(self._pairs)) for position in positions]
         if any(slot.number == 0 for slot, _ in found):
             raise TelegramError("missing", f"not all frames of {self.telegram} with words {positions} came yet")
@@ -100,8 +106,9 @@ class Receiver:
         return data[high] << 8 | data[low]
 
     def _slot(self, position: int) -> _Slot:
+        check_integer("bad_address", "the position of a word", position)
         if not 0 <= position < self._words:
-            raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {position}")
+            raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {shown(position)}")
         return self._slots[position // len(self._pairs)]
 
 
