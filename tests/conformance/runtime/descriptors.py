@@ -98,8 +98,9 @@ def check_variants(package: Package) -> None:
             {"one": 1, "some": 3}, {"one": 2}, {"some": 3}, {"some": 3},
         ]  # fmt: skip
         refuses(absent, "some exists only for model a or c", devices["b"].read_many, ["some"])
-        refuses(ValueError, "the device has no variants by 'shape'", kind, line({}), 1, {"shape": "x"})
-        refuses(ValueError, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
+        wrong = package.runtime.RequestError
+        refuses(wrong, "the device has no variants by 'shape', only by model, size", kind, line({}), 1, {"shape": "x"})
+        refuses(wrong, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
         assert (kind(line({}), 1).variants, devices["a"].variants) == ({}, {"model": "a"})
         assert (kind.read.label, kind.both.label, kind.one_a.facts.name) == ("R1 read", "both", "one")
         assert sorted(kind.POINTS) == ["both", "class", "one_a", "one_b", "read", "some", "write"]
@@ -158,7 +159,8 @@ def check_points_by_text(package: Package) -> None:
         refuses(access, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
         refuses(access, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
         refuses(access, "zzz is no point of this device", device.point, "zzz")
-        refuses(access, " is no point of this device", device.point, "")
+        refuses(access, "a point is named by a text, not ''", device.point, "")
+        refuses(access, "a point is named by a text, not None", device.point, None)
         refuses(access, "level depends on model: pass it when the device is made", undecided.point, "L")
         refuses(runtime.AbsentError, "L level_a exists only for model a", device.point, "level_a")
         assert now(device.read_many(["A020", "P1[1]"])) == {"speed": 0, "second": 0}

@@ -128,9 +128,10 @@ def check_codes_on_the_way(package: Package) -> None:
     """Special codes before all else, and behind it."""
     fast, codes = package.runtime.fast, package.runtime.Codes({"off": 0, "band": (8, 9)})
     for find in (codes.finder, codes):
-        plain = fast.coded(find, fast.same(0, 5, _slow))
-        assert (plain(0), plain(5)) == (codes.off, 5)
-        assert _is_slow(plain, 6)
+        for plain in (fast.coded(find, fast.same(0, 5, _slow), _slow), fast.surely_coded(find, fast.same(0, 5, _slow))):
+            assert (plain(0, {}), plain(5, {})) == (codes.off, 5)
+            assert plain(6, {}) == (SLOW, 6, {})
+        assert _is_slow(fast.coded(find, fast.same(0, 5, _slow), _slow), 6, 0.0, False, "x", [])
         back = fast.uncoded(find, fast.same(0, 9, lambda *told: 7), _slow)
         assert [back(number) for number in (1, 5, 12)] == [1, 5, 7]
         assert _is_slow(back, 0, 8)

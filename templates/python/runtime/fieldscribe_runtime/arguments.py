@@ -79,7 +79,9 @@ def check_place(space: Any, address: Any, count: Any) -> None:
     if not isinstance(space, str):
         raise RequestError("bad_space", f"a space is named by a text such as 'holding', not {shown(space)}")
     check_number("bad_address", "address", address, (0, _MOST - 1))
-    check_number("bad_count", "the number of words or bits", count, (1, _MOST))
+    check_integer("bad_count", "the number of words or bits", count)
+    if not 1 <= count <= _MOST:
+        raise RequestError("bad_count", f"takes 1 to {_MOST} words or bits, not {shown(count)}")
 
 
 def check_name(kind: str, name: Any) -> None:
@@ -91,7 +93,10 @@ def check_name(kind: str, name: Any) -> None:
 def check_bytes(reply: Any) -> None:
     """Raises FrameError for what is no reply at all, whatever bytes it has."""
     if not isinstance(reply, (bytes, bytearray)):
-        hint = ": an async transport belongs to the async device" if hasattr(reply, "__await__") else ""
+        hint = ""
+        if hasattr(reply, "__await__"):
+            hint = ": an async transport belongs to the async device"
+            getattr(reply, "close", str)()  # a coroutine, which nobody will await
         raise FrameError("wrong_type", f"a reply is bytes, not {shown(reply)}{hint}")
 
 

@@ -25,7 +25,7 @@ class _Packed:
 
     def unpack(self, data: bytes, /) -> tuple[int, ...]:
         """The bits; raises struct.error for more or fewer bytes."""
-        number = int.from_bytes(data, "little")
+        number = int.from_bytes(memoryview(data), "little")
         if len(data) != self.size:
             raise struct.error
         return tuple([number >> at & 1 for at in self._places])

@@ -333,7 +333,7 @@ class Encoding(Point, Generic[W_contra]):
         """The same for a raw number."""
         if not isinstance(raw, int):
             self.to_words(raw)
-        self._require_writable(self.special(raw))
+        self._require_writable(self.special(int(raw)))
 
     def _require_writable(self, code: Special | None) -> None:
         if code is not None and not code.writable:

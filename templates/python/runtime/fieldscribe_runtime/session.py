@@ -383,9 +383,10 @@ class Session(PointTable, ABC):
         return point
 
     def _group(self, group: str) -> list[Decoding[Any]]:
+        check_name("group", group)
         members = [point for point in self.POINTS.values() if point.facts.group == group and self._has(point)]
         if not members:
-            raise AccessError(f"there is no group {group or repr(group)}{self._meant_by_group(group)}")
+            raise AccessError(f"there is no group {group}{self._meant_by_group(group)}")
         return [point for point in members if isinstance(point, Decoding) and self._travels(point)]
 
     def _travels(self, point: Point) -> bool:

@@ -51,7 +51,7 @@ class Codes:
     def __call__(self, raw: int) -> Special | None:
         """The code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
         if type(raw) is not int:
-            raw = raw_number(raw, 1)
+            raw = raw_number(raw, 0)
         found = self._single.get(raw)
         if found is None and self._bands:
             return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)

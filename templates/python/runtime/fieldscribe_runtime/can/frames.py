@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..arguments import check_number, shown
+from ..arguments import check_number
 from ..errors import AccessError, FrameError
 from ..records import Record
 
@@ -77,7 +77,7 @@ class Profile(Record):
             if telegram.name == name:
                 return telegram
         known = ", ".join([telegram.name for telegram in self.telegrams])
-        raise AccessError(f"the device has no telegram {shown(name)}" + (f", only {known}" if known else ""))
+        raise AccessError(f"the device has no telegram {name}" + (f", only {known}" if known else ""))
 
     def request(self, *, writes: bool) -> Message:
         """The request that reads or writes a parameter; raises AccessError."""

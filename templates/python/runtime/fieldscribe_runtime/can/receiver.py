@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..arguments import check_integer, shown
+from ..arguments import check_integer, check_name, shown
 from ..errors import RequestError, TelegramError
 from ..session import check_unit
 from .frames import recognizer
@@ -37,6 +37,7 @@ class Receiver:
 
     def __init__(self, profile: Profile, telegram: str, unit: int) -> None:
         check_unit(unit, profile.units)
+        check_name("telegram", telegram)
         layout = profile.telegram(telegram)
         self.telegram = layout.name
         self.unit = unit
