@@ -163,6 +163,37 @@ def scaled_by_several(rule: Rule, low: int, high: int, slow: Way) -> Way:
     return decode
 
 
+def surely_scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
+    """As the two before for what is known to be a raw number of the point."""
+    points = tuple([factor.point for factor in rule.factors])
+    point = points[0]
+    lines: dict[Any, Line] = {}
+    learned = _learner(lines, rule, (low, high), slow)
+
+    def decode(raw: int, raws: Raws) -> Any:
+        try:
+            line = lines.get(raws[point])
+        except (KeyError, TypeError):
+            return slow(raw, raws)
+        if line is not None:
+            times, less, over = line
+            return (raw * times - less) / over
+        return learned(raws[point], raw, raws)
+
+    def decode_by_several(raw: int, raws: Raws) -> Any:
+        try:
+            numbers = tuple(map(raws.__getitem__, points))
+            line = lines.get(numbers)
+        except (KeyError, TypeError, AttributeError):
+            return slow(raw, raws)
+        if line is not None:
+            times, less, over = line
+            return (raw * times - less) / over
+        return learned(numbers, raw, raws)
+
+    return decode if len(points) == 1 else decode_by_several
+
+
 def _learner(lines: dict[Any, Line], rule: Rule, ends: tuple[int, int], slow: Way) -> Way:
     """The slow way, which adds the scale for these numbers of other points to the lines."""
 

@@ -246,7 +246,7 @@ def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> P
     chosen = [at - fields[0] for at in fields]
 
     def raw(found: Sequence[int]) -> int:
-        return point.from_words([found[at] for at in chosen])
+        return point.joined([found[at] for at in chosen])
 
     def way(found: Sequence[int], raws: Raws) -> Any:
         return decoder(raw(found), raws)

@@ -134,11 +134,15 @@ class Point(Guided):
         found = self._words(words)
         if len(found) != self.size:
             raise self._named(WrongLengthError(f"takes {self.size} words, not {len(found)}"))
+        return self.joined(found)
+
+    def joined(self, words: Sequence[int]) -> int:
+        """The same for what are known to be the words of the point."""
         if self.facts.bits is not None:
-            return self.extract(found[0])
+            return self.wire.number(words[0] >> self._lowest_bit, self.width)
         pattern = 0
-        for place in self._from_high(self.facts.at):
-            pattern = pattern << 16 | found[place]
+        for place in self._order:
+            pattern = pattern << 16 | words[place]
         return self.wire.number(pattern, self.wire.bits)
 
     def _words(self, words: Iterable[int]) -> list[int]:
@@ -158,6 +162,10 @@ class Point(Guided):
         for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
             words[place] = raw >> 16 * part & 0xFFFF
         return tuple(words)
+
+    @cached_property
+    def _order(self) -> Sequence[int]:
+        return self._from_high(self.facts.at)
 
     def _from_high(self, place: Place) -> Sequence[int]:
         """Where the words of the number stand among those in ascending order of address, the high one first."""

@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, TypeVar
 
 from .arguments import shown, whole
 from .errors import NotANumberError, ResultOverflowError, WrongTypeError
-from .fast import from_pattern, rounded, scaled, scaled_by, scaled_by_several, to_pattern, unchecked
+from .fast import (
+    from_pattern,
+    rounded,
+    scaled,
+    scaled_by,
+    scaled_by_several,
+    surely_scaled_by,
+    to_pattern,
+    unchecked,
+)
 from .forms import Form, fixed_ends
 from .rules import NO_RAWS, Case, Rule, chosen, outside
 
@@ -75,11 +84,13 @@ class Scaled(Form[float, float]):
         return scaled(self.rule.line(NO_RAWS), low, high, slow) if self.rule.is_safe(NO_RAWS, low, high) else slow
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """By a scale that is fixed, whatever the raw number is."""
+        """By a scale that is fixed, or that other points decide, whatever the raw number is."""
         rule = self.rule
-        if not isinstance(rule, Rule) or rule.factors or self.most is not None or not rule.is_safe(NO_RAWS, low, high):
+        if not isinstance(rule, Rule) or self.most is not None:
             return self.quick_decode(low, high, slow)
-        return unchecked(rule.line(NO_RAWS))
+        if rule.factors:
+            return surely_scaled_by(rule, low, high, slow)
+        return unchecked(rule.line(NO_RAWS)) if rule.is_safe(NO_RAWS, low, high) else slow
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """By a fixed scale into one fixed range."""

@@ -98,4 +98,4 @@ class Decoder(Receiver):
             by_address = dict(zip(addresses, self.words(addresses), strict=True))
         except TelegramError:
             return None
-        return point.from_words([by_address[at] for at in sorted(by_address)])
+        return point.joined([by_address[at] for at in sorted(by_address)])

@@ -107,7 +107,8 @@ class Receiver:
         return data[high] << 8 | data[low]
 
     def _slot(self, position: int) -> _Slot:
-        check_integer("bad_address", "the position of a word", position)
+        if type(position) is not int:
+            check_integer("bad_address", "the position of a word", position)
         if not 0 <= position < self._words:
             raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {shown(position)}")
         return self._slots[position // len(self._pairs)]

@@ -7,7 +7,13 @@ from collections.abc import Generator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..arguments import check_integer, check_name, check_number, check_place, check_words
+from ..arguments import (
+    check_integer,
+    check_name,
+    check_number,
+    check_place,
+    check_words,
+)
 from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
 from ..layouts import Layout
