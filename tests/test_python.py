@@ -675,9 +675,9 @@ def test_help_shows_how_a_device_is_used(package: Any, folder: Path) -> None:
         ]
     assert "await drive.base_frequency.read()" in awaited.__doc__
     assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
-    told = pydoc.render_doc(drive, renderer=pydoc.plaintext)
+    told = pydoc.plain(pydoc.render_doc(drive))
     assert all(f"Place: {point_.facts.where}." in told for point_ in points.Points.POINTS.values())
-    assert "What may be written: 0..400 Hz." in pydoc.render_doc(drive.base_frequency, renderer=pydoc.plaintext)
+    assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
     assert "a command: it writes any number (1 if none is given)" in drive.enter.__doc__
     ruff("check", folder)
 

@@ -159,10 +159,10 @@ def check_places(package: Package) -> None:
             text = f"a space is named by a text such as 'holding', not {wrong!r}"
             for function in (device.read_at, device.write_at):
                 refuses(request, text, function, wrong, 1, 1)
-        for wrong in (None, "5", 1.5, True, [1], Thing()):
+        for number in (None, "5", 1.5, True, [1], Thing()):
             for function in (device.read_at, device.write_at):
-                refuses(request, f"address is an integer, not {wrong!r}", function, space, wrong, 1)
-            assert refusal(device.write_at, space, 1, wrong).status == "bad_value", wrong
+                refuses(request, f"address is an integer, not {number!r}", function, space, number, 1)
+            assert refusal(device.write_at, space, 1, number).status == "bad_value", number
         for address in (-1, 65536, 10**5000):
             assert refusal(device.read_at, space, address).status == "bad_address"
         assert refusal(device.write_at, space, 1, 65536).status == "bad_value"
@@ -319,8 +319,8 @@ def check_lists_of_points(package: Package) -> None:
             text = f"takes the name of a group, or a list of points and their names, not {wrong!r}"
             refuses(access, text, device.read_many, wrong)
         assert str(refusal(device.read_many, device.one)).startswith("takes the name of a group, or a list of points")
-        for wrong in (5, None, Thing(), ""):
-            refuses(access, f"a point is named by a text, not {wrong!r}", device.read_many, [wrong])
+        for one in (5, None, Thing(), ""):
+            refuses(access, f"a point is named by a text, not {one!r}", device.read_many, [one])
         refuses(access, "A1 one is a point of another device", device.read_many, [other.one])
         refuses(access, "there is no group one; it is a point: read_many(['one']) reads it", device.read_many, "one")
         refuses(access, "there is no group A1; it is a point: read_many(['A1']) reads it", device.read_many, "A1")

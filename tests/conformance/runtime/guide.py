@@ -117,7 +117,7 @@ def check_help(package: Package) -> None:
         "- model a: needy\n- model b: mode"
     )
     for told in (kind.speed, device.speed, kind):
-        assert "Special codes: off, hot (as speed.special.off)." in pydoc.render_doc(told, renderer=pydoc.plaintext)
+        assert "Special codes: off, hot (as speed.special.off)." in pydoc.plain(pydoc.render_doc(told))
     assert package.runtime.ReadOnly.__doc__ == "A point that can only be read."
 
 
