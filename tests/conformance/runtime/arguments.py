@@ -159,6 +159,7 @@ def check_places(package: Package) -> None:
             text = f"a space is named by a text such as 'holding', not {wrong!r}"
             for function in (device.read_at, device.write_at):
                 refuses(request, text, function, wrong, 1, 1)
+                assert refusal(function, wrong, 1, 1).status == "bad_space"
         for number in (None, "5", 1.5, True, [1], Thing()):
             for function in (device.read_at, device.write_at):
                 refuses(request, f"address is an integer, not {number!r}", function, space, number, 1)
@@ -167,12 +168,15 @@ def check_places(package: Package) -> None:
             assert refusal(device.read_at, space, address).status == "bad_address"
         assert refusal(device.write_at, space, 1, 65536).status == "bad_value"
         refuses(request, "takes 1 to 65536 words or bits, not 0", device.write_at, space, 1)
+        assert refusal(device.write_at, space, 1).status == "bad_count"
     for device, space in lines[:3]:
         text = "the number of words or bits is an integer, not '5'"
         refuses(request, text, device.read_at, space, 1, "5")
+        assert refusal(device.read_at, space, 1, "5").status == "bad_count"
         assert refusal(device.read_at, space, 1, 0).status == "bad_count"
     for device, space in lines[3:]:
         refuses(request, "index is an integer, not '5'", device.read_at, space, 1, "5")
+        assert refusal(device.read_at, space, 1, "5").status == "bad_index"
 
 
 def check_commands(package: Package) -> None:
@@ -182,6 +186,7 @@ def check_commands(package: Package) -> None:
         now(device.switch.send(True))
         for wrong in ("x", 1.5, True, [1], Thing()):
             refuses(request, f"the number of go is an integer, not {wrong!r}", device.go.send, wrong)
+            assert refusal(device.go.send, wrong).status == "bad_value"
         assert refusal(device.go.send, 65536).status == "bad_value"
         assert repr(device.go) == "<Command go: holding 0x0009 of <Made unit 1>>"
 
@@ -226,8 +231,10 @@ def check_transports(package: Package) -> None:
         assert str(refusal(kind, Thing(), 9, package.uss.Link(4, 3))).endswith("thing has no exchange")
         text = "the link is a Link, as Link(pkw=4, pzd=2), not 5"
         refuses(request, text, kind, on_lines(package)[0][1], 9, 5)
+        assert refusal(kind, on_lines(package)[0][1], 9, 5).status == "bad_link"
     given: Any = type("Given", (), {"framing": "rtu", "exchange": lambda self, request: None})
     refuses(runtime.FrameError, "A1 one: a reply is bytes, not None", blocking(given(), 1).one.read)
+    assert refusal(blocking(given(), 1).one.read).status == "wrong_type"
     async_line = AsyncMemory({})
     error = refusal(blocking(async_line, 1).one.read)
     assert (type(error), str(error).endswith("an async transport belongs to the async device")) == (
@@ -242,6 +249,7 @@ def check_transports(package: Package) -> None:
         silent: Any = type("Silent", (), {"send": lambda self, frame: None, "receive": lambda self: None})
         text = "a transport gives a Frame(id, data) or raises TimeoutError; this one gave None"
         refuses(request, f"P5 speed: {text}", kind(silent(), 9).speed.read)
+        assert refusal(kind(silent(), 9).speed.read).status == "bad_transport"
 
 
 def check_modbus_requests(package: Package) -> None:
@@ -250,15 +258,22 @@ def check_modbus_requests(package: Package) -> None:
     profile = package.runtime.Profile(functions={3: 4, 6: 1})
     request = package.runtime.RequestError
     refuses(request, "takes a Request, not None", modbus.build, None, profile)
+    assert refusal(modbus.build, None, profile).status == "bad_request"
+    refuses(package.runtime.WrongTypeError, "takes bytes, not None", modbus.crc, None)
     good = {"unit": 1, "function": 3, "address": 1, "count": 1}
     for field in good:
         for wrong in (None, "1", 1.5, True, [1]):
             error = refusal(modbus.build, modbus.Request(**{**good, field: wrong}), profile)
             assert (type(error), str(error)) == (request, f"{field} is an integer, not {wrong!r}"), field
+            assert error.status == f"bad_{field}"
     refuses(request, "values are a tuple, not [1]", modbus.build, modbus.Request(1, 6, 1, values=[1]), profile)
     refuses(request, "value is an integer, not True", modbus.build, modbus.Request(1, 6, 1, values=(True,)), profile)
+    for values in ([1], (True,), ("1",)):
+        assert refusal(modbus.build, modbus.Request(1, 6, 1, values=values), profile).status == "bad_value"
     refuses(request, "frames are rtu or tcp, not None", modbus.reply_size, b"\1\3", None)
+    assert refusal(modbus.reply_size, b"\1\3", None).status == "bad_framing"
     refuses(request, "transaction is an integer, not None", modbus.build, modbus.Request(**good), profile, "tcp", None)
+    assert refusal(modbus.build, modbus.Request(**good), profile, "tcp", None).status == "bad_transaction"
     for function in (modbus.reply_size, lambda reply: modbus.parse(modbus.Request(**good), reply, profile)):
         refuses(package.runtime.FrameError, "a reply is bytes, not 'x'", function, "x")
 
@@ -274,6 +289,8 @@ def check_uss_requests(package: Package) -> None:
         for wrong in (None, "1", 1.5, True):
             error = refusal(uss.build, uss.Request(**{**wanted, field: wrong}), kind.PROFILE, link)
             assert (type(error), str(error).endswith(f"not {wrong!r}")) == (request, True), field
+            told = {"width": "bad_value", "words": "bad_value"}.get(field, f"bad_{field}")
+            assert error.status == told, (field, wrong, str(error))
     for mask in (None, 5, (1, 2), ("a", 1, 1, 1)):
         assert type(refusal(uss.broadcast, mask, (0, 0, 0), kind.PROFILE, link)) is request
     for broken in (uss.Link("4", 3), uss.Link(4, None), uss.Link(True, 3)):
@@ -288,12 +305,14 @@ def check_can_frames(package: Package) -> None:
     for wrong in (None, b"x", Thing(), can.Frame(beat_of(package, 0, 1, 2, 3).id, None)):
         for function in (device.take, decoder.take, decoder.decode):
             refuses(request, f"takes a Frame(id, data), not {wrong!r}", function, wrong)
+            assert refusal(function, wrong).status == "bad_frame"
     raws = "raws are raw numbers by name, as {'name': 1}, not [1]"
     refuses(package.runtime.WrongTypeError, raws, decoder.decode, beat_of(package, 0, 1, 2, 3), [1])
-    for wrong in (None, 5, "x", []):
-        assert type(refusal(decoder.words, wrong)) is request
-        assert type(refusal(decoder.word, wrong)) is request or wrong == 5
+    for wrong in (None, 5, "x", [], (1.0,)):
+        assert (type(refusal(decoder.words, wrong)), refusal(decoder.words, wrong).status) == (request, "bad_address")
+        assert refusal(decoder.word, wrong).status in ("bad_address", "missing")
     refuses(request, "takes the class of a CAN device, not None", can.Decoder, None, "beat", 9)
+    assert refusal(can.Decoder, None, "beat", 9).status == "bad_device"
     refuses(package.runtime.AccessError, "a telegram is named by a text, not None", can.Decoder, can_kind, None, 9)
     refuses(request, "the device has no variants by 'x'", lambda: can.Decoder(can_kind, "beat", 9, x="y"))
 

@@ -24,7 +24,12 @@ def _points(package: Package) -> dict[str, Any]:
     bits = {f"bit_{place}": runtime.ReadOnly(runtime.Bit(), at=runtime.coil(place), group="g") for place in range(6)}
     return {
         "PROFILE": runtime.Profile(functions={1: 8, 3: 4, 6: 1}),
-        "BLOCKS": {"g": (block("coil", 1, 0, 6), block("holding", 3, 1, 2))},
+        "BLOCKS": {
+            "g": (block("coil", 1, 0, 6), block("holding", 3, 1, 2)),
+            "split": (block("holding", 3, 41, 1), block("holding", 3, 42, 1)),
+        },
+        "first": runtime.ReadOnly(word, at=at(41), group="split"),
+        "second": runtime.ReadOnly(word, at=at(42), group="split"),
         "speed": runtime.ReadOnly(word, at=at(1), code="A1", group="g"),
         "level": runtime.ReadOnly(word, at=at(2), group="g"),
         "alone": runtime.ReadOnly(word, at=at(9), code="A9"),
@@ -46,6 +51,10 @@ def check_what_errors_are_about(package: Package) -> None:
         error = refusal(device.read_many, "late")
         text = "group late: A30 needy: ratio is zero"
         assert (error.group, error.point, error.needs, str(error)) == ("late", "A30 needy", None, text)
+        memory.since()
+        assert (now(device.read_many("split")), memory.since()) == (
+            {"first": 0, "second": 0}, [(3, 41, 1), (3, 42, 1)],
+        )  # fmt: skip
         memory.fails = TimeoutError()
         error = refusal(device.read_many, "g")
         assert (error.group, error.point, error.status) == ("g", "bit_0, bit_1, bit_2, bit_3 and 2 more", "timeout")

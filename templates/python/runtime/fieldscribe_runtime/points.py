@@ -227,8 +227,6 @@ class Point(Guided):
 
     def _number(self, raw: int) -> int:
         """A raw number as a plain one; raises WrongTypeError for what is no integer."""
-        if type(raw) is int:
-            return raw
         try:
             return raw_number(raw, self.width)
         except CodecError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .arguments import raw_number
+from .arguments import raw_number, shown
 from .records import Record
 
 if TYPE_CHECKING:
@@ -64,6 +64,8 @@ class Codes:
 
     def __getitem__(self, name: str) -> Special:
         """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
+        if not isinstance(name, str) or name not in self._spans:
+            raise KeyError(self._no_such(name))
         low, high = self._spans[name]
         if low != high:
             raise KeyError(f"{name} is all of {low}..{high}: call the codes with the raw number that is meant")
@@ -71,11 +73,15 @@ class Codes:
 
     def __getattr__(self, name: str) -> Special:
         if name not in self.__dict__.get("_spans", ()):  # which a copy has not from the beginning
-            raise AttributeError(f"there is no special code {name}")
+            raise AttributeError(self._no_such(name))
         try:
             return self[name]
         except KeyError as error:
             raise AttributeError(error.args[0]) from None
+
+    def _no_such(self, name: object) -> str:
+        known = f", only {', '.join(self)}" if self.__dict__.get("_spans") else ""
+        return f"there is no special code {name if isinstance(name, str) else shown(name)}{known}"
 
     def __iter__(self) -> Iterator[str]:
         """The names."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
-from ..errors import ExceptionReplyError, FrameError, RequestError
+from ..errors import ExceptionReplyError, FrameError, RequestError, WrongTypeError
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -72,6 +72,8 @@ _CRC = _crc_table()
 
 def crc(data: bytes) -> int:
     """The CRC-16 of RTU frames; it travels low byte first."""
+    if not isinstance(data, (bytes, bytearray)):
+        raise WrongTypeError(f"takes bytes, not {shown(data)}")
     value = 0xFFFF
     for byte in data:
         value = value >> 8 ^ _CRC[(value ^ byte) & 0xFF]
