@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 _MODULES = (
     "__init__",
+    "about",
     "arguments",
     "bits",
     "can/__init__",
@@ -53,6 +54,7 @@ _MODULES = (
     "rules",
     "session",
     "special",
+    "table",
     "texts",
     "uss/__init__",
     "uss/descriptors",

@@ -11,7 +11,7 @@ from ..errors import RequestError, TelegramError, WrongTypeError
 from ..layouts import Layout
 from ..points import Decoding, Point
 from ..rules import NO_RAWS
-from ..session import check_variants, exists
+from ..table import check_variants, exists
 from .frames import LENGTH
 from .receiver import Receiver, pairs_of
 

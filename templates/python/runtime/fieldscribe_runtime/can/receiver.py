@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..arguments import check_integer, check_name, shown
 from ..errors import RequestError, TelegramError
-from ..session import check_unit
+from ..table import check_unit
 from .frames import recognizer
 
 if TYPE_CHECKING:

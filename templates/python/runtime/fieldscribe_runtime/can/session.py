@@ -17,7 +17,8 @@ from ..errors import (
     TelegramError,
 )
 from ..facts import Place
-from ..session import Session, check_unit, check_variants, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .decoder import layouts_of
 from .frames import Frame, Message, Profile, build, parse
 from .receiver import Receiver

@@ -6,13 +6,15 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import ClassVar, TypeVar
 
+from ..about import about
 from ..arguments import check_name, check_place
 from ..bits import BitLayout
 from ..errors import AccessError, NoReplyError, RequestError
 from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
-from ..session import Session, about, check_unit, check_variants, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .frames import (
     BIT_READS,
     WRITE_COIL,

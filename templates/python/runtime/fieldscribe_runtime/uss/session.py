@@ -7,6 +7,7 @@ from collections.abc import Generator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from ..about import about
 from ..arguments import (
     check_integer,
     check_name,
@@ -17,7 +18,8 @@ from ..arguments import (
 from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
 from ..layouts import Layout
-from ..session import Session, about, check_unit, check_variants, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .frames import (
     NO_TASK,
     RAM,
