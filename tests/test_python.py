@@ -660,25 +660,26 @@ def test_separate_places(tmp_path: Path) -> None:
         assert not hasattr(drive.running, "read")
 
 
-def test_help_shows_how_a_device_is_used(package: Any, folder: Path) -> None:
-    points = importlib.import_module("sample_drive.points")
-    drive, awaited = package.SampleDrive, package.SampleDriveAsync
-    for text in (package.__doc__, drive.__doc__):
-        lines = [line.strip() for line in text.splitlines()]
-        assert lines[2:8] == [
-            "drive = SampleDrive(transport, 1, voltage_class='200V')",
-            "drive.base_frequency.read()",
-            "drive.base_frequency.write(value)",
-            "drive.read_many('main')",
-            "SampleDrive.base_frequency.decode(raw)",
-            "help(SampleDrive.base_frequency)",
-        ]
-    assert "await drive.base_frequency.read()" in awaited.__doc__
-    assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
-    told = pydoc.plain(pydoc.render_doc(drive))
-    assert all(f"Place: {point_.facts.where}." in told for point_ in points.Points.POINTS.values())
-    assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
-    assert "a command: it writes any number (1 if none is given)" in drive.enter.__doc__
+@pytest.mark.filterwarnings("ignore:main_frequency is now called")
+def test_help_shows_how_a_device_is_used(folder: Path) -> None:
+    for package in imported(folder, "sample_drive"):
+        drive, awaited = package.SampleDrive, package.SampleDriveAsync
+        for text in (package.__doc__, drive.__doc__):
+            lines = [line.strip() for line in text.splitlines()]
+            assert lines[2:8] == [
+                "drive = SampleDrive(transport, 1, voltage_class='200V')",
+                "drive.base_frequency.read()",
+                "drive.base_frequency.write(value)",
+                "drive.read_many('main')",
+                "SampleDrive.base_frequency.decode(raw)",
+                "help(SampleDrive.base_frequency)",
+            ]
+        assert "await drive.base_frequency.read()" in awaited.__doc__
+        assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
+        told = pydoc.plain(pydoc.render_doc(drive))
+        assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())
+        assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
+        assert "a command: it writes any number (1 if none is given)" in drive.enter.__doc__
     ruff("check", folder)
 
 

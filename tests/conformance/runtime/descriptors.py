@@ -35,6 +35,7 @@ def _made(package: Package) -> tuple[Any, Any]:
     points["one"] = runtime.ByVariant("model", {"a": points["one_a"], "b": points["one_b"]})
     points["old"] = runtime.renamed(points["both"], "both")
     points["old_one"] = runtime.renamed(points["one"], "one")
+    points["old_class"] = runtime.renamed(points["class_"], "class_")
     blocking, awaiting = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
     return blocking, awaiting
 
@@ -126,8 +127,10 @@ def check_old_names_as_text(package: Package) -> None:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             assert (device.point("old"), device.point("old_one")) == (device.both, device.one_a)
+            assert device.point("old_class") is device.class_
         told = [(str(one.message), one.filename) for one in caught]
-        assert told == [("old is now called both", __file__), ("old_one is now called one", __file__)]
+        names = ("old is now called both", "old_one is now called one", "old_class is now called class_")
+        assert told == [(name, __file__) for name in names]
 
 
 def check_points_by_text(package: Package) -> None:
