@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from fieldscribe.diagnostics import Report
+from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
     TYPES,
     Allowed,
@@ -265,7 +267,7 @@ def sample_bus() -> Bus:
     gaps = {"holding": ((0x30, 0x8FF),)}
     return Bus(
         *(("rtu", "tcp"), (1, 32), 0, functions, exceptions, gaps),
-        *("even", {"silent_characters": "3.5"}, {"baud": {"4": "4800"}}, {}),
+        *({"silent_characters": "3.5"}, {"baud": {"4": "4800"}}, {}, ModbusBus("even")),
     )
 
 
@@ -324,6 +326,7 @@ def kitchen_sink() -> Device:
     return made("kitchen_sink")
 
 
+@cache
 def made(name: str) -> Device:
     """One of the devices that were made for the tests, from its description."""
     device = load_device(MADE / name / "device.yaml", Report())

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.families import family_context
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_view
@@ -52,6 +53,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
     return {
         "head": head(device, "//"),
         "points": points,
+        "table": wrap(" ".join(one.name for one in scope.subjects), 100, break_long_words=False),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
@@ -72,7 +74,8 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "package_version": device.version if _SEMANTIC.fullmatch(device.version) else "0.0.0",
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
-        **family_context(device),
+        "family": device.family,
+        **in_rust(device.family).context(device),
     }
 
 
