@@ -88,7 +88,7 @@ def _codes(operand: Operand) -> Iterator[str]:
 
 def _step(operand: Operand, *, limit: bool) -> str:
     """The call that puts a factor into a rule."""
-    raw, times = _raw_of(operand.point), "limited_by" if limit else "times"
+    raw, times = _raw_of(operand.point), "limited_by" if limit and not operand.ten_to else "times"
     if operand.floating:
         return f".{'over' if operand.over else times}_f32({raw})"
     if operand.exponents is not None:
