@@ -9,7 +9,8 @@ import pytest
 from fieldscribe.arithmetic.lines import Line, count_line
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.lowered import lower, plan_of
-from fieldscribe.model import Special
+from fieldscribe.model import Limit, Special
+from fieldscribe.targets.rust.rules import limit_lines
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from models import allowed, linear, point, sample_device, scaled, titles, value_of
@@ -103,3 +104,12 @@ def test_points_are_found_by_item_and_by_name() -> None:
     points = lower(sample_device(variants)).points
     assert (points["speed"], points["speed_s"], points["speed_l"]) == (variants[0], *variants)
     assert all(first.name == second.name for first, second in pairwise(variants))
+
+
+def test_a_power_of_ten_is_no_factor_that_may_be_zero() -> None:
+    """In Rust a limit may be multiplied with zero, by a call of its own; powers come last."""
+    exponent = point("exponent", 1, "s8", allowed=allowed((-4, 4)))
+    lowered = lower(sample_device((exponent, point("factor", 2, "u8"))))
+    rule = linear(3, 0, value_of("exponent", ten_to=True), value_of("factor"))
+    (line,) = limit_lines(Limit(rule, (), 0, 100), lowered, lower=False)
+    assert ".limited_by(with.factor)?.times_ten_to(" in line
