@@ -22,6 +22,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     ("words, places, files of the package", "__init__ text names diagnostics kinds reading report resources render"),
     ("the neutral model", "existence model plain"),
+    ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),
     ("facts and frames of a family", "families.*"),
@@ -30,6 +31,7 @@ ROOMS = (
     ("text to nodes", "language"),
     ("nodes to the model", "resolve"),
     ("what a family reads of its own keys", "families.*.reading families.*.messages"),
+    ("what compiled languages need alike", "lowered"),
     ("the registry of targets", "targets targets.identifiers"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),

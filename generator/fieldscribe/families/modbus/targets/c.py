@@ -165,7 +165,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
     """None for a point that no function of the device reaches, or that needs its word read first to be written."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
-    target = next((one for one in point.places if one.purpose == "write"), place)
+    target = point.write_place or place
     write = _writing(point, target, functions) if point.writable else 0
     read = read if read in functions else 0
     if point.bits is not None and not read:
