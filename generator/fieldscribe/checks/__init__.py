@@ -17,7 +17,7 @@ def run_checks(subject: Subject) -> None:
         codes_agree,
         conditions_can_hold,
         defaults_are_allowed,
-        emitted_names_do_not_clash,
+        device_name_is_free,
         enums_fit_their_range,
         errata_are_used,
         every_point_has_a_source,
@@ -35,6 +35,7 @@ def run_checks(subject: Subject) -> None:
     )
 
     checks: tuple[Callable[[Subject], None], ...] = (
+        device_name_is_free.check,
         every_point_has_a_source.check,
         lines_run_upwards.check,
         meanings_do_not_compete.check,
@@ -51,9 +52,8 @@ def run_checks(subject: Subject) -> None:
         messages_are_told_apart.check,
         parameters_are_reachable.check,
         frames_agree.check,
-        names_do_not_clash.check,
         errata_are_used.check,
-        emitted_names_do_not_clash.check,
+        names_do_not_clash.check,
     )
     for check in checks:
         check(subject)

@@ -74,6 +74,7 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
         message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
         hint = "give the code another name, so that whoever writes the name means one number"
         subject.report.error("special-twice", message, resolved.draft.span("special"), hint)
+        resolved.draft.failed.add("special")
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:

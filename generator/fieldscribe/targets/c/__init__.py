@@ -8,13 +8,15 @@ from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.families import FAMILIES
 from fieldscribe.targets.c.fold import folded
-from fieldscribe.targets.c.identifiers import identifiers
+from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+
+FOR_PEOPLE = False
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -36,4 +38,4 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
         yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
-from fieldscribe.targets.c.modbus import exceptions_of
+from fieldscribe.targets.c.modbus import exceptions_of, names_of_exceptions
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Point, Telegram
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
+    from fieldscribe.targets.identifiers import Named
 
 _BYTES = 8
 
@@ -136,19 +137,18 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-    """Every identifier of the header, with what it belongs to."""
-    yield from ((f"{view.prefix}_{name}", Owner("target")) for name in ("can_profile", "can_dialogue"))
-    yield f"{view.upper}_CAN_BITRATE", Owner("target")
+def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
+    """Every identifier of the header, by what it belongs to."""
+    own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
+    yield Owner("target", "what the header of frames needs"), own
     for message in bus.messages:
-        yield message.array, Owner("message", message.name)
+        yield Owner("message", message.name), (message.array,)
     for telegram in bus.telegrams:
-        owner = Owner("telegram", telegram.name)
-        yield from ((name, owner) for name in (telegram.constant, telegram.slots_name))
-    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
+        yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name)
+    yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
-        yield from ((name, Owner("group", group.title)) for name in (group.array, group.count_name))
-    yield from names_of((*bus.layouts, *(one.descriptor for one in (*bus.parameters, *bus.cyclic))))
+        yield Owner("group", group.title), (group.array, group.count_name)
+    yield from names_of(bus.layouts, (one.descriptor for one in (*bus.parameters, *bus.cyclic)))
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

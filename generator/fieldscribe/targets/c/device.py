@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
@@ -35,7 +36,7 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         one = point_view(point, scope)
         by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
         for old in point.was:
-            item = old + point.item[len(point.name) :]  # a variant keeps its suffix
+            item = old_item(point, old)
             of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
             aliases += [AliasView(item, one.item, *alias) for alias in of_item]
     groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
@@ -59,6 +60,11 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         double=not names_only and any(computes_in_double(point) for point in device.points if point.generated),
     )
     return view, scope
+
+
+def old_item(point: Point, old: str) -> str:
+    """The item under a former name; a variant keeps its suffix."""
+    return replace(point, name=old).item
 
 
 def _title(group: str, scope: Scope) -> str:

@@ -13,18 +13,18 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView
-    from fieldscribe.targets.identifiers import Owner
+    from fieldscribe.targets.identifiers import Named
 
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """The view of the header of frames, and every identifier in it with what it belongs to.
+    """The view of the header of frames, and every identifier in it by what it belongs to.
 
     `adapters` are macros with which points answer conformance vectors that only this family has, by their function.
     """
 
     view: Callable[[Device, DeviceView, Scope], Any]
-    identifiers: Callable[[Any, DeviceView], Iterator[tuple[str, Owner]]]
+    identifiers: Callable[[Device, Any, Scope], Iterator[Named]]
     adapters: Callable[[Any], Iterator[tuple[str, str]]]
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.identifiers import Named
 
 _LINE = 120
 _WIDTHS = (8, 16, 32, 64)
@@ -85,10 +86,11 @@ def places_of(point: Point) -> list[int]:
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
-def names_of(descriptors: Iterable[Descriptor]) -> Iterator[tuple[str, Owner]]:
-    """The identifiers of descriptors, with what they belong to."""
-    for one in descriptors:
-        yield one.name, Owner("point", one.item, "the frame") if one.item else Owner("target", "layouts")
+def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Iterator[Named]:
+    """The identifiers of layouts, and of the descriptors of points."""
+    yield Owner("target", "the layouts of points in words"), [one.name for one in layouts]
+    for one in others:
+        yield Owner("point", one.item), (one.name,)
 
 
 def _mask(point: Point) -> int:

@@ -13,11 +13,12 @@ from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Block, Command, Device, Place, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import Define, DeviceView, PointView
+    from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -126,15 +127,20 @@ def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], .
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-    """Every identifier of the header, with what it belongs to."""
+def identifiers(device: Device, bus: BusView, _: Scope) -> Iterator[Named]:
+    """Every identifier of the header, by what it belongs to."""
     for blocks in bus.blocks:
-        yield from ((name, Owner("group", blocks.name)) for name in (blocks.array, blocks.count_name))
-    for command in bus.commands:
-        name = command.descriptor.name
-        yield from ((one, Owner("command", name)) for one in (name, *(define for define, _ in command.defines)))
-    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
-    yield from names_of((*bus.layouts, *(one.descriptor for one in bus.frames)))
+        yield Owner("group", blocks.name), (blocks.array, blocks.count_name)
+    for command, made in zip(device.commands, bus.commands, strict=True):
+        yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
+    yield from names_of_exceptions(device, bus.exceptions)
+    yield from names_of(bus.layouts, (one.descriptor for one in bus.frames))
+
+
+def names_of_exceptions(device: Device, made: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
+    """The enumerators of the codes with which a device refuses."""
+    for code, (name, _, _) in zip(device.bus.exceptions, made, strict=True):
+        yield Owner("exception", code.name), (name,)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

@@ -110,10 +110,10 @@ def _tables(point: Point, name: str, scope: Scope) -> Iterator[TableView]:
     """The arrays of a point: the words of a text, its ranges if it is the first that has them."""
     if point.text is not None:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
-        yield TableView("uint16_t", f"{name}_addresses[{point.words}]", tuple(rows))
+        yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
     elif ranges_table(point, scope) == f"{name}_ranges":
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in ranges_of(point)), ", ", "    ")
-        yield TableView("fieldscribe_range", f"{name}_ranges[]", tuple(rows))
+        yield TableView("fieldscribe_range", f"{name}_ranges", "", tuple(rows))
 
 
 def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:

@@ -31,10 +31,11 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class TableView:
-    """A constant array: its type, name with brackets, and rows."""
+    """A constant array: its type, name, length (empty where the rows say it), and rows."""
 
     type: str
     name: str
+    length: str
     rows: tuple[str, ...]
 
 

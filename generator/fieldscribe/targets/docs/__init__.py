@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+    from fieldscribe.targets.identifiers import Names
+
+FOR_PEOPLE = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -27,3 +30,15 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     """Documentation needs no runtime."""
     del device
     return ()
+
+
+def identifiers(device: Device) -> Iterable[Names]:
+    """What is read by people has no namespaces."""
+    del device
+    return ()
+
+
+def device_name_taken(name: str) -> str:
+    """Every name will do for a page."""
+    del name
+    return ""

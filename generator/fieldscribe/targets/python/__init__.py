@@ -9,7 +9,7 @@ from fieldscribe.targets.python.device import device_view
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
-from fieldscribe.targets.python.names import identifiers
+from fieldscribe.targets.python.names import device_name_taken, identifiers
 from fieldscribe.targets.python.points import points_view
 from fieldscribe.text import python_doc
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+
+FOR_PEOPLE = False
 
 _MODULES = (
     "__init__",
@@ -96,4 +98,4 @@ def _head(device: Device) -> Mapping[str, object]:
     }
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

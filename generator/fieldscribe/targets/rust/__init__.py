@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.conformance import arms, conformance_tables, row_lines
 from fieldscribe.targets.rust.device import device_context
-from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
 if TYPE_CHECKING:
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+
+FOR_PEOPLE = False
 
 _SOURCES = ("lib", "points", "enums", "flags", "with")
 _RUNTIME = (
@@ -98,4 +100,4 @@ def runtime(_: Device) -> Iterator[tuple[str, str]]:
         yield f"rust/fieldscribe_conformance/{name}", f"rust/runtime/fieldscribe_conformance/{name}"
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 _LONG = 90
 
+UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
+"""What the variant for numbers without a name is called: the first of these that no entry takes."""
+
 
 def enum_views(device: Device, scope: Scope) -> Iterator[EnumView]:
     """The enums that generated points use, in the device's order."""
@@ -121,7 +124,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
     name = type_name(enum.name)
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(one for one in ("Unknown", "Other", "Unnamed", "Number") if one not in taken)
+    unknown = next(one for one in UNKNOWN if one not in taken)
     return EnumView(sentence(enum.name), name, raw, entries, unknown)
 
 

@@ -26,7 +26,10 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
+    from fieldscribe.targets.identifiers import Names
     from fieldscribe.targets.vectors.exchanges import Wire
+
+FOR_PEOPLE = False
 
 _FAMILIES: Mapping[str, tuple[Callable[[Lines, Device], None], Callable[[Device], Sequence[Wire]]]] = {
     "modbus": (modbus, modbus_wires),
@@ -46,6 +49,18 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     """No files are copied beside the vectors."""
     del device
     return ()
+
+
+def identifiers(device: Device) -> Iterable[Names]:
+    """Vectors have the names of the description, as they are."""
+    del device
+    return ()
+
+
+def device_name_taken(name: str) -> str:
+    """Every name will do for a file of vectors."""
+    del name
+    return ""
 
 
 def collect(device: Device) -> Lines:

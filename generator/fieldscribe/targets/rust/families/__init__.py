@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.identifiers import Identifier
+    from fieldscribe.targets.identifiers import Names
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 __all__ = ["family_context", "family_identifiers", "family_traits", "space"]
@@ -33,6 +33,6 @@ def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
     return _TRAITS[scope.family](subject, scope) if scope.family in _TRAITS else ()
 
 
-def family_identifiers(device: Device) -> Iterable[Identifier]:
-    """Identifiers of the family's own items: namespace, identifier, what it stands for."""
+def family_identifiers(device: Device) -> Iterable[Names]:
+    """The names of the family's own items."""
     return _IDENTIFIERS[device.family](device) if device.family in _IDENTIFIERS else ()

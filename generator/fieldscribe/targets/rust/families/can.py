@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
@@ -80,12 +80,12 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[str]:
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(point.telegram)}; }}"
 
 
-def can_identifiers(device: Device) -> Iterator[Identifier]:
+def can_identifiers(device: Device) -> Iterator[Names]:
     """The names of messages and telegrams."""
     for message in device.messages:
-        yield Identifier("Rust, messages", message.name.upper(), Owner("message", message.name))
+        yield Names("Rust, module `messages`", Owner("message", message.name), (message.name.upper(),))
     for telegram in device.telegrams:
-        yield Identifier("Rust, telegrams", type_name(telegram.name), Owner("telegram", telegram.name))
+        yield Names("Rust, module `telegrams`", Owner("telegram", telegram.name), (type_name(telegram.name),))
 
 
 def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:

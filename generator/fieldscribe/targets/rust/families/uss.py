@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array
 from fieldscribe.targets.rust.literals import type_name
@@ -48,11 +48,14 @@ def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:
     yield f"impl runtime::uss::{trait} {{}}"
 
 
-def uss_identifiers(device: Device) -> Iterator[Identifier]:
+def uss_identifiers(device: Device) -> Iterator[Names]:
     """The names of tasks and responses."""
-    for module, codes in (("tasks", device.bus.functions), ("responses", device.bus.responses)):
+    for kind, module, codes in (
+        ("function", "tasks", device.bus.functions),
+        ("response", "responses", device.bus.responses),
+    ):
         for code in codes:
-            yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
+            yield Names(f"Rust, module `{module}`", Owner(kind, code.name), (code.name.upper(),))
 
 
 def _fixed(device: Device) -> Iterator[str]:
