@@ -40,12 +40,12 @@ def identifiers(device: Device) -> Iterator[Names]:
     names = Identifiers(device)
     yield from _of_device(device, names)
     for enum in device.enums:
-        owner, space = Owner("enum", enum.name), f"Python, `enums.{names.enum_class(enum.name)}`"
+        owner, space = Owner("enum", enum.name), f"Python, the enum `{enum.name}`"
         for entry in enum.entries:
             yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
     for point in device.points:
         if point.generated:
-            yield from _of_point(point, names)
+            yield from _of_point(point)
     for command, name in command_attributes(device):
         yield Names(_POINTS, Owner("command", command.name), (name,))
 
@@ -61,7 +61,7 @@ def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
         yield Names(constructor, Owner("variant", axis), (parameter(axis),))
 
 
-def _of_point(point: Point, names: Identifiers) -> Iterator[Names]:
+def _of_point(point: Point) -> Iterator[Names]:
     owner = Owner("point", point.item)
     yield Names(_POINTS, owner, (attribute(point.item),))
     if point.variant is not None:
@@ -69,5 +69,5 @@ def _of_point(point: Point, names: Identifiers) -> Iterator[Names]:
     for old in point.was:
         yield Names(_POINTS, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
     for flag in point.flags if point.form == "flags" else ():
-        space = f"Python, `enums.{names.word_class(point)}`"
+        space = f"Python, the flags of `{point.item}`"
         yield Names(space, Owner("flag", flag.name, owner), (upper(flag.name), word_attribute(flag.name)))

@@ -55,13 +55,11 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 
 def _of_enum(enum: Enum) -> Iterator[Names]:
-    owner, space = Owner("enum", enum.name), f"Rust, `enums::{type_name(enum.name)}`"
+    owner, space = Owner("enum", enum.name), f"Rust, the enum `{enum.name}`"
     yield Names("Rust, module `enums`", owner, (type_name(enum.name),))
-    variants = {}
     for entry in enum.entries:
-        variants[variant_name(entry.name)] = entry.name
         yield Names(space, Owner("entry", entry.name, owner), (variant_name(entry.name),))
-    if variants.keys() >= set(UNKNOWN):
+    if {variant_name(entry.name) for entry in enum.entries}.issuperset(UNKNOWN):
         yield Names(space, Owner("target", "a number without a name"), UNKNOWN[:1])
 
 
@@ -82,7 +80,7 @@ def _of_point(subject: Subject) -> Iterator[Names]:
 
 def _constants(subject: Subject, owner: Owner) -> Iterator[Names]:
     """The constants of a point that the author named, and those of every point that these would hide."""
-    point, own = subject.point, f"Rust, `points::{subject.name}`"
+    point, own = subject.point, f"Rust, the point `{subject.point.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
         if name in CONSTANTS:
             yield Names(own, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
@@ -101,7 +99,7 @@ def _constants(subject: Subject, owner: Owner) -> Iterator[Names]:
 def _shared_codes(subject: Subject) -> Iterator[Names]:
     """The type of codes that many points have, with its constants and its own table."""
     name = subject.point.shared_codes
-    owner, space = Owner("special codes", name), f"Rust, `special::{type_name(name)}`"
+    owner, space = Owner("special codes", name), f"Rust, the special codes `{name}`"
     yield Names("Rust, module `special`", owner, (type_name(name),))
     yield Names(space, Owner("target", "the table `CODES` of all special codes"), ("CODES",))
     for special in subject.point.specials:
@@ -114,7 +112,7 @@ def _code_names(special: Special) -> tuple[str, ...]:
 
 
 def _of_flags(subject: Subject, owner: Owner) -> Iterator[Names]:
-    space = f"Rust, `flags::{subject.name}`"
+    space = f"Rust, the flags of `{subject.point.item}`"
     yield Names(space, Owner("target", "the constant `ALL_FALSE` of every word of flags"), ("ALL_FALSE",))
     for flag in subject.point.flags:
         named = Owner("flag", flag.name, owner)
