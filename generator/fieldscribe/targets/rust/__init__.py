@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.conformance import arms, conformance_tables, row_lines
+from fieldscribe.targets.rust.conformance import arms, conformance_tables
 from fieldscribe.targets.rust.device import device_context
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
@@ -87,8 +87,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope, device)
-    lines = [(kind, run, tuple(map(row_lines, rows))) for kind, run, rows in tables]
-    suite = {**context, "tables": lines, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
+    suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 

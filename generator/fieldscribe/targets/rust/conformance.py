@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.families import family_traits
+from fieldscribe.targets.rust.families import is_heard
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
@@ -17,16 +17,32 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
-Needs = tuple[tuple[str, tuple[str, ...]], ...]
-"""Structs and their fields."""
+Tokens = tuple[str, ...]
+"""Words of a row, between which it may be broken."""
 
-_TOKEN = re.compile(r'(?:"(?:\\.|[^"\\])*"|[^\s"])+')
+Needs = tuple[tuple[str, Tokens], ...]
+"""Structs and their fields."""
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
 
-Table = tuple[str, str, tuple[str, ...]]
-"""The function that a table becomes, the runner's function behind it, and its rows."""
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The function that a table becomes, the runner's function behind it, and its rows.
+
+    `kind` is that of the vectors of whole exchanges which it answers; empty for all others.
+    """
+
+    name: str
+    run: str
+    rows: tuple[Tokens, ...]
+    kind: str = ""
+
+    @property
+    def lines(self) -> tuple[Tokens, ...]:
+        """The rows in lines."""
+        return tuple(filled("", " ", row, ";") for row in self.rows)
 
 
 def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
@@ -43,39 +59,35 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     encoding = [one for one in scaled if one.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
     write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
+    alone = ("(alone)",)
     return (
-        ("decode", "decode", (*read_scaled, *_reads(floats))),
-        ("encode", "encode", (*_writes(encoding), *_writes(floats))),
-        ("decode_count", "decode_count", tuple(_reads(counted))),
-        ("decode_plain", "decode_plain", tuple(_reads(plain))),
-        ("decode_coded", "decode_coded", tuple(_reads(coded))),
-        ("decode_mixed", "decode_count", tuple(_reads(mixed))),
-        ("encode_count", "encode_count", tuple(_writes(counted))),
-        ("encode_plain", "encode_plain", write_plain),
-        ("encode_coded", "encode_coded", write_coded),
-        ("encode_mixed", "encode_count", write_mixed),
-        (
+        Table("decode", "decode", (*read_scaled, *_reads(floats))),
+        Table("encode", "encode", (*_writes(encoding), *_writes(floats))),
+        Table("decode_count", "decode_count", tuple(_reads(counted))),
+        Table("decode_plain", "decode_plain", tuple(_reads(plain))),
+        Table("decode_coded", "decode_coded", tuple(_reads(coded))),
+        Table("decode_mixed", "decode_count", tuple(_reads(mixed))),
+        Table("encode_count", "encode_count", tuple(_writes(counted))),
+        Table("encode_plain", "encode_plain", write_plain),
+        Table("encode_coded", "encode_coded", write_coded),
+        Table("encode_mixed", "encode_count", write_mixed),
+        Table(
             "check",
             "check",
             (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
         ),
-        ("name", "name", tuple(_names((*whole, *digits)))),
-        ("special", "special", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
-        ("special_name", "special_name", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
-        ("flag", "flag", tuple(_flags(whole))),
-        ("flag_name", "flag_name", tuple(_flag_names(whole))),
-        ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
-        ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
-        ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
-        ("symbol", "symbol", tuple(_row(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
+        Table("name", "name", tuple(_names((*whole, *digits)))),
+        Table("special", "special", tuple(_row(one, alone) for one in scope.subjects if one.point.specials)),
+        Table("special_name", "special_name", tuple(_row(one, alone) for one in scope.subjects if one.point.specials)),
+        Table("flag", "flag", tuple(_flags(whole))),
+        Table("flag_name", "flag_name", tuple(_flag_names(whole))),
+        Table("bits", "bits", tuple(_row(one, alone) for one in scope.subjects if one.point.bits)),
+        Table("words", "words", tuple(_row(one, alone) for one in scope.subjects if _has_words(one.point))),
+        Table("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
+        Table("symbol", "symbol", tuple(_row(one, alone) for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
-
-
-def row_lines(row: str) -> tuple[str, ...]:
-    """A row of a table in lines; it is broken between tokens alone."""
-    return filled("", " ", _TOKEN.findall(row), ";")
 
 
 def _protocol(device: Device) -> Iterator[Table]:
@@ -87,59 +99,72 @@ def _protocol(device: Device) -> Iterator[Table]:
     named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
     for kind, rows in (("constant", constants), ("constant" if device.family == "can" else "code", named)):
         if rows:
-            yield kind, "code", tuple(rows)
+            yield Table(kind, "code", tuple(rows))
     carriers = {one.name for one in device.messages if one.words}
     heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
     if heard:
-        names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
-        yield "can_taken", "can_taken", tuple(names)
-        yield "can_carrier", "can_carrier", tuple(names)
+        taken = tuple(_item(one.name, "telegrams", "telegram", type_name(one.name)) for one in heard)
+        yield Table("can_taken", "can_taken", taken)
+        yield Table("can_carrier", "can_carrier", taken)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
-        names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]
-        yield "documented", "documented", tuple(names)
+        documented = (_item(one.item, "points", "documented", one.item.upper()) for one in places)
+        yield Table("documented", "documented", tuple(documented))
     if device.commands:
-        sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
-        yield "command", "command", tuple(sent)
+        sent = (_item(one.name, "commands", "sent", one.name.upper()) for one in device.commands)
+        yield Table("command", "command", tuple(sent))
 
 
-def _code(what: str, module: str, name: str, how: str) -> str:
-    return f"{rust_string(f'{what} {name}')} {module} ({how} {name.upper()})"
+def _item(key: str, module: str, how: str, name: str) -> Tokens:
+    """The row of something that is no point: its key in the vectors, and where it is in the crate."""
+    return rust_string(key), module, *_bracketed((how, name))
+
+
+def _code(what: str, module: str, name: str, how: str) -> Tokens:
+    return _item(f"{what} {name}", module, how, name.upper())
+
+
+def _bracketed(tokens: Tokens) -> Tokens:
+    if not tokens:
+        return ("()",)
+    first, *others = tokens
+    return (f"({first})",) if not others else (f"({first}", *others[:-1], f"{others[-1]})")
 
 
 def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
-    heard = (one for one in scope.subjects if one.form != "text" and _is_heard(one, scope))
+    heard = (one for one in scope.subjects if one.form != "text" and is_heard(one, scope))
+    alone = ("(alone)",)
     for kind, rows in (
-        ("place", tuple(_row(one, "alone") for one in placed)),
-        ("fixed", tuple(_row(one, "alone") for one in fixed)),
+        ("place", tuple(_row(one, alone) for one in placed)),
+        ("fixed", tuple(_row(one, alone) for one in fixed)),
         ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
         ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),
         ("digits_coded", tuple(_digits(digits, "r", coded=True))),
         ("digits_encode", tuple(_digits(digits, "w", coded=False))),
         ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
-        ("can_telegram", tuple(_row(one, "frames") for one in heard)),
+        ("can_telegram", tuple(_row(one, ("(frames)",)) for one in heard)),
     ):
         if rows:
-            yield kind, kind, rows
-    ways: dict[tuple[str, str], list[str]] = {}
+            yield Table(kind, kind, rows)
+    ways: dict[tuple[str, str], list[Tokens]] = {}
     for kind, run, row in _exchanges(scope):
         ways.setdefault((kind, run), []).append(row)
     for (kind, run), found in ways.items():
-        yield f"{kind}_by_{run}", run, tuple(found)
+        yield Table(f"{kind}_by_{run}", run, tuple(found), kind)
 
 
-def _exchanges(scope: Scope) -> Iterator[tuple[str, str, str]]:
+def _exchanges(scope: Scope) -> Iterator[tuple[str, str, Tokens]]:
     """The kind, the runner's function and the row of each point that travels."""
     for one in scope.subjects:
         if not one.point.places:
             continue
         for kind, run, needs in _ways(one, scope):
-            given = "".join(f" ({_arguments(*pair)})" for pair in needs)
-            yield kind, run, _row(one, f"wire{given}")
+            given = [token for pair in needs for token in _bracketed(_arguments(*pair))]
+            yield kind, run, _row(one, _bracketed(("wire", *given)))
 
 
 def _ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
@@ -180,18 +205,20 @@ def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str,
 
 
 def _of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
-    return subject.factors_type, subject.factors
+    return subject.factors_struct, subject.factors
 
 
 def _of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
-    return subject.with_type, subject.arguments
+    return subject.name, subject.arguments
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
     """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
-    names = [name for name, _, _ in tables]
+    answering: dict[str, list[str]] = {}
+    for table in tables:
+        answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
     for kind in ("read", "write", "store"):
-        calls = [f"{name}(vector)" for name in names if name.startswith(f"{kind}_by_")]
+        calls = answering.get(kind, [])
         chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
         if len(chain) == 2 or len("".join(chain)) <= _CHAIN:
             lines = ["".join(chain)] if chain else []
@@ -203,28 +230,23 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
             yield f"{whole[-1]},"
 
 
-def _row(subject: Subject, how: str) -> str:
-    return f"{rust_string(subject.point.item)} {subject.name} ({how})"
+def _row(subject: Subject, how: Tokens) -> Tokens:
+    return rust_string(subject.point.item), subject.name, *how
 
 
-def _is_heard(subject: Subject, scope: Scope) -> bool:
-    """Whether the point comes in frames of a telegram."""
-    return any("can::Received" in line for line in family_traits(subject, scope))
+def _sizes(point: Point) -> Tokens:
+    return _bracketed(("sizes", str(point.text.characters if point.text is not None else 0), str(point.words)))
 
 
-def _sizes(point: Point) -> str:
-    return f"sizes {point.text.characters if point.text is not None else 0} {point.words}"
-
-
-def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[str]:
+def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[Tokens]:
     for one in subjects:
         if access in one.point.access and bool(one.point.specials) == coded:
             yield _row(one, _counted(one))
 
 
-def _counted(subject: Subject) -> str:
+def _counted(subject: Subject) -> Tokens:
     digits = subject.point.digits
-    return f"digits {digits.count if digits is not None else 0} {subject.carried}"
+    return _bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
 
 
 def _has_place(point: Point) -> bool:
@@ -237,47 +259,46 @@ def _has_words(point: Point) -> bool:
     return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 
-def _references(point: Point) -> str:
-    keys = (f"{key.upper()} {rust_string(key)}" for key in point.references)
-    return " ".join(("at" if point.text is None else "text", *keys))
+def _references(point: Point) -> Tokens:
+    keys = (token for key in point.references for token in (key.upper(), rust_string(key)))
+    return _bracketed(("at" if point.text is None else "text", *keys))
 
 
-def _reads(subjects: Iterable[Subject]) -> Iterator[str]:
+def _reads(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if "r" in one.point.access:
-            yield _row(one, _arguments(one.factors_type, one.factors))
+            yield _row(one, _bracketed(_arguments(*_of_scale(one))))
 
 
-def _writes(subjects: Iterable[Subject]) -> Iterator[str]:
+def _writes(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if "w" in one.point.access:
-            yield _row(one, _arguments(one.with_type, one.arguments))
+            yield _row(one, _bracketed(_arguments(*_of_all(one))))
 
 
-def _arguments(struct: str, names: tuple[str, ...]) -> str:
+def _arguments(struct: str, names: Tokens) -> Tokens:
     if not names:
-        return ""
-    fields = " ".join(f"{value_name(name)} {rust_string(name)}" for name in names)
-    return f"{struct.removeprefix('with::')}: {fields}"
+        return ()
+    return f"{struct}:", *(token for name in names for token in (value_name(name), rust_string(name)))
 
 
-def _names(subjects: Iterable[Subject]) -> Iterator[str]:
+def _names(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if one.enum is not None:
-            yield f"{rust_string(one.point.item)} {type_name(one.enum.name)} (enum {one.carried})"
+            yield rust_string(one.point.item), type_name(one.enum.name), *_bracketed(("enum", one.carried))
 
 
-def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
+def _flags(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if one.form == "flags":
             for flag in one.point.flags:
-                calls = f"flag {one.raw} {getter_name(flag.name)} with_{flag.name}"
-                yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"
+                calls = _bracketed(("flag", one.raw, getter_name(flag.name), f"with_{flag.name}"))
+                yield rust_string(f"{one.point.item} {flag.name}"), one.name, *calls
 
 
-def _flag_names(subjects: Iterable[Subject]) -> Iterator[str]:
+def _flag_names(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         for flag in one.point.flags:
             for entry in flag.values if flag.width > 1 else ():
                 key = rust_string(f"{one.point.item} {flag.name} {entry.name}")
-                yield f"{key} {one.name} (value {flag.name.upper()}_{entry.name.upper()})"
+                yield key, one.name, *_bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))

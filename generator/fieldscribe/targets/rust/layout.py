@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 _WIDTH = 100
 _ARRAY_WIDTH = 60
 _STRUCT_WIDTH = 18
@@ -82,7 +87,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
     return (*lines, "}")
 
 
-def filled(left: str, between: str, items: list[str], right: str) -> Lines:
+def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
     """Items in as few lines as their width needs, where rustfmt does not look."""
     lines = [left]
     for place, item in enumerate(items):

@@ -71,13 +71,18 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[str]:
     if point.telegram is None:
         yield "impl runtime::can::Parameter {}"
         return
-    _, message = scope.telegrams.get(point.telegram, (None, None))
-    if not point.readable or message is None or not message.words:
-        return
-    frames = {position // message.words for position in point.addresses}
-    # Of more words than two in several frames nobody can tell whether they belong together.
-    if len(frames) == 1 or len(point.addresses) == 2:
+    if can_hears(subject, scope):
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(point.telegram)}; }}"
+
+
+def can_hears(subject: Subject, scope: Scope) -> bool:
+    """Whether a point comes in frames of a telegram, so that its words are known to belong together."""
+    point = subject.point
+    _, message = scope.telegrams.get(point.telegram or "", (None, None))
+    if not point.readable or message is None or not message.words:
+        return False
+    frames = {position // message.words for position in point.addresses}
+    return len(frames) == 1 or len(point.addresses) == 2
 
 
 def can_identifiers(device: Device) -> Iterator[Names]:
