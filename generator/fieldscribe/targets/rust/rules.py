@@ -103,16 +103,18 @@ def _codes(factor: Factor, points: Points) -> Iterator[str]:
 def _step(factor: Factor, points: Points, *, limit: bool) -> str:
     """The call that puts a factor into a rule."""
     source, raw = points.get(factor.point), _raw_of(factor.point)
-    times = "limited_by" if limit else "times"
+    times, wide = "limited_by" if limit else "times", False
     if source is not None and source.type == "f32":
         return f".{times if factor.power > 0 else 'over'}_f32({raw})"
     if factor.ten_to and source is not None:
         low, high = factor.exponents or source.outer
         raw = f"runtime::arithmetic::exponent({raw}, {integer(low)}, {integer(high)})?"
+        wide = True
     if (factor.slope, factor.intercept) != (1, 0):
         raw = f"runtime::arithmetic::line({raw}, {integer(factor.slope)}, {integer(factor.intercept)})?"
+        wide = True
     if factor.ten_to:
-        raw = raw if raw.endswith("?") else f"runtime::Raw::to_i64({raw})"
+        raw = raw if wide else f"runtime::Raw::to_i64({raw})"
         return f".{'times' if factor.power > 0 else 'over'}_ten_to({raw})"
     return f".{times if factor.power > 0 else 'over'}({raw})"
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.families.can import can_context, can_hears, can_identifiers, can_traits
 from fieldscribe.targets.rust.families.modbus import modbus_context
-from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.families.spaces import space, space_variant
 from fieldscribe.targets.rust.families.uss import uss_context, uss_identifiers, uss_traits
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Names
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
-__all__ = ["family_context", "family_identifiers", "family_traits", "is_heard", "space"]
+__all__ = ["family_context", "family_identifiers", "family_traits", "is_heard", "space", "space_variant"]
 
 _CONTEXTS = {"modbus": modbus_context, "can": can_context, "uss": uss_context}
 _TRAITS = {"can": can_traits, "uss": uss_traits}
