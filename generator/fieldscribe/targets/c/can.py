@@ -232,30 +232,32 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[boo
     text = point.text is not None
     place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{hexadecimal(point.addresses[0])}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
-    access = f"{'text_' if text else ''}{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
-    return _frame(point, view, access, parts)
+    ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    return _frame(point, view, ways, parts)
 
 
 def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
     """Where a point is heard in its telegram."""
     if point.text is not None:
-        return _frame(point, view, "text_h", [f"{{{view.function}_addresses, {point.words}U}}"])
+        return _frame(point, view, "h", [f"{{{view.function}_addresses, {point.words}U}}"])
     where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
     return _frame(point, view, "h", [layouts.of(point, range(point.words)), where])
 
 
-def _frame(point: Point, view: PointView, access: str, parts: list[str]) -> FrameView:
-    value = f"{{{', '.join(parts)}}}"
-    ways = access.removeprefix("text_")
+def _frame(point: Point, view: PointView, ways: str, parts: list[str]) -> FrameView:
+    """The frames in which a point is read (`r`), written (`w`), updated (`u`) or heard (`h`)."""
+    value, text = f"{{{', '.join(parts)}}}", point.text is not None
     return FrameView(
-        descriptor=Descriptor(f"fieldscribe_can_{access}", f"{view.function}_frame", value, view.item),
+        descriptor=Descriptor(
+            f"fieldscribe_can_{'text_' if text else ''}{ways}", f"{view.function}_frame", value, view.item
+        ),
         function=view.function,
         macro=view.macro,
         kind=kind_of(point),
         raw_type=view.raw_type,
         read="r" in ways,
         write=ways[-1] in "wu",
-        text=point.text is not None,
+        text=text,
         shares=shares(point),
         lies=lies(point),
     )

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.docs.page import page_of
-from fieldscribe.targets.docs.sheet import sheet_of
-from fieldscribe.targets.docs.special_codes import sheet_of_codes
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -20,6 +16,10 @@ FOR_PEOPLE = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""
+    from fieldscribe.targets.docs.page import page_of
+    from fieldscribe.targets.docs.sheet import sheet_of
+    from fieldscribe.targets.docs.special_codes import sheet_of_codes
+
     yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(device)}).rstrip("\n") + "\n"
     yield f"docs/{device.id}.csv", render("docs/device.csv.j2", {"rows": sheet_of(device)})
     if codes := sheet_of_codes(device):
