@@ -124,6 +124,7 @@ def c_names(text: str) -> Iterator[str]:
     yield from (one for one, value in both if defines[one] != value)  # only other definitions of one name are errors
     yield from defines
     yield from re.findall(r"^    ([A-Z]\w+) = ", text, re.MULTILINE)
+    yield from re.findall(r"^static const .*?\b(\w+)(?:\[\w*\])? = ", text, re.MULTILINE)
     yield from re.findall(r"^static [^;=]*?\b(\w+)\([^;]*?\)\n\{", text, re.MULTILINE)
 
 
@@ -190,12 +191,13 @@ def test_nasty_names(part: int, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("folder", sorted(DEVICES.iterdir()), ids=lambda one: one.name)
 def test_the_lists_hold_what_is_defined(folder: Path) -> None:
-    """Every name that the header of the points defines is one that the target lists."""
+    """Every name that the headers define is one that the target lists."""
     device = load_device(folder / "device.yaml", Report())
     assert device is not None
-    listed = {name.lower() for one in target("c").identifiers(device) for name in one.names}
-    [header] = [text for _, path, text in outputs(device, ["c"]) if path == f"c/{device.id}.h"]
-    assert {one for one in c_names(header) if one.lower() not in listed} == set()
+    listed = {name for one in target("c").identifiers(device) for name in one.names}
+    headers = [text for _, path, text in outputs(device, ["c"]) if path.startswith(f"c/{device.id}")]
+    assert len(headers) == 2
+    assert {name for header in headers for name in c_names(header)} - listed == set()
     for name in LANGUAGES:
         assert len(list(target(name).identifiers(device))) > len(device.points)
 
