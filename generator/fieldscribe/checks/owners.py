@@ -154,7 +154,9 @@ class Owners:
         if owner.kind == "numbering":
             return _key_place(draft.group.get("numbering"), owner.name) or draft.span()
         key = _OF_POINT.get(owner.kind)
-        return (_key_place(draft.get(key), owner.name) if key else None) or draft.span(key)
+        holders = (draft.get(key), draft.group.get(key)) if key else ()
+        places = (_key_place(holder, owner.name) for holder in holders)
+        return next(filter(None, places), None) or draft.span(key)
 
     def _holder_of_codes(self, codes: Owner) -> Draft:
         """The first point that has codes which many share."""
