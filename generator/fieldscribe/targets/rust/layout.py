@@ -99,9 +99,9 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
     return tuple(lines)
 
 
-def chained(text: str) -> Lines:
-    """An expression in one line, else with a line for each step behind a question mark."""
-    if len(text) <= _FREE_WIDTH:
-        return (text,)
-    first, *others = text.split("?.")
-    return first, *(f"    ?.{one}" for one in others)
+def chained(steps: Sequence[str]) -> Lines:
+    """Calls of which each may fail, in one line, else with a line for each step behind a question mark."""
+    line = "?".join(steps)
+    if len(line) <= _FREE_WIDTH:
+        return (line,)
+    return steps[0], *(f"    ?{step}" for step in steps[1:])

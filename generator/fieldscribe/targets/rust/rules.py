@@ -19,8 +19,8 @@ Lines = tuple[str, ...]
 
 def rule_lines(point: Point, points: Points) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
-    otherwise = "Err(runtime::Error::NoCase)"
-    found: list[tuple[str, list[str], str]] = []
+    otherwise: Lines = ("Err(runtime::Error::NoCase)",)
+    found: list[tuple[str, list[str], Lines]] = []
     for case in point.scale or ():
         result = rule_of(case.rule, points)
         if case.point is None:
@@ -34,30 +34,31 @@ def rule_lines(point: Point, points: Points) -> Lines:
     if not found:
         return chained(otherwise)
     arms = (line for one in found for line in _arm(*one))
-    return "match () {", *arms, f"    () => {otherwise},", "}"
+    return "match () {", *arms, f"    () => {'?'.join(otherwise)},", "}"
 
 
-def _arm(raw: str, codes: list[str], result: str) -> Iterator[str]:
+def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
     """An arm of a match over nothing, by whether a raw number is one of these codes."""
     yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
     yield from (f"        {line}" for line in chained(result))
     yield "    }"
 
 
-def rule_of(rule: Linear, points: Points) -> str:
-    """A scale with its factors; where one is a special code there is no number to compute with."""
+def rule_of(rule: Linear, points: Points) -> Lines:
+    """A scale with its factors, step by step; where one is a special code there is no number to compute with."""
     factors = _in_order(rule)
     codes = [code for factor in factors for code in _codes(factor, points)]
     steps = [f".unless({' || '.join(codes)})"] if codes else []
     steps += [_step(factor, points, limit=False) for factor in factors]
-    return _start(rule) + "?".join(steps) if steps else f"Ok({_start(rule)})"
+    return (f"{_start(rule)}{steps[0]}", *steps[1:]) if steps else (f"Ok({_start(rule)})",)
 
 
 def limit_lines(limit: Limit, points: Points, *, lower: bool) -> Lines:
     """A limit as a raw number within its outermost bound, which holds where a code sets the limit aside."""
-    steps = "?".join(_step(factor, points, limit=True) for factor in _in_order(limit.rule))
     bound = integer(outer(limit, lower=lower))
-    found = f"{_start(limit.rule)}{steps}{'?' if steps else ''}.limit()?.{'max' if lower else 'min'}({bound})"
+    factors = (_step(factor, points, limit=True) for factor in _in_order(limit.rule))
+    first, *steps = (*factors, ".limit()", f".{'max' if lower else 'min'}({bound})")
+    found = (f"{_start(limit.rule)}{first}", *steps)
     aside = [
         f"matches!(runtime::Raw::to_i64({_raw_of(name)}), {' | '.join(interval(*band) for band in codes)})"
         for name, codes in limit.unless
