@@ -2,11 +2,16 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench mutants prove misra fuzz check clean
+.PHONY: generate keys test core bench mutants prove misra fuzz check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
 	$(FIELDSCRIBE) generate descriptions --out generated
+
+keys:               ## write the page and the schema of the description language, which follow from its table of keys
+	@sh generator/setup.sh compiler
+	$(FIELDSCRIBE) schema > descriptions/schema.json
+	$(FIELDSCRIBE) schema --page > descriptions/KEYS.md
 
 test:               ## run every test
 	@sh generator/setup.sh tests

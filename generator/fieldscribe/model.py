@@ -26,8 +26,7 @@ class TypeInfo:
 
 TYPES: Mapping[str, TypeInfo] = {
     "bit": TypeInfo(1, False, False),
-    **{f"u{bits}": TypeInfo(bits, False, False) for bits in (8, 16, 32, 64)},
-    **{f"s{bits}": TypeInfo(bits, True, False) for bits in (8, 16, 32, 64)},
+    **{f"{sign}{bits}": TypeInfo(bits, sign == "s", False) for bits in (8, 16, 32, 64) for sign in "us"},
     "f32": TypeInfo(32, False, True),
     "f64": TypeInfo(64, False, True),
     "text": TypeInfo(16, False, False),

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 
@@ -33,7 +35,7 @@ _WORDS = {(31, 16): ("PWE1", "High-Word", "High word"), (15, 0): ("PWE2", "Low-W
 _LINES_OF = {"range_in_units": "range", "pairs": "printed"}
 """The key of `lines` for what is printed, where it is another."""
 _ZERO = ("Null", "zero")
-_OWN_PRINTED = frozenset({"range", "range_in_units", "resolution", "choices", "pairs"})
+_OWN_PRINTED = keys_of(PRINTED)
 
 
 @dataclass(frozen=True, slots=True)

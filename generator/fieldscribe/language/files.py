@@ -1,4 +1,4 @@
-"""All files of one description: device.yaml and the parts that it lists, each held against the schema."""
+"""All files of one description: device.yaml and the parts that it lists, each held against the table of keys."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import nearest
+from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source, shown
@@ -40,8 +41,8 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
     header = None if source is None else load(source, report)
     if header is None or _is_part(header, device_file, report):
         return None
-    fine = check_shape(header, "device_file", report)
-    parts = [_file(path, "part_file", report, inputs) for path in _parts(device_file, header, report)]
+    fine = check_shape(header, DEVICE, report)
+    parts = [_file(path, report, inputs) for path in _parts(device_file, header, report)]
     if not all(key in header for key in _NEEDED):
         return None
     listed = "parts" not in header.broken and len(parts) == len(header.get("parts", ()))
@@ -49,11 +50,11 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
     return Files((header, *(part for part, _ in parts if part is not None)), complete)
 
 
-def _file(path: Path, kind: str, report: Report, inputs: Inputs | None) -> tuple[Map | None, bool]:
+def _file(path: Path, report: Report, inputs: Inputs | None) -> tuple[Map | None, bool]:
     """The file's mapping, and whether it is whole."""
     source = read_source(path, report, inputs)
     root = None if source is None else load(source, report)
-    return root, root is not None and check_shape(root, kind, report)
+    return root, root is not None and check_shape(root, PART, report)
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:

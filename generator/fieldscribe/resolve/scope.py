@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import FAMILIES, Family
 from fieldscribe.language.hints import nearest, quoted
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.files import Files
 
+_SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
 
@@ -162,7 +165,7 @@ def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
     found: dict[str, object] = {}
     for layer in layers:
-        for key in ("line", "section", "page", "document"):
+        for key in _SOURCE:
             if key in layer:
                 found.setdefault(key, layer[key])
         if "source" in layer and isinstance(layer["source"], Map):
