@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def run_checks(subject: Subject) -> None:
-    """All checks, in this order; errata come late because the others use them, and names of sound devices last."""
+    """All checks, in this order; errata come late because the others use them, names last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
         codes_agree,

@@ -81,7 +81,7 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
-    """Findings for facts of numbers at what is none."""
+    """Findings for facts about whole numbers at a text or a floating-point number."""
     rule = "text-fact" if draft.text else "float-fact"
     for key in keys:
         if draft.get(key) is not None and draft.layer(key) is not draft.group:
