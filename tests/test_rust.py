@@ -24,6 +24,7 @@ from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import assignment, binding, calls, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
+from made_once import made_once
 from models import entry, kitchen_sink, point, sample_device, titles, trip_device
 from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from toolchains import run, succeed, tool
@@ -60,36 +61,69 @@ GATEWAYS = ("siemens_mm4", "woodward_mpu2s")
 
 @pytest.fixture(scope="session")
 def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
-    """One cargo workspace of all crates; what cargo builds stays in pytest's cache."""
-    out = tmp_path_factory.mktemp("rust")
+    """One cargo workspace of all crates; with what cargo builds it stays in pytest's cache."""
+    cache = request.config.cache
+
+    def make(out: Path) -> None:
+        write_workspace(out)
+        if cache:
+            bring_up_to_date(cache.mkdir("crates"), out)
+
+    made = made_once(tmp_path_factory, "crates", make)
+    return (cache.mkdir("crates") if cache else made) / "rust"
+
+
+WORKSPACE = """\
+[workspace]
+resolver = "2"
+members = @MEMBERS@
+
+[profile.dev]
+debug = false
+incremental = false
+"""
+
+
+def write_workspace(out: Path) -> None:
+    """The crates of all devices and their vectors, in a workspace that is built as quickly as it can be."""
     for make in MODELS.values():
         write_crate(make(), out)
     for device in SHIPPED:
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
         shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
-    folder = out / "rust"
     members = json.dumps([*RUNTIMES, *MODELS, *SHIPPED])
-    (folder / "Cargo.toml").write_text(f'[workspace]\nresolver = "2"\nmembers = {members}\n', encoding="utf-8")
-    built = request.config.cache.mkdir("rust") if request.config.cache else out / "target"
-    (folder / ".cargo").mkdir()
-    (folder / ".cargo/config.toml").write_text(f"[build]\ntarget-dir = {json.dumps(str(built))}\n", encoding="utf-8")
-    return folder
+    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
+
+
+def bring_up_to_date(kept: Path, made: Path) -> None:
+    """Makes the kept files those that were made; cargo builds none again that is left as it is."""
+    texts = {path.relative_to(made): path.read_bytes() for path in made.rglob("*") if path.is_file()}
+    for path, text in texts.items():
+        place = kept / path
+        if not place.is_file() or place.read_bytes() != text:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(text)
+    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/tests/*.rs")):
+        if place.relative_to(kept) not in texts:
+            place.unlink()
 
 
 @pytest.fixture(scope="session")
 def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The crates of the models, compiled with optimization and checked arithmetic, as libraries and objects."""
-    out = tmp_path_factory.mktemp("libraries")
-    described = tmp_path_factory.mktemp("described")
+    return made_once(tmp_path_factory, "libraries", partial(write_libraries, workspace)) / "built"
+
+
+def write_libraries(workspace: Path, out: Path) -> None:
     for name in GATEWAYS:
         device = load_device(ROOT / "descriptions" / name / "device.yaml", Report())
         assert device is not None
-        write_crate(device, described)
+        write_crate(device, out)
+    (out / "built").mkdir()
     for name in ("fieldscribe_runtime", *MODELS, *GATEWAYS):
-        folder = described / "rust" if name in GATEWAYS else workspace
-        done = rustc(folder / name / "src/lib.rs", out, "--crate-name", name, "--emit=link,metadata,obj")
+        folder = out / "rust" if name in GATEWAYS else workspace
+        done = rustc(folder / name / "src/lib.rs", out / "built", "--crate-name", name, "--emit=link,metadata,obj")
         assert done.returncode == 0, done.stderr
-    return out
 
 
 def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[str]:
@@ -202,7 +236,10 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     assert max(versions) <= 85
 
 
-@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=pytest.mark.full) for device in SHIPPED)])
+LONG = pytest.mark.full(seconds=6)
+
+
+@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
 def test_conforms(workspace: Path, device: str) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -234,7 +271,7 @@ def test_vectors_of_another_description_are_refused(
     assert "is of another description" in done.stderr
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=26)
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
     done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
@@ -251,7 +288,7 @@ def test_rustfmt_changes_nothing(workspace: Path) -> None:
     assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=11)
 def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
     done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")
