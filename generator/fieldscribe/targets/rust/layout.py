@@ -105,3 +105,10 @@ def chained(steps: Sequence[str]) -> Lines:
     if len(line) <= _FREE_WIDTH:
         return (line,)
     return steps[0], *(f"    ?{step}" for step in steps[1:])
+
+
+def chain(left: str, start: str, steps: list[str]) -> Lines:
+    """`left = start.step().step();`: one step in the line of a binding, several in a line each."""
+    if len(steps) < 2:
+        return binding(0, left, "".join((start, *steps)))
+    return (f"{left} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")
