@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.c.device import old_items
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.identifiers import Named
 
@@ -27,8 +29,10 @@ class Descriptor:
     type: str
     name: str
     value: str
-    item: str
-    """The point that it is of; empty for a layout."""
+    item: str = ""
+    """The point that it is of; empty for layouts and commands."""
+    tail: str = ""
+    """What the name has behind that of the point."""
 
     @property
     def parted(self) -> bool:
@@ -70,7 +74,7 @@ class Layouts:
             f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
             f"{hexadecimal(mask)}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
         )
-        self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}", "")
+        self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}")
         return f"&{name}"
 
     @property
@@ -91,6 +95,22 @@ def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Ite
     yield Owner("target", "the layouts of points in words"), [one.name for one in layouts]
     for one in others:
         yield Owner("point", one.item), (one.name,)
+
+
+def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: Scope) -> tuple[AliasView, ...]:
+    """The descriptors of renamed points by the names that they had."""
+    renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
+    return tuple(
+        AliasView(old, item, one.item, f"{scope.prefix}_{item}{one.tail}", one.name, "OBJECT")
+        for one in descriptors
+        for old, item in renamed.get(one.item, ())
+    )
+
+
+def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
+    """The identifiers of old names, with the points that had them."""
+    for one in aliases:
+        yield Owner("old name", one.was, Owner("point", one.item)), (one.old,)
 
 
 def _mask(point: Point) -> int:

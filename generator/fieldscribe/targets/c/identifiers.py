@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.defines import flag_defines
-from fieldscribe.targets.c.device import STATUSES, device_view, function_names, old_item
+from fieldscribe.targets.c.device import STATUSES, device_view, function_names
 from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.frames import old_names_of
 from fieldscribe.targets.c.points import named_numbers
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.identifiers import Names, Owner
@@ -54,10 +55,7 @@ def _identifiers(device: Device) -> Iterator[Named]:
                 yield Owner("point", remark.item), [name for name, _ in remark.defines]
             else:
                 yield from _of_point(made, points[made.item], view)
-    for alias in view.aliases:
-        point = points[alias.item]
-        old = next(old for old in point.was if old_item(point, old) == alias.old_item)
-        yield Owner("old name", old, Owner("point", alias.item)), (alias.old,)
+    yield from old_names_of(view.aliases)
     family = FAMILIES[device.family]
     yield from family.identifiers(device, family.view(device, view, scope), scope)
 

@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Layouts,
+    aliases_of,
+    kind_of,
+    lies,
+    names_of,
+    old_names_of,
+    places_of,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -17,7 +27,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Block, Command, Device, Place, Point
     from fieldscribe.targets.c.scope import Scope
-    from fieldscribe.targets.c.views import Define, DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
@@ -80,6 +90,7 @@ class BusView:
     frames: tuple[FrameView, ...]
     commands: tuple[CommandView, ...]
     exceptions: tuple[tuple[str, str, str], ...]
+    aliases: tuple[AliasView, ...]
 
 
 def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -116,6 +127,7 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         frames=tuple(one for one in frames if one is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
+        aliases=aliases_of((one.descriptor for one in frames if one is not None), device, scope),
     )
 
 
@@ -137,6 +149,7 @@ def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
         yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
     yield from names_of_exceptions(device, bus.exceptions)
     yield from names_of(bus.layouts, (one.descriptor for one in bus.frames))
+    yield from old_names_of(bus.aliases)
 
 
 def names_of_exceptions(device: Device, made: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
@@ -177,7 +190,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
     access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     return FrameView(
-        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item),
+        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item, "_frame"),
         function=view.function,
         kind=kind_of(point),
         raw_type=view.raw_type,
@@ -226,5 +239,5 @@ def _command(command: Command, scope: Scope) -> CommandView:
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
     write = f"{{{hexadecimal(command.function, 2)}, {macro}_ADDRESS, 1U}}"
     name = f"{scope.prefix}_command_{command.name}"
-    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}", "")
+    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}")
     return CommandView(descriptor, f"{comment}.", defines)

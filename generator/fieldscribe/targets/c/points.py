@@ -58,7 +58,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         rules=shape == "ruled" and rule_name(point, scope) == f"{name}_rule",
         words=has_words(point),
         bits=point.bits is not None,
-        flags=tuple(f"{name}_{flag.name}" for flag in point.flags if flag.width > 1),
+        flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
         functions=tuple(one.text for one in functions if not one.floating),
         floats=tuple(one.text for one in functions if one.floating),
     )

@@ -6,7 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Layouts,
+    aliases_of,
+    kind_of,
+    lies,
+    names_of,
+    old_names_of,
+    places_of,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
@@ -16,7 +26,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus, Code, Device, Point, Telegram
     from fieldscribe.targets.c.scope import Scope
-    from fieldscribe.targets.c.views import DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
 
 _READ = (1, 6)
@@ -84,6 +94,7 @@ class BusView:
     layouts: tuple[Descriptor, ...]
     frames: tuple[FrameView, ...]
     words: tuple[WordView, ...]
+    aliases: tuple[AliasView, ...]
 
 
 def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -118,6 +129,14 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         layouts=layouts.descriptors,
         frames=tuple(one for one in frames if one is not None),
         words=words,
+        aliases=aliases_of(
+            (
+                *(one for frame in frames if frame is not None for one in frame.descriptors),
+                *(one.descriptor for one in words),
+            ),
+            device,
+            scope,
+        ),
     )
 
 
@@ -132,6 +151,7 @@ def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
             yield Owner(_KINDS[made.kind], code.name), (name,)
     frames = (one for frame in bus.frames for one in frame.descriptors)
     yield from names_of(bus.layouts, (*frames, *(one.descriptor for one in bus.words)))
+    yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
@@ -214,15 +234,15 @@ def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: lis
     width = 2 if point.info.bits == 32 else 1
     places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
-    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item)
+    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item, tail)
 
 
 def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
-    position = f"{{{min(point.addresses)}U}}"
+    position = f"{{{min(point.addresses)}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     return WordView(
-        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item),
+        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item, "_frame"),
         function=view.function,
         macro=view.macro,
         kind=kind_of(point),

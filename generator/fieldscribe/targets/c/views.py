@@ -126,13 +126,17 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class AliasView:
-    """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
+    """An old name of something that belongs to a renamed point: what the point and its item were called before.
 
+    `sort` tells the conformance program what it is: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
+    """
+
+    was: str
     old_item: str
     item: str
-    old: str
-    new: str
-    sort: str
+    old: str = ""
+    new: str = ""
+    sort: str = ""
 
 
 @dataclass(frozen=True, slots=True)
