@@ -191,13 +191,15 @@ def test_nasty_names(part: int, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("folder", sorted(DEVICES.iterdir()), ids=lambda one: one.name)
 def test_the_lists_hold_what_is_defined(folder: Path) -> None:
-    """Every name that the headers define is one that the target lists."""
+    """Every name that the headers define is one that the target lists, and no other is."""
     device = load_device(folder / "device.yaml", Report())
     assert device is not None
     listed = {name for one in target("c").identifiers(device) for name in one.names}
     headers = [text for _, path, text in outputs(device, ["c"]) if path.startswith(f"c/{device.id}")]
     assert len(headers) == 2
     assert {name for header in headers for name in c_names(header)} - listed == set()
+    code = re.sub(r"/\*.*?\*/", "", "\n".join(headers), flags=re.DOTALL)
+    assert listed - set(re.findall(r"\w+", code)) == set(), "a name that no header has would be refused for nothing"
     for name in LANGUAGES:
         assert len(list(target(name).identifiers(device))) > len(device.points)
 

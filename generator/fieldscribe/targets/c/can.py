@@ -142,7 +142,7 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
 def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
     own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
-    yield Owner("target", "what the header of frames needs"), own
+    yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for message in bus.messages:
         yield Owner("message", message.name), (message.array,)
     for telegram in bus.telegrams:

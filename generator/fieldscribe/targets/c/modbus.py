@@ -141,8 +141,8 @@ def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], .
 
 def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
-    own = [f"{scope.prefix}_{name}" for name in ("modbus_functions", "modbus_profile")]
-    yield Owner("target", "what the header of frames needs"), own
+    own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
+    yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for blocks in bus.blocks:
         yield Owner("group", blocks.name), (blocks.array, blocks.count_name)
     for command, made in zip(device.commands, bus.commands, strict=True):

@@ -143,7 +143,7 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
 def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
     own = Owner("target", "what the header of frames needs")
-    yield own, [f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile")]
+    yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
     yield own, [codes.function for codes in bus.codes]
     lists = dict(zip(_KINDS, _lists(device.bus), strict=True))
     for made in bus.codes:
