@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.targets.python.device import device_view
+from fieldscribe.targets.python.device import device_view, uses
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
@@ -23,6 +23,9 @@ FOR_PEOPLE = False
 
 _MODULES = (
     "__init__",
+    "about",
+    "arguments",
+    "bits",
     "can/__init__",
     "can/decoder",
     "can/device",
@@ -36,6 +39,8 @@ _MODULES = (
     "facts",
     "fast",
     "forms",
+    "guide",
+    "guided",
     "handles",
     "layouts",
     "lookup",
@@ -51,6 +56,7 @@ _MODULES = (
     "rules",
     "session",
     "special",
+    "table",
     "texts",
     "uss/__init__",
     "uss/descriptors",
@@ -68,7 +74,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     head = _head(device)
     enums = enums_view(device, names)
     folder = f"python/{names.package}"
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, "view": names})
+    shown = {"uses": uses(device, names.device_class, "")}
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})
