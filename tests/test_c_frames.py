@@ -888,17 +888,8 @@ uint16_t use(uint32_t raw)
 }}
 """
         (tmp_path / "two.c").write_text(text, "utf-8")
-        command: list[str | Path] = [
-            tool("gcc"),
-            "-std=c99",
-            "-O1",
-            *WARNINGS,
-            f"-I{folder}",
-            "-c",
-            "-o",
-            tmp_path / "o",
-        ]
-        done = run([*command, tmp_path / "two.c"])
+        flags = ("-std=c99", "-O1", *WARNINGS, f"-I{folder}", "-c", "-o", tmp_path / "o")
+        done = run([tool("gcc"), *flags, tmp_path / "two.c"])
         assert (done.returncode == 0) == (count == 2)
         assert count == 2 or re.search("overflow|array-bounds", done.stderr)
 
