@@ -27,11 +27,11 @@ def check(subject: Subject) -> None:
 
 
 def _compare_targets(subject: Subject, told: set[frozenset[Thing]]) -> None:
-    from fieldscribe.targets import TARGETS, target
+    from fieldscribe.targets import TARGETS, knows, target
     from fieldscribe.targets.identifiers import clashes
 
     owners, device = Owners(subject), subject.sound
-    for name in TARGETS:
+    for name in (one for one in TARGETS if knows(one, device)):
         for clash in clashes(target(name).identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told)

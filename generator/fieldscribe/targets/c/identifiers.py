@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.defines import flag_defines
 from fieldscribe.targets.c.device import STATUSES, device_view, function_names
-from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.frames import old_names_of
 from fieldscribe.targets.c.points import named_numbers
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
@@ -56,8 +56,8 @@ def _identifiers(device: Device) -> Iterator[Named]:
             else:
                 yield from _of_point(made, points[made.item], view)
     yield from old_names_of(view.aliases)
-    family = FAMILIES[device.family]
-    yield from family.identifiers(device, family.view(device, view, scope), scope)
+    frames = frames_of(device)
+    yield from frames.identifiers(device, frames.bus_view(device, view, scope), scope)
 
 
 def _of_point(made: PointView, point: Point, device: DeviceView) -> Iterator[Named]:

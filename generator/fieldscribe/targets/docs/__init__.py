@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = True
 
+NEEDS_FAMILY = False
+
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""

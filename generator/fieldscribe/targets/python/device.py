@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
-from fieldscribe.targets.python.families import FAMILIES
+from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.text import python_doc, python_string
 
@@ -52,7 +52,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     if point is None:
         return ()
     one = attribute(point.item)
-    settings = "".join([f", {setting}" for setting, _ in FAMILIES[device.family].settings])
+    settings = "".join([f", {setting}" for setting, _ in in_python(device).settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
     lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{one}.read()"]
     if point.writable:
@@ -74,7 +74,7 @@ def _shown(device: Device, access: str) -> Point | None:
 
 def device_view(device: Device, names: Identifiers) -> DeviceView:
     """The classes of the device."""
-    family = FAMILIES[device.family]
+    family = in_python(device)
     axes = tuple(
         Axis(python_string(axis), parameter(axis), f"{pascal(axis)}Choice", tuple(map(python_string, values)))
         for axis, values in device.variants.items()

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.families import is_heard
-from fieldscribe.targets.rust.layout import filled
+from fieldscribe.families import family
+from fieldscribe.targets.rust.families import Table, in_rust
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
@@ -15,34 +14,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.targets.rust.families import Needs, Tokens, Way
     from fieldscribe.targets.rust.subjects import Scope, Subject
-
-Tokens = tuple[str, ...]
-"""Words of a row, between which it may be broken."""
-
-Needs = tuple[tuple[str, Tokens], ...]
-"""Structs and their fields."""
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """The function that a table becomes, the runner's function behind it, and its rows.
-
-    `kind` is that of the vectors of whole exchanges which it answers; empty for all others.
-    """
-
-    name: str
-    run: str
-    rows: tuple[Tokens, ...]
-    kind: str = ""
-
-    @property
-    def lines(self) -> tuple[Tokens, ...]:
-        """The rows in lines."""
-        return tuple(filled("", " ", row, ";") for row in self.rows)
 
 
 def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
@@ -77,14 +53,16 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
             (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
         ),
         Table("name", "name", tuple(_names((*whole, *digits)))),
-        Table("special", "special", tuple(_row(one, alone) for one in scope.subjects if one.point.specials)),
-        Table("special_name", "special_name", tuple(_row(one, alone) for one in scope.subjects if one.point.specials)),
+        Table("special", "special", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)),
+        Table(
+            "special_name", "special_name", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)
+        ),
         Table("flag", "flag", tuple(_flags(whole))),
         Table("flag_name", "flag_name", tuple(_flag_names(whole))),
-        Table("bits", "bits", tuple(_row(one, alone) for one in scope.subjects if one.point.bits)),
-        Table("words", "words", tuple(_row(one, alone) for one in scope.subjects if _has_words(one.point))),
-        Table("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
-        Table("symbol", "symbol", tuple(_row(one, alone) for one in scope.subjects if one.point.unit.symbol)),
+        Table("bits", "bits", tuple(row_of(one, alone) for one in scope.subjects if one.point.bits)),
+        Table("words", "words", tuple(row_of(one, alone) for one in scope.subjects if _has_words(one.point))),
+        Table("address", "address", tuple(row_of(one, _references(one.point)) for one in scope.subjects)),
+        Table("symbol", "symbol", tuple(row_of(one, alone) for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
@@ -92,36 +70,34 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
 
 def _protocol(device: Device) -> Iterator[Table]:
     """The tables of the numbers of the protocol, and of commands."""
-    bus, uss = device.bus, device.family == "uss"
-    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
-    refusals = "error" if uss else "exception"
-    constants = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
-    named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
-    for kind, rows in (("constant", constants), ("constant" if device.family == "can" else "code", named)):
+    own = in_rust(device.family)
+    constants, named = [], []
+    for codes in family(device.family).codes:
+        for code in device.bus.codes(codes.section) if codes.emitted else ():
+            if codes.section == "exceptions":
+                named.append(_code(codes.kind, "exceptions", code.name, "named"))
+            else:
+                constants.append(_code(codes.kind, f"{codes.kind}s", code.name, "code"))
+    for kind, rows in (("constant", constants), (own.refusals, named)):
         if rows:
             yield Table(kind, "code", tuple(rows))
-    carriers = {one.name for one in device.messages if one.words}
-    heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
-    if heard:
-        taken = tuple(_item(one.name, "telegrams", "telegram", type_name(one.name)) for one in heard)
-        yield Table("can_taken", "can_taken", taken)
-        yield Table("can_carrier", "can_carrier", taken)
+    yield from own.tables_of_frames(device)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
-        documented = (_item(one.item, "points", "documented", one.item.upper()) for one in places)
+        documented = (item_row(one.item, "points", "documented", one.item.upper()) for one in places)
         yield Table("documented", "documented", tuple(documented))
     if device.commands:
-        sent = (_item(one.name, "commands", "sent", one.name.upper()) for one in device.commands)
+        sent = (item_row(one.name, "commands", "sent", one.name.upper()) for one in device.commands)
         yield Table("command", "command", tuple(sent))
 
 
-def _item(key: str, module: str, how: str, name: str) -> Tokens:
+def item_row(key: str, module: str, how: str, name: str) -> Tokens:
     """The row of something that is no point: its key in the vectors, and where it is in the crate."""
     return rust_string(key), module, *_bracketed((how, name))
 
 
 def _code(what: str, module: str, name: str, how: str) -> Tokens:
-    return _item(f"{what} {name}", module, how, name.upper())
+    return item_row(f"{what} {name}", module, how, name.upper())
 
 
 def _bracketed(tokens: Tokens) -> Tokens:
@@ -135,21 +111,20 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
-    heard = (one for one in scope.subjects if one.form != "text" and is_heard(one, scope))
     alone = ("(alone)",)
     for kind, rows in (
-        ("place", tuple(_row(one, alone) for one in placed)),
-        ("fixed", tuple(_row(one, alone) for one in fixed)),
-        ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
-        ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
+        ("place", tuple(row_of(one, alone) for one in placed)),
+        ("fixed", tuple(row_of(one, alone) for one in fixed)),
+        ("text_decode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.readable)),
+        ("text_encode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),
         ("digits_coded", tuple(_digits(digits, "r", coded=True))),
         ("digits_encode", tuple(_digits(digits, "w", coded=False))),
         ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
-        ("can_telegram", tuple(_row(one, ("(frames)",)) for one in heard)),
     ):
         if rows:
             yield Table(kind, kind, rows)
+    yield from in_rust(scope.family).tables_of_points(scope)
     ways: dict[tuple[str, str], list[Tokens]] = {}
     for kind, run, row in _exchanges(scope):
         ways.setdefault((kind, run), []).append(row)
@@ -164,51 +139,38 @@ def _exchanges(scope: Scope) -> Iterator[tuple[str, str, Tokens]]:
             continue
         for kind, run, needs in _ways(one, scope):
             given = [token for pair in needs for token in _bracketed(_arguments(*pair))]
-            yield kind, run, _row(one, _bracketed(("wire", *given)))
+            yield kind, run, row_of(one, _bracketed(("wire", *given)))
 
 
-def _ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
-    """How a point is read and written in its family: kind, function, and the structs of what that needs."""
+def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+    """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
     point = subject.point
-    if point.telegram is not None:
-        if scope.family == "uss" and subject.form != "text" and not point.bits:
-            yield from _process_ways(subject, scope)
-        return
     text = "_text" if subject.form == "text" else ""
-    if point.readable:
+    if point.telegram is None and point.readable:
         yield "read", f"read{text}", ()
-    if point.writable:
-        yield "write", *_change(subject, "write", "update", text)
-    if point.writable and scope.family == "uss" and point.keeps != "no":
-        yield "store", *_change(subject, "store", "store_update", text)
+    if point.telegram is None and point.writable:
+        yield "write", *change_of(subject, "write", "update")
+    yield from in_rust(scope.family).ways(subject, scope)
 
 
-def _process_ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
-    """Words of process data, which go one way."""
-    point = subject.point
-    telegram, _ = scope.telegrams[point.telegram or ""]
-    if telegram.direction == "response" and point.readable:
-        yield "read", "receive", (_of_scale(subject),)
-    elif telegram.direction == "request" and point.writable:
-        needs = (_of_scale(subject), _of_all(subject))
-        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
-
-
-def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str, Needs]:
+def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
     """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
     point = subject.point
     if point.bits:
         return update, ()
     if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
-    return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
+    text = subject.form == "text"
+    return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
 
 
-def _of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    """The struct of what the scale needs, and its fields."""
     return subject.factors_struct, subject.factors
 
 
-def _of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    """The struct of all that writing needs, and its fields."""
     return subject.name, subject.arguments
 
 
@@ -230,7 +192,8 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
             yield f"{whole[-1]},"
 
 
-def _row(subject: Subject, how: Tokens) -> Tokens:
+def row_of(subject: Subject, how: Tokens) -> Tokens:
+    """What a table says of one point."""
     return rust_string(subject.point.item), subject.name, *how
 
 
@@ -241,7 +204,7 @@ def _sizes(point: Point) -> Tokens:
 def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[Tokens]:
     for one in subjects:
         if access in one.point.access and bool(one.point.specials) == coded:
-            yield _row(one, _counted(one))
+            yield row_of(one, _counted(one))
 
 
 def _counted(subject: Subject) -> Tokens:
@@ -267,13 +230,13 @@ def _references(point: Point) -> Tokens:
 def _reads(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if "r" in one.point.access:
-            yield _row(one, _bracketed(_arguments(*_of_scale(one))))
+            yield row_of(one, _bracketed(_arguments(*of_scale(one))))
 
 
 def _writes(subjects: Iterable[Subject]) -> Iterator[Tokens]:
     for one in subjects:
         if "w" in one.point.access:
-            yield _row(one, _bracketed(_arguments(*_of_all(one))))
+            yield row_of(one, _bracketed(_arguments(*of_all(one))))
 
 
 def _arguments(struct: str, names: Tokens) -> Tokens:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.families import family_identifiers
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
 from fieldscribe.targets.rust.words import UNKNOWN, constant_name, getter_name
@@ -51,7 +51,7 @@ def identifiers(device: Device) -> Iterator[Names]:
         yield Names("Rust, module `blocks`", Owner("group", group), (upper(group),))
     for code in device.bus.exceptions:
         yield Names("Rust, module `exceptions`", Owner("exception", code.name), (upper(code.name),))
-    yield from family_identifiers(device)
+    yield from in_rust(device.family).identifiers(device)
 
 
 def _of_enum(enum: Enum) -> Iterator[Names]:
