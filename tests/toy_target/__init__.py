@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
 
 FOR_PEOPLE = False
+NEEDS_FAMILY = False
 
 _LONGEST = 8
 
