@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.fold import folded
@@ -22,6 +21,8 @@ NEEDS_FAMILY = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
+    from fieldscribe.targets.c.conformance import conformance_view
+
     view, scope = device_view(device)
     yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
     frames = frames_of(device)
