@@ -108,6 +108,7 @@ def check_scales_of_others(package: Package) -> None:
         assert way(7, {**both, names[-1]: 1}) > value
         assert asked == [7] * (1 + len(names))
         asked.clear()
+        assert (way(0, both) < value, way(9, both) > value, asked) == (True, True, [])
         if made is fast.surely_scaled_by:
             assert (way(10, both) > value, way(-1, both) < 0, asked) == (True, True, [])
         else:

@@ -119,7 +119,8 @@ def check_event_loops(package: Package) -> None:
     device = kind(line, 1)
 
     async def contend() -> list[int]:
-        return [*await asyncio.gather(*[point.read() for point in (device.speed, device.alone) * 2])]
+        reading = asyncio.gather(*[point.read() for point in (device.speed, device.alone) * 2])
+        return [*await asyncio.wait_for(reading, 5)]
 
     async def cancelled() -> None:
         reading = [asyncio.create_task(device.speed.read()) for _ in range(2)]
@@ -160,7 +161,7 @@ def check_loops_at_once(package: Package) -> None:
     assert asked.wait(5)
 
     async def read() -> Any:
-        return await device.speed.read()
+        return await asyncio.wait_for(device.speed.read(), 2)
 
     try:
         text = "another event loop is talking to the device: use it in one at a time"
