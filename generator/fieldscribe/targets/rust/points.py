@@ -9,7 +9,7 @@ from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.rust.access import read_lines, write_lines
 from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import in_rust
-from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.layout import binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
@@ -62,7 +62,7 @@ def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
 def _whereabouts(point: Point) -> Iterator[str]:
     """Addresses and what stands beside them, and the bits that are always a constant."""
     addresses = point.places[0].addresses
-    yield f"at {space(point.places[0].space).removeprefix('runtime::Space::')} 0x{min(addresses):04X};"
+    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:

@@ -48,11 +48,14 @@ class Subject:
         return f"{pascal(self.point.item)}Factors"
 
     @property
+    def factors_struct(self) -> str:
+        """The name of the struct of all that the scale needs."""
+        return self.name if self.factors == self.arguments else self.factors_name
+
+    @property
     def factors_type(self) -> str:
-        """The struct of all that the scale needs."""
-        if not self.factors:
-            return "()"
-        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.factors_name}"
+        """The struct of all that the scale needs, as a type."""
+        return f"with::{self.factors_struct}" if self.factors else "()"
 
 
 @dataclass(frozen=True, slots=True)
