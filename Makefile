@@ -2,15 +2,24 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench mutants prove misra fuzz check clean
+.PHONY: generate keys test core bench mutants prove misra fuzz check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
 	$(FIELDSCRIBE) generate descriptions --out generated
 
-test:               ## run every test
+keys:               ## write the page and the schema of the description language, which follow from its table of keys
+	@sh generator/setup.sh compiler
+	$(FIELDSCRIBE) schema > descriptions/schema.json
+	$(FIELDSCRIBE) schema --page > descriptions/KEYS.md
+
+# Python starts a few hundred times: what it compiled is kept aside, also where the environment says that nothing is kept.
+test core: export PYTHONPYCACHEPREFIX = $(CURDIR)/.cache/python
+test core: export PYTHONDONTWRITEBYTECODE =
+
+test:               ## run every test, with more random cases than `core` has
 	@sh generator/setup.sh tests
-	$(PYTHON) -m pytest -n auto --dist worksteal
+	FIELDSCRIBE_EXAMPLES=150 FIELDSCRIBE_MUTANTS=240 $(PYTHON) -m pytest -n auto --dist worksteal
 
 core:               ## run the quick tests only
 	@sh generator/setup.sh tests

@@ -19,7 +19,7 @@ from test_robust import WHOLES, as_yaml, changed, nodes
 if TYPE_CHECKING:
     from pathlib import Path
 
-MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "240"))
+MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "80"))
 PARTS = 8
 
 WRONG: tuple[Any, ...] = (

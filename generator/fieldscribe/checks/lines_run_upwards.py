@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.keys import lists_with
+from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
@@ -11,7 +13,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.checks.subject import Subject
 
-_LISTS = ("looked_through", "errata", "commands", "frames", "messages", "telegrams")
+_LISTS = lists_with(DEVICE, "lines")
 
 
 def check(subject: Subject) -> None:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.kinds import NUMBERS, WHOLE_NUMBERS
+from fieldscribe.language.keys import facts_of
+from fieldscribe.language.keys.places import POINT
+
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.points import Resolved
 
-_OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed")
-_OF_NUMBERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed", "range", "range_in_units", "default")
-_OF_TEXTS = (*_OF_NUMBERS, "special")
+_OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
+_OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
 _RIVALS = (
     ("enum", "flags", "name the numbers of several bits under `values` of one flag"),
     ("enum", "scale", "codes beside the numbers go under `special`"),
@@ -38,7 +41,7 @@ def check(subject: Subject) -> None:
             )
             continue
         if draft.text:
-            _alien(subject, draft, _OF_TEXTS, "text", "its characters are all that it means")
+            _alien(subject, draft, _OF_NUMBERS, "text", "its characters are all that it means")
             continue
         if resolved.point.type == "bit" and draft.get("special") is not None and "type" not in draft.failed:
             message = f"`{draft.name}` is a single bit, which has no room for a special code"
@@ -74,10 +77,11 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
         message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
         hint = "give the code another name, so that whoever writes the name means one number"
         subject.report.error("special-twice", message, resolved.draft.span("special"), hint)
+        resolved.draft.failed.add("special")
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
-    """Findings for facts of numbers at what is none."""
+    """Findings for facts about whole numbers at a text or a floating-point number."""
     rule = "text-fact" if draft.text else "float-fact"
     for key in keys:
         if draft.get(key) is not None and draft.layer(key) is not draft.group:

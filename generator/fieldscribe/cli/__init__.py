@@ -37,6 +37,7 @@ COMMANDS = {
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
     "units": "list the units that descriptions can use without declaring them",
+    "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
 """All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
 

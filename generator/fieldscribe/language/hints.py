@@ -7,48 +7,20 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.keys import forms
 from fieldscribe.language.meant_keys import meant_key
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
+    from fieldscribe.kinds import Form
+
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
 _TYPING_SLIP = 0.7
 """How alike keys must be: below that `precision` would be taken for `section`."""
-_WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
-
-NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
-NUMBER_KEY = "^([-+0-9]|[A-Fa-f][0-9A-Fa-f]*[hH](\\.\\.|$)|[Hh]').*$"
-BITS_KEY = f"^{_WHOLE}(\\.\\.{_WHOLE})?$"
-ONE_KEY = f"^{_WHOLE}$"
-ELEMENT_KEY = f"^{_WHOLE}(/{_WHOLE})?$"
-
-_FORMS = {
-    NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
-    NUMBER_KEY: ("a number", "keys here are numbers such as 3, -1, 1Fh or 0x1F"),
-    BITS_KEY: ("a number, or two", "bits and bytes are numbers: 3; several bits have the high one first: 5..4"),
-    ONE_KEY: ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
-    ELEMENT_KEY: ("an element", "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1"),
-    "^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$": ("a line or lines", "lines are written 780, several lines 780..790"),
-    "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
-    "^x-": ("a private key", "keys of your own start with x-"),
-    "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),
-    "^[0-9A-Fa-f\\s]+$": ("bytes in hexadecimal", "write two digits for each byte: 05 06 10 28"),
-    "^[0-9a-f]{64}$": ("a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"),
-    "^(high|low) first$": ("an order of words", "write `high first` or `low first`"),
-    "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$": ("the name of a variant", "letters, digits and single _: 400V, model_b"),
-    "^[a-z][a-z0-9_]*=[A-Za-z0-9_]+$": ("a variant", "keys here are written axis=value, such as voltage_class=400V"),
-    "^[a-z][a-z0-9_]*$": ("an id", "ids are written a to z, digits and _"),
-    "^[A-Za-z0-9][A-Za-z0-9_.-]*\\.ya?ml$": (
-        "the name of a part",
-        "parts stand beside device.yaml and end with .yaml; a part has no folder in its name",
-    ),
-}
-"""What the patterns of the schema mean, in words."""
-
 _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
@@ -68,13 +40,13 @@ def shown(value: Any) -> str:
     return f"the {'text' if isinstance(value, str) else 'number'} {quoted(str(value))}"
 
 
-def type_hint(value: Any, accepted: Collection[type], example: Any, pattern: str | None) -> str:
+def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form | None) -> str:
     """What to do about a value of the wrong type."""
     if value is None:
         return "fill it in, or leave the key out"
     said = None
     if isinstance(value, int | Decimal):
-        said = _about_number(value, accepted, example, pattern)
+        said = _about_number(value, accepted, example, form)
     elif isinstance(value, str) and (int in accepted or Decimal in accepted):
         said = _number_hint(value, Decimal in accepted)
     elif bool in accepted:
@@ -84,13 +56,13 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, pattern: str
     return said or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)
 
 
-def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, pattern: str | None) -> str | None:
+def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, form: Form | None) -> str | None:
     """What to do about a number, or true or false, where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
     typed = str(value).lower() if isinstance(value, bool) else str(value)
-    if pattern is not None and not re.search(pattern, typed):
-        return form_hint(typed, pattern)
+    if form is not None and not re.search(form.pattern, typed):
+        return form_hint(typed, form)
     if isinstance(example, str) and "wire" in example:
         return f"write a formula: {example}"
     if isinstance(value, bool) and isinstance(example, str) and " " in example:
@@ -123,16 +95,10 @@ def _example(example: Any) -> str:
     return {True: "true", False: "false"}.get(example, str(example)) if isinstance(example, bool) else str(example)
 
 
-def form(pattern: str) -> str:
-    """What a text of this pattern is, in words."""
-    return _FORMS[pattern][0] if pattern in _FORMS else f"of the form {pattern}"
-
-
-def form_hint(value: str, pattern: str) -> str:
-    """How a text of this pattern is written."""
-    hint = _FORMS[pattern][1] if pattern in _FORMS else KEYS_PAGE
-    if pattern != NAME:
-        return hint
+def form_hint(value: str, form: Form) -> str:
+    """How a text of this form is written."""
+    if form is not forms.NAME:
+        return form.hint
     import unicodedata
 
     spelled = value[:60].translate(_GERMAN)
@@ -140,34 +106,34 @@ def form_hint(value: str, pattern: str) -> str:
     suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
     if value[:1].isdigit():
         return "a name starts with a letter: `speed_2`, not `2nd_speed`"
-    return f"write `{suggestion}`" if re.fullmatch(NAME, suggestion) else hint
+    return f"write `{suggestion}`" if re.fullmatch(form.pattern, suggestion) else form.hint
 
 
-def named_otherwise(key: str, patterns: Collection[str]) -> str | None:
+def named_otherwise(key: str, known: Collection[Form]) -> str | None:
     """A key of bits or of a language that is only written in another way; None if it is not."""
     from fieldscribe.language.meant import bits_meant
     from fieldscribe.language.meant_words import LANGUAGES
 
-    if BITS_KEY in patterns:
+    if forms.BITS in known:
         return bits_meant(key)
-    return LANGUAGES.get(key.lower()) if "^[a-z]{2}$" in patterns else None
+    return LANGUAGES.get(key.lower()) if forms.LANGUAGE in known else None
 
 
-def key_hint(key: str, known: Collection[str], patterns: Iterable[str], value: Any = None) -> str:
+def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
     """What an unknown key with that value may have meant."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
     meant = meant_key(key, value, known)
     if meant is not None:
         return meant
-    forms = [pattern for pattern in patterns if pattern != "^x-"]
-    named = named_otherwise(key, forms)
+    written = [form for form in written if form is not forms.PRIVATE]
+    named = named_otherwise(key, written)
     if named is not None:
         return f"write `{named}`"
     near = nearest(key, tuple(known), _TYPING_SLIP)
     if near is not None:
         return f"did you mean `{near}`?"
-    said = [form_hint(key, pattern) for pattern in forms]
+    said = [form_hint(key, form) for form in written]
     if known:
         said.append("known here: " + ", ".join(sorted(known)))
     return "; ".join(said) or "remove it"

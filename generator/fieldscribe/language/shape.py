@@ -1,133 +1,67 @@
-"""Holds a file against the JSON Schema, with positions and suggestions.
+"""Holds a file against the table of keys, with positions and suggestions.
 
-The schema is the one statement of the shape. This reads the part of draft 7 that it uses; a test holds the two against
-`jsonschema` on every description and every bad input.
+The checks are made from the table, each when a value first needs it; a test holds them against `jsonschema` on every
+description and every bad input.
 """
 
 from __future__ import annotations
 
-import json
 from decimal import Decimal
-from functools import lru_cache
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Place, Text, Whole
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.shape_checks import (
-    Check,
-    ObjectCheck,
-    any_value,
-    array,
-    by_type,
-    compiled_pattern,
-    number,
-    string,
-)
+from fieldscribe.language.shape_checks import Check, ObjectCheck, any_value, array, by_type, number, string
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from fieldscribe.diagnostics import Report
+    from fieldscribe.kinds import Kind, Shape
 
-_PYTHON_TYPES: Mapping[str, tuple[type, ...]] = {
-    "object": (Map,),
-    "array": (Seq,),
-    "string": (str,),
-    "integer": (int,),
-    "number": (int, Decimal),
-    "boolean": (bool,),
-    "null": (type(None),),
+_WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
+_PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
+    NUMBER: ("a number", (int, Decimal)),
+    YES_NO: ("true or false", (bool,)),
+    NOTHING: ("~", (type(None),)),
 }
-_WORDS = {
-    "object": "a mapping",
-    "array": "a list",
-    "string": "text",
-    "integer": "a whole number",
-    "number": "a number",
-    "boolean": "true or false",
-    "null": "~",
-}
-_KNOWN = frozenset(
-    {"$ref", "type", "enum", "pattern", "maxLength", "minimum", "maximum", "properties", "patternProperties"}
-    | {"additionalProperties", "required", "minProperties", "items", "minItems", "dependencies"}
-    | {"description", "examples"}
-)
+_made: dict[Shape, Check] = {}
 
 
-@lru_cache(maxsize=1)
-def schema() -> dict[str, Any]:
-    """The JSON Schema of a description file."""
-    loaded: dict[str, Any] = json.loads(Path(__file__).with_name("schema.json").read_bytes())
-    return loaded
+def check_shape(value: Map, place: Place, report: Report) -> bool:
+    """Whether the file has the shape of a place (`DEVICE` or `PART`); findings go to the report."""
+    return check_of(place.shape)(value, value, None, report)
 
 
-@lru_cache(maxsize=1)
-def _checks() -> _Compiler:
-    return _Compiler(schema()["definitions"])
+def check_of(shape: Shape) -> Check:
+    """The check of what may stand in a spot, made once."""
+    if shape not in _made:
+        _made[shape] = _check(shape)
+    return _made[shape]
 
 
-def check_shape(value: Map, kind: str, report: Report) -> bool:
-    """Whether the file has the shape of a definition (`device_file` or `part_file`); findings go to the report."""
-    return _checks().definition(kind)(value, value, None, report)
-
-
-class _Compiler:
-    """Turns schema nodes into checks, each once."""
-
-    def __init__(self, definitions: Mapping[str, Any]) -> None:
-        self.definitions = definitions
-        self.compiled: dict[str, Check] = {}
-
-    def definition(self, name: str) -> Check:
-        """The check of a definition; recursive definitions look themselves up when they run."""
-        if name not in self.compiled:
-            self.compiled[name] = self._later(name)
-            self.compiled[name] = self.compile(self.definitions[name])
-        return self.compiled[name]
-
-    def _later(self, name: str) -> Check:
-        """The check of a definition that is being compiled."""
-
-        def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
-            return self.compiled[name](value, holder, at, report)
-
-        return check
-
-    def compile(self, node: Mapping[str, Any]) -> Check:
-        """The check of one schema node."""
-        unknown = node.keys() - _KNOWN
-        if unknown:
-            raise ValueError(f"the schema uses {sorted(unknown)}, which shape.py does not read")
-        if "$ref" in node:
-            return self.definition(node["$ref"].rpartition("/")[2])
-        types = node.get("type", [])
-        types = [types] if isinstance(types, str) else types
-        checks: dict[type, Check] = {}
-        for name in types:
-            for python_type in _PYTHON_TYPES[name]:
-                checks.setdefault(python_type, self._typed(name, node))
-        wanted = " or ".join(_WORDS[name] for name in types if name != "integer" or "number" not in types)
-        example = next(iter(node.get("examples", ())), None)
-        return by_type(checks, wanted, example, node.get("pattern")) if types else any_value
-
-    def _typed(self, name: str, node: Mapping[str, Any]) -> Check:
-        if name == "object":
-            return self._object(node)
-        if name == "array":
-            item = self.compile(node["items"]) if "items" in node else any_value
-            return array(item, node.get("minItems", 0))
-        if name == "string":
-            choices = [one for one in node["enum"] if isinstance(one, str)] if "enum" in node else None
-            return string(choices, node.get("pattern"), node.get("maxLength", 0))
-        if name in ("integer", "number"):
-            return number(node.get("enum"), node.get("minimum"), node.get("maximum"))
+def _check(shape: Shape) -> Check:
+    if not shape.kinds:
         return any_value
+    checks: dict[type, Check] = {}
+    for kind in shape.kinds:
+        for python_type, check in _by_python_type(kind):
+            checks.setdefault(python_type, check)
+    form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
+    wanted = " or ".join(map(_word, shape.kinds))
+    return by_type(checks, wanted, next(iter(shape.examples), None), form)
 
-    def _object(self, node: Mapping[str, Any]) -> Check:
-        more = node.get("additionalProperties", True)
-        return ObjectCheck(
-            {key: self.compile(value) for key, value in node.get("properties", {}).items()},
-            [(key, compiled_pattern(key), self.compile(one)) for key, one in node.get("patternProperties", {}).items()],
-            self.compile(more) if isinstance(more, dict) else (any_value if more else None),
-            node,
-        )
+
+def _word(kind: Kind) -> str:
+    return _WORDS.get(type(kind)) or _PLAIN[kind][0]
+
+
+def _by_python_type(kind: Kind) -> tuple[tuple[type, Check], ...]:
+    """The check of a kind, by the types that its values have in Python."""
+    if isinstance(kind, Place):
+        return ((Map, ObjectCheck(kind, check_of)),)
+    if isinstance(kind, Items):
+        return ((Seq, array(check_of(kind.item), kind.least)),)
+    if isinstance(kind, Text):
+        return ((str, string(kind)),)
+    if isinstance(kind, Whole):
+        return ((int, number(kind)),)
+    return tuple((python_type, any_value) for python_type in _PLAIN[kind][1])

@@ -1,4 +1,4 @@
-"""The single checks that a schema is made of: each reports what is wrong, in words, and drops it."""
+"""The single checks that a shape is made of: each reports what is wrong, in words, and drops it."""
 
 from __future__ import annotations
 
@@ -8,22 +8,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.hints import (
-    BITS_KEY,
-    NUMBER_KEY,
-    form,
-    form_hint,
-    key_hint,
-    nearest,
-    quoted,
-    shown,
-    type_hint,
-)
+from fieldscribe.language.hints import form_hint, key_hint, nearest, quoted, shown, type_hint
+from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.meant import reversed_hint, value_hint
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
-    from decimal import Decimal
+    from fieldscribe.kinds import Form, Place, Shape, Text, Whole
 
 Check = Callable[[Any, Map | Seq, Any, Report], bool]
 """Value, what holds it, its key or index there (None: it is the file itself), and the report: whether it has the shape.
@@ -36,7 +27,7 @@ _NAMING = ("name", "code", "id", "group")
 
 @lru_cache(maxsize=256)
 def compiled_pattern(pattern: str) -> re.Pattern[str]:
-    """A pattern of the schema as ECMAScript reads it: `$` is the very end, not the place before a last line break."""
+    """A pattern of the table as ECMAScript reads it: `$` is the very end, not the place before a last line break."""
     return re.compile(pattern[:-1] + r"\Z" if pattern.endswith("$") else pattern)
 
 
@@ -45,7 +36,7 @@ def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> boo
     return True
 
 
-def by_type(checks: Mapping[type, Check], wanted: str, example: Any, pattern: str | None) -> Check:
+def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
     """The check of the value's own type, if it is one of the `wanted`."""
 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
@@ -56,20 +47,21 @@ def by_type(checks: Mapping[type, Check], wanted: str, example: Any, pattern: st
             "wrong-type",
             f"{shown(value)} stands where {wanted} belongs",
             holder.span(at),
-            value_hint(at, value) or type_hint(value, checks, example, pattern),
+            value_hint(at, value) or type_hint(value, checks, example, form),
         )
         return False
 
     return check
 
 
-def string(choices: list[str] | None, pattern: str | None, longest: int) -> Check:
+def string(kind: Text) -> Check:
     """One of the choices, of that length and form."""
-    compiled = compiled_pattern(pattern) if pattern else None
+    choices, longest, form = kind.choices, kind.longest, kind.form
+    fits = None if form is None else compiled_pattern(form.pattern).search
 
     def check(value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if choices is not None and value not in choices:
-            near = nearest(value, tuple(choices))
+        if choices and value not in choices:
+            near = nearest(value, choices)
             hint = f"did you mean `{near}`?" if near else f"write one of {', '.join(choices)}"
             hint = value_hint(at, value) or hint
             report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", holder.span(at), hint)
@@ -78,24 +70,21 @@ def string(choices: list[str] | None, pattern: str | None, longest: int) -> Chec
             message = f"the text has {len(value)} characters, at most {longest} are allowed"
             report.error("text-too-long", message, holder.span(at), "shorten it")
             return False
-        if pattern is not None and compiled is not None and not compiled.search(value):
-            report.error(
-                "wrong-form",
-                f"{quoted(value)} is not {form(pattern)}",
-                holder.span(at),
-                value_hint(at, value) or form_hint(value, pattern),
-            )
+        if form is not None and fits is not None and not fits(value):
+            hint = value_hint(at, value) or form_hint(value, form)
+            report.error("wrong-form", f"{quoted(value)} is not {form.words}", holder.span(at), hint)
             return False
         return True
 
     return check
 
 
-def number(choices: list[int] | None, least: int | None, greatest: int | None) -> Check:
+def number(kind: Whole) -> Check:
     """One of the choices, within the bounds."""
+    choices, least, greatest = kind.choices, kind.least, kind.greatest
 
-    def check(value: int | Decimal, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if choices is not None and value not in choices:
+    def check(value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
+        if choices and value not in choices:
             known = ", ".join(map(str, choices))
             report.error(
                 "wrong-choice",
@@ -134,23 +123,26 @@ def array(item: Check, least: int) -> Check:
 
 
 class ObjectCheck:
-    """The check of a mapping."""
+    """The check of a mapping; those of its keys are made when the first such mapping comes."""
 
-    __slots__ = ("additional", "dependencies", "known", "least", "patterns", "properties", "required")
+    __slots__ = ("additional", "check_of", "least", "needs", "patterns", "place", "properties", "ready", "required")
 
-    def __init__(
-        self,
-        properties: Mapping[str, Check],
-        patterns: list[tuple[str, re.Pattern[str], Check]],
-        additional: Check | None,
-        node: Mapping[str, Any],
-    ) -> None:
-        self.properties = properties
-        self.patterns = patterns
-        self.additional = additional
-        self.required: tuple[str, ...] = tuple(node.get("required", ()))
-        self.dependencies: Mapping[str, list[str]] = node.get("dependencies", {})
-        self.least: int = node.get("minProperties", 0)
+    def __init__(self, place: Place, check_of: Callable[[Shape], Check]) -> None:
+        self.place, self.check_of = place, check_of
+        self.ready = False
+
+    def _open(self) -> None:
+        place, check_of = self.place, self.check_of
+        self.properties = {name: check_of(key.shape) for name, key in keys_of(place).items()}
+        self.patterns = [
+            (form, compiled_pattern(form.pattern), check_of(shape))
+            for form, shape in place.more.items()
+            if form is not forms.ANY
+        ]
+        other = place.more.get(forms.ANY)
+        self.additional = None if other is None else check_of(other)
+        self.required, self.needs, self.least = required(place), needs(place), place.least
+        self.ready = True
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Whether the mapping has the shape, as every `Check`."""
@@ -158,13 +150,15 @@ class ObjectCheck:
             return _of_this_shape(self, value, holder, at, report)
         if report.full:
             return False
+        if not self.ready:
+            self._open()
         broken = []
         for key, one in value.items():
             found = self.properties.get(key) or self._pattern(key)
             if found is None:
-                forms = [text for text, _, _ in self.patterns]
-                named = {NUMBER_KEY, BITS_KEY} & {*forms}
-                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, forms, one)
+                known = [form for form, _, _ in self.patterns]
+                named = forms.NUMBER in known or forms.BITS in known
+                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, known, one)
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
             elif not found(one, value, key, report):
@@ -184,8 +178,8 @@ class ObjectCheck:
 
     def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
-        for key, needs in self.dependencies.items():
-            for needed in needs:
+        for key, beside in self.needs.items():
+            for needed in beside:
                 if key in value and needed not in value:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
         for key, message in missing.items():

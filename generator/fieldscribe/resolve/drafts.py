@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.keys import inherited
+from fieldscribe.language.keys.places import GROUP
 from fieldscribe.model import TYPES, Titles
 
 if TYPE_CHECKING:
@@ -15,10 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.elements import Element
     from fieldscribe.resolve.scope import Scope
 
-_INHERITED = (
-    *("space", "type", "words", "unit", "scale", "range", "access", "keeps"),
-    *("changes", "conditions", "when", "since", "until", "reserved", "source"),
-)
+_INHERITED = inherited(GROUP)
 """What a group says for its points."""
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.keys import inherited, keys_of, own
+from fieldscribe.language.keys.places import FORMAT, POINT, USE
 from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
@@ -18,29 +20,10 @@ MOST_POINTS = 100_000
 """The most points of a device: rows that stand for many could otherwise fill the memory."""
 
 _SECOND_SET, _LAST_SET = 2, 999
-_OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
+_OWN = own(POINT)
 """What a further set does not take from the point it repeats (the title is extended instead)."""
-
-_OF_RECORDS = (
-    "code",
-    "line",
-    "lines",
-    "section",
-    "page",
-    "access",
-    "keeps",
-    "changes",
-    "conditions",
-    "when",
-    "since",
-    "until",
-)
+_OF_RECORDS = inherited(USE)
 """What the use of a record says for all its members."""
-
-_NOT_OF_RECORDS = frozenset({*_OF_RECORDS, "name", "title", "note", "record", "at", "members"})
-
-_OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special", "digits", "characters")
-"""What an unknown format leaves open."""
 
 
 def expand(scope: Scope) -> list[Draft]:
@@ -209,7 +192,7 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
         scope.unknown("record", use["record"], use.span("record"), scope.records)
         return
     for key in use:
-        if key not in _NOT_OF_RECORDS and not key.startswith("x-"):
+        if key not in keys_of(USE) and not key.startswith("x-"):
             message = f"`{key}` cannot be said for a whole record"
             scope.report.error("record-key", message, use.key_span(key), "say it for one member under `members`")
     members = {point["name"] for point in record["points"]}
@@ -259,6 +242,6 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
         hint = value_hint("type", point["format"])
         scope.unknown("format", point["format"], point.span("format"), scope.formats, hint)
         nothing = Map(point.file, point.at)
-        nothing.broken = _OF_FORMATS
+        nothing.broken = tuple(keys_of(FORMAT))
         return (nothing,)
     return (found,)

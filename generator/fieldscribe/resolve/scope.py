@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import FAMILIES, Family
+from fieldscribe.families import family
 from fieldscribe.language.hints import nearest, quoted
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
@@ -15,8 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.families.contract import Family
     from fieldscribe.language.files import Files
 
+_SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
 
@@ -65,7 +69,7 @@ class Scope:
     @property
     def family(self) -> Family:
         """The rules of the device's family."""
-        return FAMILIES[str(self.header["family"])]
+        return family(str(self.header["family"]))
 
     @property
     def axes(self) -> Mapping[str, Map]:
@@ -162,7 +166,7 @@ def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
     found: dict[str, object] = {}
     for layer in layers:
-        for key in ("line", "section", "page", "document"):
+        for key in _SOURCE:
             if key in layer:
                 found.setdefault(key, layer[key])
         if "source" in layer and isinstance(layer["source"], Map):

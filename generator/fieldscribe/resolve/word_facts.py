@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.kinds import TEXTS
+from fieldscribe.language.keys import facts_of
+from fieldscribe.language.keys.places import POINT
 from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.enums import entries_of
@@ -18,12 +21,13 @@ WORD_BITS = 16
 _MOST_CHARACTERS = 250
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
+_OF_TEXTS = facts_of(POINT, TEXTS)
 
 
 def text_of(scope: Scope, draft: Draft) -> Text | None:
     """The layout of a text; None for another type, or after a finding."""
     if not draft.text:
-        for key in ("characters", "encoding"):
+        for key in _OF_TEXTS:
             if draft.get(key) is not None and "type" not in draft.failed:
                 message = f"`{key}` is for texts"
                 scope.report.error("text-fact", message, draft.span(key), "add `type: text`, or leave it out")
@@ -33,6 +37,7 @@ def text_of(scope: Scope, draft: Draft) -> Text | None:
         if "characters" not in draft.failed:
             message = f"`{draft.name}` does not say how long the text is"
             scope.report.error("missing-key", message, draft.span("type"), "add `characters: …`, two for each word")
+            draft.failed.add("characters")
         return None
     if characters % 2:
         hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"

@@ -5,16 +5,24 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families import family
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Protocol
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
-    from fieldscribe.targets.identifiers import Identifier
+    from fieldscribe.targets.identifiers import Names
 
     class Target(Protocol):
         """What a target's module offers."""
+
+        FOR_PEOPLE: bool
+        """Whether it also sees titles, notes and sources; the others see names only (plain.py)."""
+
+        NEEDS_FAMILY: bool
+        """Whether it can say only devices whose family has a part for it."""
 
         def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
             """The files of a device: path relative to the output folder, and text."""
@@ -22,19 +30,21 @@ if TYPE_CHECKING:
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
             """Real source that goes beside them: path below the output folder, and path below the templates folder."""
 
-        def identifiers(self, device: Device) -> Iterable[Identifier]:
-            """Every name that the device gets in generated code; only targets with namespaces of their own have it."""
+        def identifiers(self, device: Device) -> Iterable[Names]:
+            """Every name that the device gets in generated code; none where names cannot meet."""
+
+        def device_name_taken(self, name: str) -> str:
+            """Why no device may have that name, as a sentence goes on behind it; empty where it may."""
 
 
-TARGETS = ("c", "python", "rust", "docs", "vectors")
+TARGETS = (
+    "c",
+    "python",
+    "rust",
+    "docs",
+    "vectors",
+)
 """All targets by name, in the order in which they are written."""
-
-FOR_PEOPLE = ("docs",)
-"""Targets that also see titles, notes and sources; the others see names only (plain.py)."""
-
-
-NAMESPACES = ("c", "python", "rust")
-"""Targets in which names of the description become identifiers, which can meet."""
 
 
 def target(name: str) -> Target:
@@ -42,3 +52,8 @@ def target(name: str) -> Target:
     module: Any = import_module(f"fieldscribe.targets.{name}")
     made: Target = module
     return made
+
+
+def knows(name: str, device: Device) -> bool:
+    """Whether a target can say a device: whether the family offers what the target needs of it."""
+    return not target(name).NEEDS_FAMILY or family(device.family).part(f"targets.{name}") is not None

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.families import family_context
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_view
@@ -19,7 +20,7 @@ from fieldscribe.text import line, rust_code, rust_string
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -36,14 +37,14 @@ def head(device: Device, comment: str) -> str:
 
 
 def _raw_only(point: Point) -> tuple[str, Lines]:
-    """Name and lines of the constant of a point that is reached raw only."""
+    """Item and lines of the constant of a point that is reached raw only."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    name = upper(point.item)
-    return name, binding(4, f"pub const {name}: runtime::Documented", f"runtime::Documented::new({where})")
+    left = f"pub const {upper(point.item)}: runtime::Documented"
+    return point.item, binding(4, left, f"runtime::Documented::new({where})")
 
 
-def device_context(device: Device, scope: Scope) -> dict[str, object]:
+def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     """What the templates of the crate's sources see."""
     points = tuple(point_view(subject, scope) for subject in scope.subjects)
     words = tuple(flags_views(scope))
@@ -52,6 +53,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
     return {
         "head": head(device, "//"),
         "points": points,
+        "table": wrap(" ".join(one.name for one in scope.subjects), 100, break_long_words=False),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
@@ -72,11 +74,12 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "package_version": device.version if _SEMANTIC.fullmatch(device.version) else "0.0.0",
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
-        **family_context(device),
+        "family": device.family,
+        **in_rust(device.family).context(device),
     }
 
 
-def _is_plainly_read(subject: Subject) -> bool:
+def _is_plainly_read(subject: CratePoint) -> bool:
     """Whether a client reads the point by itself alone."""
     point = subject.point
     return point.readable and point.telegram is None and subject.factors_type == "()"

@@ -1,0 +1,136 @@
+"""The table of keys as JSON Schema (draft 7), for editors: what `fieldscribe schema` prints."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.kinds import NOTHING, YES_NO, Items, Place, Plain, Text, Whole
+from fieldscribe.language.keys import forms, keys_of, needs, required
+from fieldscribe.language.keys.places import DEVICE, PART
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.kinds import Key, Kind, Shape
+
+_REFERENCE = "#/definitions/"
+
+
+def json_schema() -> dict[str, Any]:
+    """The schema of a file: of device.yaml, or of a part."""
+    definitions = _Definitions()
+    device, part = (definitions.shape(place.shape) for place in (DEVICE, PART))
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "$id": "https://fieldscribe.invalid/description-1.json",
+        "title": "Fieldscribe device description",
+        "description": "A device as its manual describes it, version 1 of the language.",
+        "type": "object",
+        "if": {"required": ["device"]},
+        "then": device,
+        "else": part,
+        "definitions": definitions.made,
+    }
+
+
+def schema_text() -> str:
+    """The same as a file: a line for each key, so that a change shows in a diff."""
+    schema = json_schema()
+    definitions = ",\n".join(f"  {_dumped(name)}: {_lines(made)}" for name, made in schema.pop("definitions").items())
+    head = ",\n".join(f" {_dumped(word)}: {_dumped(value)}" for word, value in schema.items())
+    return f'{{\n{head},\n "definitions": {{\n{definitions}\n }}\n}}\n'
+
+
+def _lines(definition: dict[str, Any]) -> str:
+    """A definition: on one line, or its keys each on a line of their own."""
+    if "properties" not in definition:
+        return _dumped(definition)
+    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(one)}" for key, one in definition["properties"].items())
+    around = _dumped({**definition, "properties": {}})
+    return around.replace('"properties": {}', f'"properties": {{\n{keys}\n   }}', 1)
+
+
+def _dumped(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+class _Definitions:
+    """The definitions that the schema needs: places with a name, and what stands at one key in several places."""
+
+    def __init__(self) -> None:
+        self.made: dict[str, Any] = {}
+
+    def key(self, key: Key) -> dict[str, Any]:
+        """What stands at a key: written out, or a reference."""
+        place = _place(key.shape)
+        if len(key.places) == 1 or (place is not None and place.name):
+            return self.shape(key.shape)
+        return self._named(f"at_{key.name}", key.shape)
+
+    def shape(self, shape: Shape) -> dict[str, Any]:
+        """What may stand in a spot: written out, or a reference where that is a place with a name."""
+        place = _place(shape)
+        if place is None or not place.name:
+            return self._written(shape)
+        return self._named(place.name, shape)
+
+    def _named(self, name: str, shape: Shape) -> dict[str, Any]:
+        if name not in self.made:
+            self.made[name] = {}  # what comes first stands first
+            self.made[name] = self._written(shape)
+        return {"$ref": _REFERENCE + name}
+
+    def _written(self, shape: Shape) -> dict[str, Any]:
+        if not shape.kinds:
+            return {}
+        types: list[str] = []
+        said: dict[str, Any] = {}
+        for kind in shape.kinds:
+            types.append(kind.word if isinstance(kind, Plain) else _TYPES[type(kind)])
+            said |= self._kind(kind)
+        if "enum" in said:
+            said["enum"] = [*([True, False] if YES_NO in shape.kinds else ()), *said["enum"]]
+            said["enum"] += [None] if NOTHING in shape.kinds else []
+        return {
+            "description": shape.meaning,
+            "type": types[0] if len(types) == 1 else types,
+            "examples": list(shape.examples),
+            **said,
+        }
+
+    def _kind(self, kind: Kind) -> dict[str, Any]:
+        if isinstance(kind, Place):
+            return self._mapping(kind)
+        if isinstance(kind, Items):
+            return {"items": self.shape(kind.item), **({"minItems": kind.least} if kind.least else {})}
+        if isinstance(kind, Text):
+            form = {} if kind.form is None else {"pattern": kind.form.pattern}
+            return _said(maxLength=kind.longest, enum=list(kind.choices)) | form
+        if isinstance(kind, Whole):
+            bounds = {"minimum": kind.least, "maximum": kind.greatest}
+            return _said(enum=list(kind.choices)) | {word: one for word, one in bounds.items() if one is not None}
+        return {}
+
+    def _mapping(self, place: Place) -> dict[str, Any]:
+        keys = keys_of(place)
+        more = {form.pattern: self.shape(shape) for form, shape in place.more.items() if form is not forms.ANY}
+        other = place.more.get(forms.ANY)
+        return {
+            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=more),
+            "additionalProperties": False if other is None else self.shape(other),
+            **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
+        }
+
+
+_TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", Place: "object"}
+
+
+def _said(**words: Any) -> dict[str, Any]:
+    """The words that say something."""
+    return {word: value for word, value in words.items() if value}
+
+
+def _place(shape: Shape) -> Place | None:
+    """The mapping that the shape is about, if it is one's own."""
+    return next((kind for kind in shape.kinds if isinstance(kind, Place) and kind.shape is shape), None)

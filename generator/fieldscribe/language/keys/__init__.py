@@ -1,0 +1,86 @@
+"""The one table of keys: JSON Schema, KEYS.md and the front end's own shapes follow, and lists of keys are asked of it.
+
+A new key is one `Key` in one of the modules here, or in the part `keys` of a family that alone has it. What it is
+written in stands in `fieldscribe/kinds.py`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families import families
+from fieldscribe.kinds import Items, Place
+from fieldscribe.language.keys import bus, files, frames, meaning, points, within
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.families.contract import Family
+    from fieldscribe.kinds import Key
+
+
+def keys_of_family(one: Family) -> tuple[Key, ...]:
+    """The keys that only this family has."""
+    part = one.part("keys")
+    return () if part is None else tuple(part.KEYS)
+
+
+TABLE: tuple[Key, ...] = (
+    *files.HEADS,
+    *points.WHICH,
+    *meaning.KEYS,
+    *points.USING,
+    *files.SECTIONS,
+    *within.KEYS,
+    *bus.KEYS,
+    *frames.KEYS,
+    *(key for one in families() for key in keys_of_family(one)),
+)
+"""All keys, in the order of each table of KEYS.md; those that only one family has are the last."""
+
+_AT: dict[Place, dict[str, Key]] = {}
+for _key in TABLE:
+    for _place in _key.places:
+        _AT.setdefault(_place, {})[_key.name] = _key
+
+
+def keys_of(place: Place) -> Mapping[str, Key]:
+    """The keys that stand in a place, by name."""
+    return _AT.get(place, {})
+
+
+def required(place: Place) -> tuple[str, ...]:
+    """The keys that a place must have."""
+    return (*place.required, *(name for name, key in keys_of(place).items() if place in key.required))
+
+
+def needs(place: Place) -> dict[str, list[str]]:
+    """The keys of a place that need others beside them."""
+    known = keys_of(place)
+    found = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
+    return {name: needed for name, needed in found.items() if needed}
+
+
+def inherited(place: Place) -> tuple[str, ...]:
+    """The keys that a place says for the points below it."""
+    return tuple(name for name, key in keys_of(place).items() if place in key.inherited)
+
+
+def facts_of(place: Place, *subjects: str) -> tuple[str, ...]:
+    """The keys of a place that are about these: WHOLE_NUMBERS, NUMBERS, TEXTS."""
+    return tuple(name for name, key in keys_of(place).items() if key.of in subjects)
+
+
+def own(place: Place) -> frozenset[str]:
+    """The keys of a place that tell one point from another."""
+    return frozenset(name for name, key in keys_of(place).items() if key.own)
+
+
+def lists_with(place: Place, name: str) -> tuple[str, ...]:
+    """The keys of a place that list mappings with the key `name`."""
+    return tuple(
+        key.name
+        for key in keys_of(place).values()
+        for kind in key.shape.kinds
+        if isinstance(kind, Items) and any(name in keys_of(item) for item in kind.item.kinds if isinstance(item, Place))
+    )

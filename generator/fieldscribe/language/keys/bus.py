@@ -1,0 +1,107 @@
+"""The keys under `bus`, and those of its codes."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
+from fieldscribe.language.keys import forms
+from fieldscribe.language.keys.places import BUS, CODE
+from fieldscribe.language.keys.shapes import SEVERAL, WORD_ORDER
+from fieldscribe.model import TYPES
+
+_BY_TYPE = Place("", "", "", ())
+_PRINTED = Place(
+    "",
+    "",
+    "Redundant facts as printed: `bytes`, the largest amount of data; `answers` and `refusals` where one list "
+    "contradicts another.",
+    [{"bytes": 8}],
+)
+_SETTING = Shape(
+    "One setting.",
+    [{"4": 4800}],
+    Text(200),
+    Whole(),
+    Items(Shape("One choice.", [8], Text(80), Whole())),
+    by(forms.ANY, Shape("What the code means.", [4800], Text(80), Whole())),
+)
+CODES = by(forms.NUMBER, CODE.shape, least=1)
+
+KEYS = (
+    Key("units", BUS, "The unit addresses a device can have.", ["1..32"], Text(40), required=True),
+    Key("broadcast", BUS, "The unit address that means all devices.", [0], Whole(0, 255)),
+    Key("bitrate", BUS, "CAN: bits a second.", [125000], Whole(1, 1_000_000_000)),
+    Key(
+        "functions",
+        BUS,
+        "The function codes with their limits; of a USS drive the task ids, 0 too.",
+        [{"03h": {"name": "read_holding_registers", "max": 4}}],
+        CODES,
+    ),
+    Key(
+        "exceptions",
+        BUS,
+        "The exception codes with their meanings.",
+        [{"21h": {"name": "value_out_of_range", "en": "Value out of range"}}],
+        CODES,
+    ),
+    Key(
+        "words",
+        BUS,
+        "The order of words in values of more than one word, for all types or by type.",
+        ["high first", {"f32": "low first"}],
+        Text(form=forms.WORD_ORDER),
+        _BY_TYPE,
+    ),
+    *(
+        Key(name, _BY_TYPE, "The order of words of this type.", ["low first"], WORD_ORDER)
+        for name, info in TYPES.items()
+        if info.bits > 16
+    ),
+    Key(
+        "gaps",
+        BUS,
+        "Addresses that no request may touch, by space.",
+        [{"holding": ["0030h..08FFh"]}],
+        by(
+            forms.ANY,
+            Shape(
+                "Intervals of wire addresses.",
+                [["0030h..08FFh"]],
+                Items(Shape("One interval, or one address.", ["0030h..08FFh", 2000], Text(40), Whole()), 1),
+            ),
+        ),
+    ),
+    Key(
+        "timing",
+        BUS,
+        "Times as the manual says them.",
+        [{"silent_characters": 3.5}],
+        by(forms.ANY, Shape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
+    ),
+    Key(
+        "serial",
+        BUS,
+        "Settings of the serial line: lists, or codes with their meanings.",
+        [{"baud": {"4": 4800}, "stop_bits": [1, 2]}],
+        by(forms.ANY, _SETTING),
+    ),
+    Key("max", CODE, "The largest count of items in one request.", [4], Whole(1, 2000)),
+    Key(
+        "broadcast",
+        CODE,
+        "Whether a function may be sent to all units at once; without the key 05h, 06h, 0Fh and 10h may.",
+        [False],
+        YES_NO,
+    ),
+    Key(
+        "answers",
+        CODE,
+        "USS: of a task the responses that it can get, of a response or an error the tasks that can get it.",
+        [[1, 2, 14]],
+        SEVERAL,
+    ),
+    Key("refusals", CODE, "USS: of a task the responses that refuse it.", [[1, 2, 14]], SEVERAL),
+    Key("printed", CODE, _PRINTED.shape),
+    Key("bytes", _PRINTED, "Data bytes in one request.", [8], Whole(0, 1_000_000_000)),
+    *(Key(name, _PRINTED, "The list as printed.", [[1, 2, 14]], SEVERAL) for name in ("answers", "refusals")),
+)

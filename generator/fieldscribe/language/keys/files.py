@@ -1,0 +1,235 @@
+"""The keys of device.yaml, of parts and of groups."""
+
+from __future__ import annotations
+
+from fieldscribe.families import FAMILIES
+from fieldscribe.kinds import NUMBER, Items, Key, Place, Shape, Text, Whole, by, one_of
+from fieldscribe.language.keys import forms, places
+from fieldscribe.language.keys.places import DEVICE, FILES, GROUP, GROUPS
+from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
+
+_DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}])
+_AXIS = Place("", "", "One axis.", [{"values": {"200V": {}}}])
+_UNIT = Place("", "", "One unit.", [{"name": "hertz", "quantity": "frequency"}])
+_PROPERTY = Shape(
+    "A property of the variant. `pzd` says how many words of process data it takes at most (family uss).",
+    [3],
+    *(Text(200), NUMBER),
+)
+_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], more={forms.ANY: _PROPERTY})
+
+HEADS = (
+    Key("fieldscribe", DEVICE, "The version of the language.", [1], Whole(choices=(1,)), required=True),
+    Key(
+        "device",
+        DEVICE,
+        "The device's name in snake_case: the folder's name, and the prefix of all generated names.",
+        ["hitachi_l200"],
+        A_NAME,
+        required=True,
+    ),
+    Key(
+        "version",
+        DEVICE,
+        "The version of this description; quote it when it looks like a number.",
+        ["1.0.0"],
+        Text(form=forms.VERSION),
+        required=True,
+    ),
+    Key("vendor", DEVICE, "Who makes the device.", ["Hitachi"], Text(200), required=True),
+    Key(
+        "model",
+        DEVICE,
+        "The product's own name; quote it when it looks like a number.",
+        ["L200"],
+        Text(200),
+        required=True,
+    ),
+    Key(
+        "family",
+        DEVICE,
+        "The addressing and framing rules that the device shares with others.",
+        ["modbus"],
+        one_of(*FAMILIES),
+        required=True,
+    ),
+    Key("group", GROUPS, NAME, required=(GROUP,), needs=("space",)),
+    Key(
+        "points",
+        (*GROUPS, places.RECORD),
+        "The points in the manual's order.",
+        [[{"name": "base_frequency", "at": "1028h"}]],
+        Items(places.POINT.shape),
+        required=(GROUP, places.RECORD),
+        needs=("group", "space"),
+    ),
+    Key(
+        "space",
+        GROUPS,
+        "The address space of the group's points.",
+        ["holding"],
+        Text(40),
+        required=(GROUP,),
+        needs=("group",),
+        inherited=(GROUP,),
+    ),
+    Key(
+        "telegram",
+        GROUPS,
+        "The telegram whose words the points are, in the space `telegram`.",
+        ["visualisation"],
+        NAMED,
+        needs=("group",),
+    ),
+    Key(
+        "addressing",
+        GROUPS,
+        "How addresses follow from `at: {number: …, sets: …, indices: …}`: a formula of number, index, set, sets, "
+        "indices.",
+        ["number * 64 + (index - 1) * sets + (set - 1)"],
+        Text(200),
+        needs=("group",),
+    ),
+    Key(
+        "numbering",
+        GROUPS,
+        "How the numbers that the manual prints follow from the wire address.",
+        [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
+        by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
+        needs=("group",),
+    ),
+    Key("source", (*GROUPS, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
+)
+"""What stands first: the device, the group."""
+
+SECTIONS = (
+    Key(
+        "documents",
+        DEVICE,
+        "The manuals that the facts come from.",
+        [{"manual": {"title": "ModBus Netzwerk Kommunikation", "language": "de"}}],
+        by(forms.NAME, _DOCUMENT.shape, least=1),
+        required=True,
+    ),
+    Key("title", _DOCUMENT, "Its title.", ["ModBus Netzwerk Kommunikation"], Text(300), required=True),
+    Key(
+        "language",
+        _DOCUMENT,
+        "Its language, two letters.",
+        ["de"],
+        Text(form=forms.LANGUAGE),
+        required=True,
+    ),
+    Key("file", _DOCUMENT, "The file its text was extracted to.", ["hitachi_l200_modbus.txt"], Text(200)),
+    Key(
+        "sha256",
+        _DOCUMENT,
+        "The checksum of that file.",
+        ["d36f991273b448ca6194f1f650c71ce801bb1611e731db2e4a367a2e9977df55"],
+        Text(form=forms.SHA256),
+    ),
+    Key("edition", _DOCUMENT, "Its edition or date.", ["2003-11"], Text(80)),
+    Key(
+        "writes",
+        _DOCUMENT,
+        "How it writes what a description writes otherwise (letters of codes, bits, numbers); the audit asks.",
+        [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"]}],
+        by(
+            forms.WRITTEN,
+            Shape("Its words.", [["Parameter"]], Items(Shape("A word.", ["Parameter"], Text(80)), least=1)),
+        ),
+    ),
+    Key(
+        "variants",
+        DEVICE,
+        "What is fixed when a device object is made, by axis.",
+        [{"voltage": {"values": {"200V": {}, "400V": {}}}}],
+        by(forms.NAME, _AXIS.shape),
+    ),
+    Key("title", (_AXIS, _VALUE), TITLE),
+    Key(
+        "values",
+        _AXIS,
+        "The values, by name.",
+        [{"200V": {"title": "200 V class"}}],
+        by(forms.VARIANT_VALUE, _VALUE.shape, least=1),
+        required=True,
+    ),
+    Key(
+        "parts",
+        DEVICE,
+        "The other files of the folder, in reading order.",
+        [["bus.yaml", "standard_a.yaml"]],
+        Items(Shape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1),
+    ),
+    Key(
+        "groups",
+        DEVICE,
+        "Groups, for a device that fits into one file.",
+        [[{"group": "main", "space": "holding", "points": [{"name": "base_frequency", "at": "1028h"}]}]],
+        Items(GROUP.shape),
+    ),
+    Key(
+        "units",
+        FILES,
+        "Units beside the shipped ones, by symbol.",
+        [{"rpm": {"name": "revolution per minute", "quantity": "speed"}}],
+        by(forms.ANY, _UNIT.shape),
+    ),
+    Key("name", _UNIT, "Its English name.", ["hertz"], Text(80), required=True),
+    Key("quantity", _UNIT, "What it measures.", ["frequency"], Text(80), required=True),
+    Key(
+        "enums",
+        FILES,
+        "Enums that several points use.",
+        [{"contact": {"0": "open", "1": "closed"}}],
+        by(
+            forms.NAME,
+            Shape(
+                "Numbers with their names, in the manual's order.",
+                [{"0": "keypad", "1": "terminal"}],
+                by(forms.NUMBER, places.ENTRY.shape, least=1),
+            ),
+        ),
+    ),
+    Key(
+        "formats",
+        FILES,
+        "What points mean, by name.",
+        [{"percent_tenth": {"unit": "%"}}],
+        by(forms.NAME, places.FORMAT.shape),
+    ),
+    Key(
+        "records",
+        FILES,
+        "Points that repeat together, by name.",
+        [{"trip": {"points": [{"name": "error", "at": "base"}]}}],
+        by(forms.NAME, places.RECORD.shape),
+    ),
+    Key("bus", FILES, places.BUS.shape),
+    Key("telegrams", FILES, "Cyclic layouts of words.", [places.TELEGRAM.shape.examples], Items(places.TELEGRAM.shape)),
+    Key(
+        "messages",
+        FILES,
+        "Layouts of the bytes of a frame.",
+        [places.MESSAGE.shape.examples],
+        Items(places.MESSAGE.shape),
+    ),
+    Key("commands", FILES, "Named constant writes.", [places.COMMAND.shape.examples], Items(places.COMMAND.shape)),
+    Key("frames", FILES, "The manual's worked examples.", [places.FRAME.shape.examples], Items(places.FRAME.shape)),
+    Key(
+        "errata",
+        FILES,
+        "Where the manual is wrong, unclear or silent.",
+        [places.ERRATUM.shape.examples],
+        Items(places.ERRATUM.shape),
+    ),
+    Key(
+        "looked_through",
+        FILES,
+        "Lines of the manual that nothing was taken from; the audit leaves them out.",
+        [places.LOOKED_THROUGH.shape.examples],
+        Items(places.LOOKED_THROUGH.shape),
+    ),
+)
+"""What a file declares."""

@@ -1,0 +1,69 @@
+"""The forms of texts and keys, each with its words for findings and its sign for KEYS.md."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import Form
+
+_WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
+
+NAME = Form(
+    "^[a-z][a-z0-9]*(_[a-z0-9]+)*$",
+    "a name in snake_case",
+    "names are English words such as `base_frequency`: a to z, digits, single _",
+    "<name>",
+)
+NUMBER = Form(
+    "^([-+0-9]|[A-Fa-f][0-9A-Fa-f]*[hH](\\.\\.|$)|[Hh]').*$",
+    "a number",
+    "keys here are numbers such as 3, -1, 1Fh or 0x1F",
+    "<number>",
+)
+BITS = Form(
+    f"^{_WHOLE}(\\.\\.{_WHOLE})?$",
+    "a number, or two",
+    "bits and bytes are numbers: 3; several bits have the high one first: 5..4",
+    "<number or high..low>",
+)
+SET = Form(f"^{_WHOLE}$", "the number of a set", "keys here are the numbers of the further sets, from 2 on", "<set>")
+ELEMENT = Form(
+    f"^{_WHOLE}(/{_WHOLE})?$",
+    "an element",
+    "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1",
+    "<index>",
+)
+VARIANT = Form(
+    "^[a-z][a-z0-9_]*=[A-Za-z0-9_]+$",
+    "a variant",
+    "keys here are written axis=value, such as voltage_class=400V",
+    "<axis=value>",
+)
+VARIANT_VALUE = Form(
+    "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$",
+    "the name of a variant",
+    "letters, digits and single _: 400V, model_b",
+    "<value>",
+)
+WRITTEN = Form(
+    "^([A-Za-z]+|[0-9]{1,2}\\.\\.[0-9]{1,2}|[0-9]{1,9})$",
+    "letters of codes, bits of a word, or a number",
+    "write the letters of codes (P), bits with the high one first (15..8), or a number (0)",
+    "<letters, bits or number>",
+)
+LANGUAGE = Form("^[a-z]{2}$", "a language", "languages have two letters: en, de, fr", "<language>")
+PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<anything>")
+ANY = Form("", "a word", "any word is fine", "<any>")
+"""Whatever is no key of the table and of no other form."""
+
+LINES = Form("^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$", "a line or lines", "lines are written 780, several lines 780..790")
+VERSION = Form("^[0-9]+\\.[0-9]+\\.[0-9]+$", "a version", "write three numbers: 1.0.0")
+BYTES = Form("^[0-9A-Fa-f\\s]+$", "bytes in hexadecimal", "write two digits for each byte: 05 06 10 28")
+SHA256 = Form(
+    "^[0-9a-f]{64}$", "a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"
+)
+WORD_ORDER = Form("^(high|low) first$", "an order of words", "write `high first` or `low first`")
+ID = Form("^[a-z][a-z0-9_]*$", "an id", "ids are written a to z, digits and _")
+PART_FILE = Form(
+    "^[A-Za-z0-9][A-Za-z0-9_.-]*\\.ya?ml$",
+    "the name of a part",
+    "parts stand beside device.yaml and end with .yaml; a part has no folder in its name",
+)

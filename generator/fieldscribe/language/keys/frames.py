@@ -1,0 +1,109 @@
+"""The keys of telegrams, messages, commands, worked examples and errata."""
+
+from __future__ import annotations
+
+from fieldscribe.families import families
+from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Key, Shape, Text, Whole, by, one_of
+from fieldscribe.language.keys import forms
+from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, TELEGRAM
+from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
+
+_SAID = by(forms.ANY, Shape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, YES_NO))
+_VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)
+
+KEYS = (
+    Key(
+        "direction",
+        TELEGRAM,
+        "Who sends it: the master (request), the device as an answer (response), the device by itself (cyclic).",
+        ["cyclic"],
+        DIRECTION,
+        required=True,
+    ),
+    Key("words", TELEGRAM, "How many words it has.", [69], Whole(1, 65536), required=True),
+    Key("message", TELEGRAM, "The message whose frames carry the words.", ["visualisation"], NAMED),
+    Key("space", COMMAND, "The address space.", ["holding"], Text(40)),
+    Key("at", COMMAND, "The address on the wire.", ["0900h"], Whole(), Text(64), required=True),
+    Key("function", COMMAND, "The function code that writes it.", ["06h"], Whole(), Text(20), required=True),
+    Key("value", COMMAND, "The constant, or `any`.", ["any", 1], Whole(), Text(64), required=True),
+    Key("wears", COMMAND, "How many times the memory stands it.", [100000], Whole(1, 1_000_000_000)),
+    Key("busy", COMMAND, "The point that tells that it is still running.", ["writing_data"], Text(80)),
+    Key(
+        "framing",
+        FRAME,
+        "The framing: the device's first of modbus, `can` or `uss` unless said. Of USS also the words of one part "
+        "alone: `pkw`, `pzd`, or `broadcast` (mask words, then process data).",
+        ["rtu"],
+        one_of(*(way for one in families() for way in one.framings)),
+    ),
+    Key("direction", FRAME, "Who sends it; a response is also recognised by `answers`.", ["request"], DIRECTION),
+    Key("answers", FRAME, "The request that this response answers.", ["write_base_frequency"], NAMED),
+    Key(
+        "bytes",
+        FRAME,
+        "The bytes as printed, in hexadecimal.",
+        ["05 06 10 28 01 F4 0C 91"],
+        Text(1200, forms.BYTES),
+        required=True,
+    ),
+    Key(
+        "says",
+        FRAME,
+        "What the frame means: values by point (code or name), or raw numbers (`P0700.raw: 2`).",
+        [{"A020": 50.0}],
+        _SAID,
+    ),
+    Key(
+        "with",
+        FRAME,
+        "What other points hold, where values under `says` need them: values by point.",
+        [{"P2000": 50.0, "P2009": 0}],
+        _SAID,
+    ),
+    Key("error", FRAME, "The exception or error value that a refusing answer carries.", [17], Whole(0, 65535)),
+    Key("id", ERRATUM, "A name that is never reused.", ["f004_wire_decimal"], Text(80, forms.ID), required=True),
+    Key("point", ERRATUM, "The point (code or name) it is about.", ["F004"], Text(80)),
+    Key(
+        "points",
+        ERRATUM,
+        "The points it is about.",
+        [["A061", "A261"]],
+        Items(Shape("Code or name.", ["A061"], Text(80)), 1),
+    ),
+    Key("flag", ERRATUM, "The flag of the point that it is about.", ["ready"], NAMED),
+    Key("frame", ERRATUM, "The worked example it is about.", ["write_base_frequency"], NAMED),
+    Key("function", ERRATUM, "The function code it is about.", ["03h"], Text(), Whole()),
+    Key("response", ERRATUM, "The response id that it is about.", [3], Text(), Whole()),
+    Key("exception", ERRATUM, "The exception or error value that it is about.", [106], Text(), Whole()),
+    Key("message", ERRATUM, "The message that it is about.", ["read_request"], NAMED),
+    Key("telegram", ERRATUM, "The telegram that it is about.", ["visualisation"], NAMED),
+    Key("where", ERRATUM, "Any other place, in words.", ["table of coils"], Text(200)),
+    Key(
+        "printed",
+        ERRATUM,
+        "What is printed: keys of `printed` with the wrong value, or a sentence.",
+        [{"wire": 4219}, "no address"],
+        Text(1000),
+        by(forms.ANY, Shape("The printed value.", [4219], *_VALUE), least=1),
+        required=True,
+    ),
+    Key(
+        "taken",
+        ERRATUM,
+        "What was taken instead: the same keys with the right value, or a sentence.",
+        [{"wire": 4119}, "documented only"],
+        Text(1000),
+        by(forms.ANY, Shape("The value taken.", [4119], *_VALUE), least=1),
+        required=True,
+    ),
+    Key("why", ERRATUM, "Why that is believed.", ["Both neighbours say so."], Text(2000), required=True),
+    Key("certainty", ERRATUM, "How sure that is.", ["certain"], one_of("certain", "likely", "unknown"), required=True),
+    Key("document", ERRATUM, "The document, if it differs from the first.", ["manual"], Text()),
+    Key(
+        "line",
+        ERRATUM,
+        "The line in the text extracted from the manual, or several as `780..790`.",
+        [780, "2553..2652"],
+        *LINE_OR_LINES,
+    ),
+)

@@ -1,0 +1,272 @@
+"""The places where keys stand, in the order of KEYS.md."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import NOTHING, Items, Place, Shape, Text, Whole
+from fieldscribe.language.keys import forms
+from fieldscribe.language.keys.shapes import A_NAME, ANYTHING, PRINTED_NUMBER, in_language
+
+_PRIVATE = {forms.PRIVATE: ANYTHING}
+
+DEVICE = Place(
+    "device_file",
+    "device.yaml",
+    "The first file of a description, device.yaml: what the device is, and what its parts are.",
+    [
+        {
+            "fieldscribe": 1,
+            "device": "hitachi_l200",
+            "version": "1.0.0",
+            "vendor": "Hitachi",
+            "model": "L200",
+            "title": "Frequency inverter",
+            "family": "modbus",
+            "documents": {"manual": {"title": "ModBus", "language": "de"}},
+        }
+    ],
+    more=_PRIVATE,
+)
+PART = Place(
+    "part_file",
+    "A part",
+    "A file that device.yaml lists under `parts`: one group, or shared facts.",
+    [
+        {"group": "standard_a", "space": "holding", "points": []},
+        {"enums": {"contact": {"0": "open", "1": "closed"}}},
+    ],
+    more=_PRIVATE,
+)
+GROUP = Place(
+    "group", "A group", "A group of points.", [{"group": "standard_a", "space": "holding", "points": []}], more=_PRIVATE
+)
+POINT = Place(
+    "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
+)
+SET = Place(
+    "set",
+    "A point in a further set, under `sets`",
+    "The same point in another parameter set: only what differs.",
+    [{"code": "A220", "at": "150Eh"}],
+)
+ELEMENT = Place(
+    "element",
+    "A point in one element of an array, under `each`",
+    "What is different in this element of an array.",
+    [{"default": 52, "line": 377}],
+)
+VARIANT = Place(
+    "variant_facts", "A point in a variant, under `variants`", "The facts of this variant.", [{"range": "660..780"}]
+)
+USE = Place(
+    "use",
+    "A use of a record: a point with `record`",
+    "Different points that repeat together: what is said here holds for all of them, single ones stand under "
+    "`members`.",
+    [{"name": "trip_1", "record": "trip", "at": "0012h"}],
+    more=_PRIVATE,
+)
+MEMBER = Place(
+    "member",
+    "A member of a record, under `members`",
+    "What differs for one member of a record at this place.",
+    [{"line": 701}],
+)
+FORMAT = Place(
+    "format",
+    "A format, under `formats`",
+    "What a point means, to be shared by name.",
+    [{"scale": "value = raw * 0.1", "unit": "%"}],
+)
+AT = Place(
+    "at",
+    "An address by rule, under `at`",
+    "The address on the wire; the words of a text in reading order (`739..732`); where addresses follow a rule, the "
+    "number with its sets and indices; ~ where the manual prints none.",
+    ["1028h", 4136, "739..732", {"number": 543, "sets": 4, "indices": 3}],
+    before=(Whole(), Text(200)),
+    after=(NOTHING,),
+)
+FIXED = Place(
+    "fixed",
+    "Fixed bits, under `fixed`",
+    "Bits of the word that are always written as this constant, `7..3` for several.",
+    [{"10": 1}],
+    more={forms.BITS: Shape("What the bits are written as.", [1], Whole(), Text(40))},
+    least=1,
+)
+DIGITS = Place(
+    "digits",
+    "Decimal digits, under `digits`",
+    "The decimal digits of the word mean something each, the highest first: how many there are, and the names of their "
+    "numbers.",
+    [{"count": 4, "enum": "input_delay"}],
+)
+RECORD = Place(
+    "record",
+    "A record, under `records`",
+    "Points that stand together at several places; `at` of each counts from `base`.",
+    [{"points": [{"name": "error", "at": "base"}]}],
+)
+CASE = Place(
+    "scale_case",
+    "A case of a scale",
+    "One rule of a scale that another point chooses.",
+    [{"when": "unit_mode == 0", "rule": "raw = value * 100"}],
+)
+ENTRY = Place(
+    "entry",
+    "An entry of an enum",
+    "A name for this number, or a name with titles by language and a quantity.",
+    ["terminal", {"name": "terminal", "en": "Terminal", "de": "Eingang"}],
+    before=(A_NAME,),
+    more={forms.LANGUAGE: in_language("Eingang")},
+)
+SPECIAL_CODE = Place(
+    "special_code",
+    "A special code, under `special`",
+    "A name for this code, or a name with titles by language and what the code means; ~ takes away a code that a "
+    "format, the group or the device gives.",
+    ["transducer_fault", {"name": "not_available", "no_value": "yes", "en": "Not available"}],
+    before=(A_NAME,),
+    after=(NOTHING,),
+    more={forms.LANGUAGE: in_language("Eingang")},
+)
+TYPES = Place(
+    "types",
+    "Types, under `types` of a group or the device",
+    "What holds for all points of a type in this device or group.",
+    [{"s16": {"special": {"7FFFh": "fault"}}}],
+    least=1,
+)
+OF_TYPE = Place(
+    "of_type",
+    "What holds for all points of a type",
+    "What holds for all points of this type.",
+    [{"special": {"7FFFh": "fault"}}],
+    least=1,
+)
+FLAG = Place(
+    "flag",
+    "A flag",
+    "A bit, or several, inside the word.",
+    ["ready", {"name": "fault", "active": 0}],
+    before=(A_NAME,),
+)
+PRINTED = Place(
+    "printed",
+    "What is printed twice, under `printed`",
+    "What the manual prints redundantly: each number in every numbering (one or a list of notations), ranges, "
+    "resolution, number of choices. It must agree with the facts, or an erratum says why not.",
+    [{"modicon": ["1029h", 4137], "wire": ["1028h", 4136], "range_in_units": "0.0..400.0"}],
+    more={
+        forms.ANY: Shape(
+            "A printed number in the numbering of this name (`wire`, those of `numbering`, and `low_` before them for "
+            "the second word).",
+            [["1029h", 4137]],
+            *(Whole(), Text(64), Items(PRINTED_NUMBER, 1)),
+        )
+    },
+)
+SOURCE = Place(
+    "source",
+    "A source",
+    "Where in the manual the facts stand.",
+    [{"document": "manual", "section": "Gruppe A"}],
+)
+LINES = Place(
+    "lines",
+    "Where single facts stand, under `lines`",
+    "Where in the manual's text single facts stand, if not at `line`; the audit reads it.",
+    [{"range": 215, "enum": "2553..2652", "scale": [130, 140]}],
+    least=1,
+)
+LOOKED_THROUGH = Place(
+    "looked_through",
+    "Lines that hold nothing, under `looked_through`",
+    "Lines of the manual's text that hold nothing for the description, and why.",
+    [{"lines": "9..33", "why": "Wiring."}],
+)
+BUS = Place(
+    "bus",
+    "The bus",
+    "What the family's frames need to know of this device.",
+    [{"framings": ["rtu"], "units": "1..32", "functions": {"03h": "read_holding_registers"}}],
+    more=_PRIVATE,
+)
+CODE = Place(
+    "code_entry",
+    "A function, a response or an exception",
+    "A code of the protocol: its name, titles; of a function the largest count of items in one request and whether it "
+    "may be broadcast; of USS codes what belongs to them.",
+    [{"name": "read_holding_registers", "max": 4}],
+    before=(A_NAME,),
+    more={forms.LANGUAGE: in_language("Adresse unbekannt")},
+)
+TELEGRAM = Place(
+    "telegram",
+    "A telegram",
+    "A layout of words that is sent again and again.",
+    [{"name": "visualisation", "direction": "cyclic", "words": 69, "message": "visualisation"}],
+    more=_PRIVATE,
+)
+MESSAGE = Place(
+    "message",
+    "A message",
+    "A layout of eight bytes with an identifier.",
+    [
+        {
+            "name": "read_request",
+            "direction": "request",
+            "can_id": "33Fh",
+            "layout": {"0": "FFh", "1": "unit", "2..3": "address", "4..5": 0, "6..7": "xor 0..5"},
+        }
+    ],
+    more=_PRIVATE,
+)
+COMMAND = Place(
+    "command",
+    "A command",
+    "A named constant write.",
+    [{"name": "enter", "at": "0900h", "function": "06h", "value": "any"}],
+    more=_PRIVATE,
+)
+FRAME = Place(
+    "frame",
+    "A frame",
+    "A worked example of the manual.",
+    [{"name": "write_base_frequency", "direction": "request", "bytes": "05 06 10 28 01 F4 0C 91"}],
+    more=_PRIVATE,
+)
+ERRATUM = Place(
+    "erratum",
+    "An erratum",
+    "A place where the manual is wrong, unclear or silent, and what was taken instead.",
+    [
+        {
+            "id": "f004_wire_decimal",
+            "point": "F004",
+            "printed": {"wire": 4219},
+            "taken": {"wire": 4119},
+            "why": "Both neighbours say so.",
+            "certainty": "certain",
+        }
+    ],
+    more=_PRIVATE,
+)
+
+GROUPS = (PART, GROUP)
+FILES = (DEVICE, PART)
+REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
+"""The point once more: only what differs."""
+POINTS = (POINT, *REPEATED)
+FACTS = (FORMAT, *POINTS)
+"""Where it is said what a point means."""
+CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
+"""What has a place in the manual beside points."""
+
+PLACES = (
+    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, AT, FIXED, DIGITS, RECORD, CASE, ENTRY),
+    *(SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
+    *(COMMAND, FRAME, ERRATUM),
+)
+"""All that have a table of their own in KEYS.md, in its order."""

@@ -1,0 +1,191 @@
+"""The keys of points: which it is, what it means, how it may be used."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import (
+    YES_NO,
+    Items,
+    Key,
+    Shape,
+    Text,
+    Whole,
+    by,
+    one_of,
+)
+from fieldscribe.language.keys import forms, places
+from fieldscribe.language.keys.places import (
+    CITED,
+    FACTS,
+    FILES,
+    GROUP,
+    GROUPS,
+    MEMBER,
+    POINT,
+    POINTS,
+    SET,
+    USE,
+    VARIANT,
+)
+from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, TITLE
+
+_TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
+_NAMED = (places.ENTRY, places.FLAG, places.SPECIAL_CODE, places.CODE, *CITED)
+
+WHICH = (
+    Key("name", (POINT, USE, *_NAMED), NAME, required=True, own=True),
+    Key("code", (*POINTS, USE), "The manual's own short name.", ["A020"], Text(40), inherited=(USE,), own=True),
+    Key(
+        "record",
+        (POINT, USE),
+        "One of `records`: different points that stand together, with `at` as their base.",
+        ["trip"],
+        NAMED,
+        own=True,
+    ),
+    Key("at", (POINT, SET, VARIANT, USE, MEMBER), places.AT.shape, own=True),
+    Key(
+        "members",
+        (POINT, USE),
+        "Facts of single members of the record at this place.",
+        [{"error": {"line": 701}}],
+        by(forms.NAME, MEMBER.shape),
+        needs=("record",),
+        own=True,
+    ),
+    Key(
+        "bits",
+        POINT,
+        "The bits of the word that the point takes; the others belong to other points.",
+        ["15..14", 3],
+        Text(20),
+        Whole(),
+    ),
+    Key("space", POINT, "The address space, if it differs from the group's.", ["coil"], Text(40)),
+    Key(
+        "sets",
+        POINT,
+        "The same point in further parameter sets, by number; the point itself is in set 1.",
+        [{"2": {"code": "A220", "at": "150Eh"}}],
+        by(forms.SET, SET.shape, least=1),
+        own=True,
+    ),
+    Key(
+        "each",
+        POINT,
+        "What differs in single elements, by index; by set where there are no indices, by set/index where there are "
+        "both.",
+        [{"0": {"default": 52, "line": 377}}, {"1/2": {"line": 322}}],
+        by(forms.ELEMENT, places.ELEMENT.shape, least=1),
+    ),
+    Key(
+        "variants",
+        POINT,
+        "What differs by variant: `axis=value` and the facts of that variant.",
+        [{"voltage=400V": {"range": "660..780"}}],
+        by(forms.VARIANT, VARIANT.shape, least=1),
+    ),
+    Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1), own=True),
+    Key("title", (*FILES, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(places.DEVICE,), own=True),
+    Key("note", (*FILES, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
+    Key(
+        "line",
+        (*POINTS, USE, *_NAMED, places.BUS),
+        "The line in the text extracted from the manual.",
+        [780],
+        Whole(1, LAST_LINE),
+        inherited=(USE,),
+    ),
+    Key(
+        "section",
+        (*POINTS, USE, *CITED, places.ERRATUM),
+        "The section of the manual; quote what looks like a number.",
+        ["4.2.10"],
+        Text(200),
+        inherited=(USE,),
+    ),
+    Key("page", (*POINTS, USE, *CITED, places.ERRATUM), "The printed page.", [21], Whole(), Text(), inherited=(USE,)),
+    Key("lines", (*FACTS, USE, places.CODE, *CITED, places.ERRATUM), places.LINES.shape, inherited=(USE,)),
+    Key("printed", POINTS, places.PRINTED.shape, own=True),
+    Key("format", POINT, "One of `formats`.", ["percent_tenth"], NAMED),
+)
+"""Which point it is, and where the manual says so."""
+
+_USED = (*GROUPS, *POINTS)
+_EVERYWHERE = (*_USED, USE)
+
+USING = (
+    Key(
+        "access",
+        _EVERYWHERE,
+        "What a master may do: read, write, both, or nothing over this bus.",
+        ["rw"],
+        one_of("r", "w", "rw", "none"),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "keeps",
+        _EVERYWHERE,
+        "Whether a written value survives power-off: no, yes (each write wears the memory), by the command of this "
+        "name, or as the caller chooses with each write (`choice`).",
+        ["enter"],
+        Text(80),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "changes",
+        _EVERYWHERE,
+        "How often the value changes by itself, for polling and for run-time factors.",
+        ["never"],
+        one_of("never", "rarely", "always"),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "conditions",
+        _EVERYWHERE,
+        "What must hold for a write.",
+        [["stopped"]],
+        Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "when",
+        _EVERYWHERE,
+        "The point exists only if this holds; comparisons with and, or, not.",
+        ["phases >= 2 and meter != none"],
+        Text(500),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "since",
+        _EVERYWHERE,
+        "The first firmware that has it.",
+        ["firmware 2.1.0"],
+        Text(80),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "until",
+        _EVERYWHERE,
+        "The last firmware that has it.",
+        ["firmware 3.7"],
+        Text(80),
+        needs=("group",),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "reserved",
+        _USED,
+        "The maker keeps this address to itself.",
+        [True],
+        YES_NO,
+        needs=("group",),
+        inherited=(GROUP,),
+    ),
+)
+"""How a point may be used, and when it exists."""

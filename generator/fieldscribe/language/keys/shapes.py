@@ -1,0 +1,50 @@
+"""What stands at several keys alike."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import NUMBER, Items, Shape, Text, Whole, by, one_of
+from fieldscribe.language.keys import forms
+
+LAST_LINE = 1_000_000_000
+
+A_NAME = Text(80, forms.NAME)
+NAMED = Text(form=forms.NAME)
+"""The name of what is declared elsewhere."""
+
+NAME = Shape(
+    "A name in English and snake_case. It becomes the identifier in every language and is never reused for something "
+    "else.",
+    ["base_frequency"],
+    A_NAME,
+)
+PRINTED_NUMBER = Shape(
+    "A number as the manual writes it: 4136, 0x1028, 1028h, H'33F, 0b0101, 0.1.", [4136, "1028h", 0.1], NUMBER, Text(64)
+)
+ANYTHING = Shape("Yours: nothing reads it.", ())
+
+
+def in_language(example: str) -> Shape:
+    """One text of several languages."""
+    return Shape("The text in this language.", [example], Text(2000))
+
+
+TITLE = Shape(
+    "A title: one English text, or one text per language with English among them.",
+    [{"en": "Base frequency", "de": "Basisfrequenz"}, "Base frequency"],
+    *(Text(2000), by(forms.LANGUAGE, in_language("Basisfrequenz"), required=("en",))),
+)
+NOTE = Shape(
+    "A sentence of your own, in English or per language.",
+    [{"en": "Takes some time."}, "Takes some time."],
+    *(Text(2000), by(forms.LANGUAGE, in_language("Basisfrequenz"), required=("en",))),
+)
+LINE_OR_LINES = (Whole(1, LAST_LINE), Text(form=forms.LINES))
+LINES_OF = Shape(
+    "A line of the manual's text, several as `2553..2652`, or a list of these.",
+    [215, "2553..2652", [130, 140]],
+    *LINE_OR_LINES,
+    Items(Shape("A line, or several as `2553..2652`.", [780, "2553..2652"], *LINE_OR_LINES), 1),
+)
+SEVERAL = Items(Shape("A number, or several as `11..14`.", [7, "11..14"], Whole(), Text(20)))
+WORD_ORDER = one_of("high first", "low first")
+DIRECTION = one_of("request", "response", "cyclic")

@@ -1,0 +1,97 @@
+"""The keys inside the facts of points: addresses by rule, enums, flags, special codes, what is printed and where."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import NUMBER, YES_NO, Key, Place, Shape, Text, Whole, by, one_of
+from fieldscribe.language.keys import forms
+from fieldscribe.language.keys.places import (
+    AT,
+    CASE,
+    DIGITS,
+    ENTRY,
+    FLAG,
+    LINES,
+    LOOKED_THROUGH,
+    OF_TYPE,
+    PRINTED,
+    SOURCE,
+    SPECIAL_CODE,
+    TYPES,
+)
+from fieldscribe.language.keys.shapes import LAST_LINE, LINES_OF, NAMED, PRINTED_NUMBER, in_language
+from fieldscribe.model import TYPES as WIRE_TYPES
+
+_FLAG_PRINTED = Place(
+    "",
+    "",
+    "What the manual prints redundantly about the flag, in bits of the word.",
+    [{"mask": "0x0002"}, {"bit": 4}, {"active": 0}],
+    least=1,
+)
+_ONE_BIT = Whole(choices=(0, 1))
+_YES = (YES_NO, one_of("yes", "no"))
+_CITED = (
+    *("code", "section", "address", "range", "scale", "bits", "flags", "enum", "resolution", "choices", "printed"),
+    *("bytes", "number", "answers", "refusals"),
+)
+"""The facts that `lines` can place."""
+
+KEYS = (
+    Key("number", AT, "The number of the parameter.", [543], Whole(), Text(64), required=True),
+    Key("sets", AT, "How many parameter sets there are: a count from 1, or `0..3`.", [4], Whole(), Text(40)),
+    Key("indices", AT, "How many elements the array has: a count from 1, or `0..1`.", [3, "0..1"], Whole(), Text(40)),
+    Key("set", AT, "This set alone.", [2], Whole(0, 999)),
+    Key("index", AT, "This element alone.", [1], Whole(0, 65535)),
+    Key("count", DIGITS, "How many digits.", [4], Whole(1, 5), required=True),
+    Key("when", CASE, "A point compared with a constant.", ["unit_mode == 0"], Text(200), required=True),
+    Key("rule", CASE, "The rule that then holds.", ["raw = value * 100"], Text(500), required=True),
+    Key("quantity", ENTRY, "A quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),
+    Key("no_value", SPECIAL_CODE, "The code says that there is no value.", ["yes"], *_YES),
+    Key("writable", SPECIAL_CODE, "The code may be written; without this it is only read.", ["yes"], *_YES),
+    *(Key(name, TYPES, OF_TYPE.shape) for name in WIRE_TYPES if name not in ("bit", "text")),
+    Key("active", FLAG, "The value at which the name is true; 0 for an inverted bit.", [0], _ONE_BIT),
+    Key(
+        "zero",
+        FLAG,
+        "What 0 means.",
+        [{"en": "not ready"}],
+        Text(2000),
+        by(forms.LANGUAGE, in_language("nicht bereit")),
+    ),
+    Key("one", FLAG, "What 1 means.", [{"en": "ready"}], Text(2000), by(forms.LANGUAGE, in_language("bereit"))),
+    Key(
+        "values",
+        FLAG,
+        "Names for the numbers of several bits: the name of one of `enums`, or the numbers with their names.",
+        ["relay_event", {"0": "stop", "1": "run"}],
+        NAMED,
+        by(forms.NUMBER, ENTRY.shape, least=1),
+    ),
+    Key("printed", FLAG, _FLAG_PRINTED.shape),
+    Key("mask", _FLAG_PRINTED, PRINTED_NUMBER),
+    Key("bit", _FLAG_PRINTED, "The number of the bit, or of the lowest one.", [4], Whole(0, 63)),
+    Key("active", _FLAG_PRINTED, "The value at which the name is said to be true.", [0], _ONE_BIT),
+    Key("resolution", PRINTED, "The resolution as printed, with its unit.", ["0.1 Hz"], Text(80), NUMBER),
+    Key("choices", PRINTED, "How many choices the manual says there are.", [5], Whole(0, 1_000_000_000)),
+    Key(
+        "pairs",
+        PRINTED,
+        "Raw numbers with their values in the unit, as printed side by side.",
+        [{"FF9Eh": -0.98, "0064h": 1.0}],
+        by(forms.NUMBER, Shape("The value in the unit.", [-0.98], NUMBER, Text(64)), least=1),
+    ),
+    Key("document", SOURCE, "One of the documents that device.yaml names.", ["manual"], Text()),
+    Key(
+        "section",
+        SOURCE,
+        "The section as the manual numbers or calls it; quote what looks like a number.",
+        ["4.2.10", "Gruppe A"],
+        Text(200),
+    ),
+    Key("page", SOURCE, "The printed page.", [21], Whole(), Text()),
+    Key("line", SOURCE, "The line in the text extracted from the manual.", [780], Whole(1, LAST_LINE)),
+    *(Key(fact, LINES, LINES_OF) for fact in _CITED),
+    Key("lines", LOOKED_THROUGH, LINES_OF, required=True),
+    Key("why", LOOKED_THROUGH, "What stands there, in a few words.", ["Wiring."], Text(500), required=True),
+    Key("document", LOOKED_THROUGH, "The document, if not the first one.", ["manual"], Text()),
+)

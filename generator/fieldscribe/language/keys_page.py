@@ -1,0 +1,83 @@
+"""The table of keys as Markdown: what descriptions/KEYS.md holds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Place, Text, Whole
+from fieldscribe.language.keys import forms, keys_of
+from fieldscribe.language.keys.places import PLACES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.kinds import Kind, Shape
+
+_FEW = 2
+_TYPES = {Items: "list", Place: "mapping", Whole: "whole number", Text: "text"}
+_PLAIN: dict[Kind, str] = {NUMBER: "number", YES_NO: "boolean", NOTHING: "`~`"}
+
+
+def keys_markdown() -> str:
+    """The page: one table for each kind of mapping."""
+    lines = ["# All keys of the description language", ""]
+    lines += ["Made by `make keys` from the table of keys; `README.md` beside this page shows them at work.", ""]
+    for place in PLACES:
+        lines += [f"## {place.heading}", "", place.shape.meaning, ""]
+        lines += ["| key | type | meaning | example |", "|---|---|---|---|"]
+        lines += [f"| {' | '.join(row)} |" for row in _rows(place)]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
+    """The keys of a mapping; of mappings without a table of their own also what is inside."""
+    for name, key in keys_of(place).items():
+        needed = " **Required.**" if place in key.required else ""
+        yield f"`{prefix}{name}`", _type(key.shape), _meaning(key.shape) + needed, _example(key.shape)
+        if len(key.places) <= _FEW or not _leads_to_a_table(key.shape):
+            yield from _inside(key.shape, f"{prefix}{name}.")
+    for form, shape in place.more.items():
+        yield f"`{prefix}{form.sign}`", _type(shape), _meaning(shape), _example(shape)
+        yield from _inside(shape, f"{prefix}{form.sign}.")
+
+
+def _inside(shape: Shape, prefix: str) -> Iterator[tuple[str, ...]]:
+    for kind in shape.kinds:
+        if isinstance(kind, Place) and not kind.heading and forms.LANGUAGE not in kind.more:
+            yield from _rows(kind, prefix)
+
+
+def _leads_to_a_table(shape: Shape) -> bool:
+    """Whether what is inside has a table of its own, so that a key of many places need not repeat what it is."""
+    inner = [
+        kind for outer in shape.kinds if isinstance(outer, Place) for one in outer.more.values() for kind in one.kinds
+    ]
+    return any(isinstance(kind, Place) and kind.heading for kind in inner)
+
+
+def _meaning(shape: Shape) -> str:
+    return shape.meaning.replace("|", "\\|")
+
+
+def _type(shape: Shape) -> str:
+    return ", ".join(map(_kind, shape.kinds)) or "any"
+
+
+def _kind(kind: Kind) -> str:
+    if isinstance(kind, Text | Whole) and kind.choices:
+        return ", ".join(f"`{one}`" for one in kind.choices)
+    return _TYPES.get(type(kind)) or _PLAIN[kind]
+
+
+def _example(shape: Shape) -> str:
+    return f"`{shown(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""
+
+
+def shown(value: Any) -> str:
+    """An example as it stands in YAML."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {shown(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(shown, value)) + "]"
+    return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)
