@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 DESCRIPTIONS = Path(__file__).resolve().parents[1] / "descriptions"
 PAGES = [DESCRIPTIONS / "README.md", *sorted((DESCRIPTIONS / "language").glob("*.md"))]
-BLOCK = re.compile(r"^(## .*)$|^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(## [^\n]*)$|^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"# (\w+\.yaml)\n")
 COMMAND = re.compile(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
 HEAD = """\
@@ -31,9 +31,10 @@ family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus:
   framings: [rtu]
+  units: 1..247
   functions: {01h: read_coils, 03h: {name: read_holding_registers, max: 125}, 06h: write_register, 10h: {name: write_registers, max: 123}}
 """
-GROUP = {"name": "{name}", "space": "holding", "access": "rw", "source": '{{document: manual, section: "1"}}'}
+GROUP = {"group": "{name}", "space": "holding", "access": "rw", "source": '{{document: manual, section: "1"}}'}
 """What the group of a fragment says, unless the page says it."""
 
 
@@ -84,7 +85,7 @@ def devices(page: Path) -> Iterator[Device]:
 
 
 def _of_fragments(page: Path, heading: str, fragments: list[str]) -> Iterator[Device]:
-    """Lists are points, mappings stand in the file: each `group` opens a part of its own."""
+    """Lists are points, mappings stand in the head: each `group` opens a document of its own."""
     if not fragments:
         return
     shared, parts = "", list[tuple[str, str]]()
@@ -92,17 +93,18 @@ def _of_fragments(page: Path, heading: str, fragments: list[str]) -> Iterator[De
         if text.startswith("group:"):
             parts.append((text, ""))
         elif text.startswith("-"):
-            group, points = parts.pop() if parts else ("group:\n", "")
+            group, points = parts.pop() if parts else ("", "")
             parts.append((group, points + text))
         else:
             shared += text
-    names = [f"part_{number}" for number in range(1, len(parts) + 1)]
-    files = {"device.yaml": HEAD + shared + f"parts: [{', '.join(f'{name}.yaml' for name in names)}]\n"}
-    for name, (group, points) in zip(names, parts, strict=True):
-        given = {line.strip().partition(":")[0] for line in group.splitlines()[1:]}
-        ours = [f"  {key}: {value.format(name=name)}\n" for key, value in GROUP.items() if key not in given]
-        files[f"{name}.yaml"] = f"{group}{''.join(ours)}points:\n{points or '[]'}"
-    yield Device(page.stem, heading, files)
+    documents = [HEAD + shared]
+    for number, (group, points) in enumerate(parts, 1):
+        given = {line.partition(":")[0] for line in group.splitlines()}
+        ours = "".join(
+            f"{key}: {value.format(name=f'group_{number}')}\n" for key, value in GROUP.items() if key not in given
+        )
+        documents.append(f"{ours}{group}points:\n{points}" if points else f"{ours}{group}points: []\n")
+    yield Device(page.stem, heading, {"device.yaml": "---\n".join(documents)})
 
 
 def _all() -> Iterator[Device]:
@@ -110,7 +112,7 @@ def _all() -> Iterator[Device]:
         yield from devices(page)
 
 
-@pytest.mark.parametrize("device", _all(), ids=lambda device: f"{device.page}-{device.heading or device.id}")
+@pytest.mark.parametrize("device", list(_all()), ids=lambda device: f"{device.page}-{device.heading or device.id}")
 def test_every_example_compiles(
     device: Device, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
