@@ -265,6 +265,13 @@ def _bytes(key: str, value: Any) -> str | None:
     return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
 
 
+def _keeps(_: str, value: Any) -> str | None:
+    """A command's name."""
+    if not isinstance(value, str) or value.lower() in WORDS["keeps"] or not re.fullmatch("[a-z][a-z0-9_]*", value):
+        return None
+    return f"write no, yes or choice; the command that keeps what is written is named as `keep_with: {value}`"
+
+
 def _group(_: str, value: Any) -> str | None:
     """Its name alone."""
     return f"write `group: {{name: {value}, space: …, source: …}}`" if isinstance(value, str) and value else None
@@ -301,5 +308,6 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
     "family": _family,
     "group": _group,
+    "keeps": _keeps,
 }
 """What makes the hint, by key; words alone stand in the table above."""

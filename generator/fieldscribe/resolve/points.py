@@ -133,7 +133,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
-        keeps=get("keeps") if writable else None,
+        keeps=_keeps(scope, draft) if writable else None,
         conditions=tuple(get("conditions", ())) if writable else (),
         when=existence_of(scope, draft, ranges.bounds.scales),
         since=get("since"),
@@ -192,6 +192,15 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
         hint = "its type says how many words it takes: leave `takes` out"
         scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
     return draft.untyped
+
+
+def _keeps(scope: Scope, draft: Draft) -> str | None:
+    """What keeps a written value; a finding where one layer says it twice."""
+    kept, command = draft.layer("keeps"), draft.layer("keep_with")
+    if kept is not None and kept is command:
+        message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
+        scope.report.error("two-meanings", message, kept.key_span("keep_with"), hint)
+    return draft.keeps
 
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
