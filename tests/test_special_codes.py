@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shutil
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
