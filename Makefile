@@ -13,9 +13,13 @@ keys:               ## write the page and the schema of the description language
 	$(FIELDSCRIBE) schema > descriptions/schema.json
 	$(FIELDSCRIBE) schema --page > descriptions/KEYS.md
 
-test:               ## run every test
+# Python starts a few hundred times: what it compiled is kept aside, also where the environment says that nothing is kept.
+test core: export PYTHONPYCACHEPREFIX = $(CURDIR)/.cache/python
+test core: export PYTHONDONTWRITEBYTECODE =
+
+test:               ## run every test, with more random cases than `core` has
 	@sh generator/setup.sh tests
-	$(PYTHON) -m pytest -n auto --dist worksteal
+	FIELDSCRIBE_EXAMPLES=150 FIELDSCRIBE_MUTANTS=240 $(PYTHON) -m pytest -n auto --dist worksteal
 
 core:               ## run the quick tests only
 	@sh generator/setup.sh tests

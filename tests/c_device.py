@@ -3,20 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
 from fieldscribe.model import Digits, Entry, Enum, Fixed, Flag, Limit, ScaleCase, Special, Text
-from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c, vectors
-from models import HERTZ, allowed, entry, linear, point, sample_device, scaled, titles, units, value_of
+from made_once import made_once
+from models import (
+    HERTZ,
+    allowed,
+    entry,
+    kitchen_sink,
+    linear,
+    made,
+    point,
+    sample_device,
+    scaled,
+    titles,
+    units,
+    value_of,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
+    import pytest
     from fieldscribe.model import Device, Point
 
 KITCHENS = Path(__file__).parent / "devices"
@@ -66,9 +80,7 @@ def write_files(texts: Mapping[str, str], out: Path) -> Path:
 
 def kitchen(name: str) -> Device:
     """The device of that name that uses every mechanism of its family."""
-    device = load_device(KITCHENS / name / "device.yaml", Report())
-    assert device is not None
-    return device
+    return made(name)
 
 
 def conformance_source(folder: Path, device: str) -> Path:
@@ -194,3 +206,24 @@ def rare_device() -> Device:
     device = replace(sample_device(points), id="rare", enums=(WIDE_NUMBERS,), blocks={}, frames=(), commands=())
     groups = tuple(replace(group, title={"en": hostile}) for group in device.groups)
     return replace(device, title={"en": hostile}, vendor=hostile, groups=groups, errata=())
+
+
+MADE: Mapping[str, Callable[[], Device]] = {
+    "sample_drive": sample_device,
+    "rare": rare_device,
+    "kitchen_sink": kitchen_sink,
+    **{name: partial(kitchen, name) for name in ("kitchen_codes", "kitchen_can", "kitchen_uss")},
+}
+
+
+class Folders(dict[str, "Path"]):
+    """Where headers, conformance program and vectors of a made device are; generated when they are first asked for."""
+
+    def __init__(self, factory: pytest.TempPathFactory) -> None:
+        super().__init__()
+        self._factory = factory
+
+    def __missing__(self, device: str) -> Path:
+        """What another process of the run generated is taken from there."""
+        place = made_once(self._factory, f"c-{device}", lambda out: write_c(MADE[device](), out))
+        return self.setdefault(device, place)

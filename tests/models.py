@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -324,6 +325,7 @@ def kitchen_sink() -> Device:
     return made("kitchen_sink")
 
 
+@cache
 def made(name: str) -> Device:
     """One of the devices that were made for the tests, from its description."""
     device = load_device(MADE / name / "device.yaml", Report())

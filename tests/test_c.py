@@ -10,7 +10,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
-from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, kitchen, rare_device, write_c
+from c_device import (
+    MADE,
+    SANITIZERS,
+    STANDARDS,
+    WARNINGS,
+    Folders,
+    conformance_source,
+    driver,
+    kitchen,
+    rare_device,
+    write_c,
+)
 from fieldscribe.targets import c
 from fieldscribe.targets.identifiers import clashes
 from models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
@@ -18,7 +29,7 @@ from toolchains import compiled, run, succeed, tool
 from vector_file import counts_of, spoil
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from _pytest.mark.structures import ParameterSet
     from fieldscribe.model import Device
@@ -26,7 +37,6 @@ if TYPE_CHECKING:
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
-MADE = ("sample_drive", "rare", "kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss")
 CORE = ("c99", "c++17")
 COMPILERS = ("gcc", "clang")
 
@@ -46,19 +56,33 @@ class Build(NamedTuple):
         return (*STANDARDS[self.standard], *WARNINGS, *FLOATS[self.floats], self.optimize, *sanitizers)
 
 
-def builds(standards: Iterable[str], optimize: str, sanitized: Iterable[str]) -> list[Build]:
-    """Both compilers with and without floating point, for those standards."""
-    of_all = product(("gcc", "clang"), standards, FLOATS)
-    return [Build(*one, optimize, one[1] in sanitized) for one in of_all]
+def builds(standards: Iterable[str], sanitized: Iterable[str]) -> list[Build]:
+    """Both compilers with and without floating point, for those standards, as quickly as they compile."""
+    of_all = product(COMPILERS, standards, FLOATS)
+    return [Build(*one, "-O0", one[1] in sanitized) for one in of_all]
+
+
+def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[ParameterSet]:
+    """Devices and builds: both compilers with and without floating point, for each list of standards.
+
+    The standards of a list take turns, so each of them is built in each of these ways for some device.
+    """
+    found = []
+    for (turn, device), standards in product(enumerate(devices), languages):
+        for way, (compiler, floats) in enumerate(product(COMPILERS, FLOATS)):
+            build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
+            found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
+    return found
 
 
 AS_C = ("gcc", "c99", "float")
 AS_CPP = ("clang", "c++17", "no_float")
+QUICKEST = ("clang", "c99", "float")
 
 
 def quick_first(of_all: list[Build], *quick: tuple[str, str, str]) -> list[Build | ParameterSet]:
     """The core suite takes one build of C with floating point; of made devices also one of C++ without, by clang."""
-    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full) for one in of_all]
+    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all]
 
 
 def named(build: Build) -> str:
@@ -66,41 +90,13 @@ def named(build: Build) -> str:
 
 
 @pytest.fixture(scope="session")
-def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(sample_device(), tmp_path_factory.mktemp("sample"))
+def sample(folders: Folders) -> Path:
+    return folders["sample_drive"]
 
 
 @pytest.fixture(scope="session")
-def rare(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(rare_device(), tmp_path_factory.mktemp("rare"))
-
-
-@pytest.fixture(scope="session")
-def sink(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(kitchen_sink(), tmp_path_factory.mktemp("sink"))
-
-
-@pytest.fixture(scope="session")
-def can(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(kitchen("kitchen_can"), tmp_path_factory.mktemp("can"))
-
-
-@pytest.fixture(scope="session")
-def uss(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(kitchen("kitchen_uss"), tmp_path_factory.mktemp("uss"))
-
-
-@pytest.fixture(scope="session")
-def codes(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_c(kitchen("kitchen_codes"), tmp_path_factory.mktemp("codes"))
-
-
-@pytest.fixture(scope="session")
-def folders(request: pytest.FixtureRequest) -> dict[str, Path]:
-    """Where the generated files of a device are: the committed ones, or those of this run."""
-    fixtures = ("sample", "rare", "sink", "codes", "can", "uss")
-    made = {device: request.getfixturevalue(one) for device, one in zip(MADE, fixtures, strict=True)}
-    return {**dict.fromkeys(SHIPPED, GENERATED), **made}
+def sink(folders: Folders) -> Path:
+    return folders["kitchen_sink"]
 
 
 def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
@@ -121,14 +117,21 @@ def passed(output: str) -> dict[str, int]:
     return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(CORE, "-O1", CORE), AS_C, AS_CPP), ids=named)
+@pytest.mark.parametrize("build", quick_first(builds(STANDARDS, STANDARDS), AS_C, AS_CPP), ids=named)
 @pytest.mark.parametrize("device", MADE)
-def test_models_conform(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
+def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
+    """The sanitizers see most where nothing is optimized away."""
+    conforms(folders[device], device, build, tmp_path)
+
+
+@pytest.mark.full(seconds=4)
+@pytest.mark.parametrize(("device", "build"), optimized(MADE, ("c99", "c11", "c17"), ("c++11", "c++17", "c++20")))
+def test_models_conform_optimized(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
 
 
 @pytest.mark.parametrize("device", MADE)
-def test_models_conform_in_binary32(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
+def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Path) -> None:
     """All vectors again where values are float; those that a float cannot hold are not asked."""
     flags = (*WARNINGS, "-std=c99", "-DFIELDSCRIBE_FLOAT32")
     program = compiled("gcc", flags, conformance_source(folders[device], device), tmp_path / "conformance")
@@ -138,27 +141,16 @@ def test_models_conform_in_binary32(device: str, folders: dict[str, Path], tmp_p
     assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(CORE, "-O0", ["c99"]), AS_C), ids=named)
+@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"]), QUICKEST), ids=named)
 @pytest.mark.parametrize("device", SHIPPED)
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
     conforms(GENERATED, device, build, tmp_path)
 
 
-OTHERS = [name for name in STANDARDS if name not in CORE]
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("build", builds(OTHERS, "-O0", OTHERS) + builds(STANDARDS, "-O2", ()), ids=named)
-@pytest.mark.parametrize("device", MADE)
-def test_other_standards(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
-    """The made devices have every mechanism; the shipped ones only repeat them, which takes long to compile."""
-    conforms(folders[device], device, build, tmp_path)
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("build", builds(["c17", "c++20"], "-O2", ["c17"]), ids=named)
-@pytest.mark.parametrize("device", SHIPPED)
-def test_shipped_devices_conform_optimised(device: str, build: Build, tmp_path: Path) -> None:
+@pytest.mark.full(seconds=10)
+@pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, ("c17", "c++20")))
+def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
+    """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
     conforms(GENERATED, device, build, tmp_path)
 
 
@@ -230,7 +222,7 @@ def test_steps_are_never_fused(compiler: str, standard: str, sample: Path, tmp_p
 @pytest.mark.parametrize("build", [*FLOATS.values(), ("-DFIELDSCRIBE_FLOAT32",)], ids=" ".join)
 @pytest.mark.parametrize("language", ["c99", "c++17"])
 def test_headers_have_no_clang_warning_at_all(
-    language: str, build: tuple[str, ...], folders: dict[str, Path], tmp_path: Path
+    language: str, build: tuple[str, ...], folders: Folders, tmp_path: Path
 ) -> None:
     left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
     flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
@@ -242,7 +234,7 @@ def test_headers_have_no_clang_warning_at_all(
 
 
 @pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
-def test_conformance_catches_each_kind(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
+def test_conformance_catches_each_kind(device: str, folders: Folders, tmp_path: Path) -> None:
     text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"), "c")
     (tmp_path / "vectors.txt").write_text(text, encoding="utf-8")
     program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
@@ -269,7 +261,7 @@ def test_a_file_that_lacks_vectors_is_refused(sample: Path, tmp_path: Path) -> N
     assert run([program, tmp_path / "vectors.txt"]).returncode == 1
 
 
-def test_no_float_is_left(folders: dict[str, Path]) -> None:
+def test_no_float_is_left(folders: Folders) -> None:
     for device in MADE:
         command = [tool("gcc"), "-E", "-P", "-std=c99", "-ffreestanding", "-DFIELDSCRIBE_NO_FLOAT"]
         text = succeed([*command, "-x", "c", frames_header(folders[device], device)])
@@ -375,6 +367,7 @@ int main(void)
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
         request.values = written;
+        request.given = 1U;
         for (at = 0; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);
         }
@@ -392,7 +385,7 @@ int main(void)
                 exact[length - 1U] = (uint8_t)(crc >> 8);
             }
         }
-        if (fieldscribe_modbus_left(framing, &request, exact, length) > 300U) {
+        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 999U, length) > 300U) {
             return 2;
         }
         if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&
@@ -422,7 +415,7 @@ int main(void)
     static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
     const uint16_t written[1] = {500U};
     static const fieldscribe_modbus_writing what = {6U, 0x1028U, 1U};
-    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written);
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written, 1U);
     fieldscribe_modbus_reply reply = {NULL, 0U, 9U, 9U};
     uint16_t value = 0U;
     request.transaction = 7U;
@@ -458,16 +451,27 @@ def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -
     assert run([*words, "-DFIELDSCRIBE_NO_FLOAT"]).returncode == 0
 
 
+UNSIGNED = ("-fno-signed-zeros", "-fno-trapping-math")
+"""What -fassociative-math asks for."""
+
+
 @pytest.mark.parametrize("flag", ["-freciprocal-math", "-funsafe-math-optimizations", "-fassociative-math"])
-def test_parts_of_fast_math_are_refused_or_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
-    """gcc tells which of them it was given; clang does not, and takes them back for the functions that compute."""
-    header, flags = sample / "c/sample_drive.h", [flag, "-fno-signed-zeros", "-fno-trapping-math"]
-    refused = run([tool("gcc"), "-std=c99", "-fsyntax-only", *flags, "-x", "c", header])
-    assert "Compile without -ffast-math" in refused.stderr
-    if flag == "-funsafe-math-optimizations":
-        return  # clang's start-up file makes the whole program flush subnormal numbers: no header can see or undo that
+def test_parts_of_fast_math_are_refused(flag: str, sample: Path) -> None:
+    """gcc tells which of them it was given."""
+    words = ["-std=c99", "-fsyntax-only", flag, *UNSIGNED, "-x", "c"]
+    assert "Compile without -ffast-math" in run([tool("gcc"), *words, sample / "c/sample_drive.h"]).stderr
+
+
+@pytest.mark.full(seconds=4)
+@pytest.mark.parametrize("flag", ["-freciprocal-math", "-fassociative-math"])
+def test_parts_of_fast_math_are_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
+    """clang does not tell, and takes them back for the functions that compute.
+
+    With -funsafe-math-optimizations its start-up file makes the whole program flush subnormal numbers: no header can
+    see or undo that.
+    """
     source = sample / "c/conformance/sample_drive_conformance.c"
-    words = ("-std=c99", "-O2", *WARNINGS, *flags, "-I", str(sample / "c"))
+    words = ("-std=c99", "-O2", *WARNINGS, flag, *UNSIGNED, "-I", str(sample / "c"))
     succeed([compiled("clang", words, source, tmp_path / "run"), sample / "vectors/sample_drive.txt"])
 
 
@@ -532,8 +536,8 @@ void start(void)
     result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
     result += (int32_t)kitchen_sink_plain_f32_check(pattern);
     word = kitchen_sink_ratio_insert(word, 200U);
-    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words);
-    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words);
+    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words, 2U);
+    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words, 2U);
     result += (int32_t)fieldscribe_modbus_build(
         &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
     for (;;) {

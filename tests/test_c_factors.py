@@ -89,7 +89,7 @@ def encoded_value(rng: random.Random, ratio: Ratio, raw: int) -> Iterator[tuple[
         yield "encode", value, ratio.raw_of_float(value)
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=7)
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_factors_are_exact(compiler: str, tmp_path: Path) -> None:
     write_c(DEVICE, tmp_path)

@@ -5,29 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from c_device import WARNINGS, conformance_source, kitchen, write_c, write_files, write_headers
-from models import kitchen_sink, point, sample_device, scaled
+from c_device import WARNINGS, conformance_source, write_files, write_headers
+from models import point, sample_device, scaled
 from toolchains import compiled, gcc_for_32_bits, run, succeed, tool
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from c_device import Folders
 
 MADE = ("kitchen_sink", "kitchen_can", "kitchen_uss")
 EXCESS = "The arithmetic here has excess precision"
 SHORT = "A double has not 53 bits here"
 SSE = ("-msse2", "-mfpmath=sse")
 NO_FLOAT = "-DFIELDSCRIBE_NO_FLOAT"
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Headers and conformance programs of made devices, side by side."""
-    out = tmp_path_factory.mktemp("machines")
-    write_c(sample_device(), out)
-    write_c(kitchen_sink(), out)
-    for name in MADE[1:]:
-        write_c(kitchen(name), out)
-    return out
 
 
 @pytest.fixture(scope="module")
@@ -39,11 +30,11 @@ def narrow(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("mode", ["gnu99", "c99", "c17", "gnu++17"])
 @pytest.mark.parametrize("flags", [("-mfpmath=387", "-march=i686"), ("-mfpmath=387", "-msse2")], ids=" ".join)
-def test_x87_arithmetic_is_refused(flags: tuple[str, ...], mode: str, folder: Path) -> None:
+def test_x87_arithmetic_is_refused(flags: tuple[str, ...], mode: str, folders: Folders) -> None:
     """There 0.15 of a step of 0.1 is a little more than one and a half before it is rounded, and less after that."""
     language = "c++" if "++" in mode else "c"
     words = [tool("gcc"), "-m32", *flags, "-O2", f"-std={mode}", "-ffreestanding", "-fsyntax-only", "-x", language]
-    header = folder / "c/sample_drive.h"
+    header = folders["sample_drive"] / "c/sample_drive.h"
     refused = run([*words, header])
     assert refused.returncode != 0
     assert EXCESS in refused.stderr
@@ -61,11 +52,11 @@ int main(void)
 """
 
 
-def test_halves_are_rounded_on_32_bits_as_elsewhere(folder: Path, tmp_path: Path) -> None:
+def test_halves_are_rounded_on_32_bits_as_elsewhere(folders: Folders, tmp_path: Path) -> None:
     gcc = gcc_for_32_bits()
     source = write_files({"half.c": FIFTEEN}, tmp_path) / "half.c"
     for mode in ("gnu17", "c99"):
-        flags = ("-m32", "-O2", f"-std={mode}", "-I", str(folder / "c"))
+        flags = ("-m32", "-O2", f"-std={mode}", "-I", str(folders["sample_drive"] / "c"))
         assert EXCESS in run([gcc, *flags, "-mfpmath=387", "-c", "-o", tmp_path / "half.o", source]).stderr
         succeed([compiled("gcc", (*flags, *SSE), source, tmp_path / "half")])
 
@@ -73,19 +64,19 @@ def test_halves_are_rounded_on_32_bits_as_elsewhere(folder: Path, tmp_path: Path
 @pytest.mark.full
 @pytest.mark.parametrize("flags", [SSE, (NO_FLOAT,)], ids=" ".join)
 @pytest.mark.parametrize("device", ["sample_drive", *MADE])
-def test_devices_conform_on_32_bits(device: str, flags: tuple[str, ...], folder: Path, tmp_path: Path) -> None:
+def test_devices_conform_on_32_bits(device: str, flags: tuple[str, ...], folders: Folders, tmp_path: Path) -> None:
     gcc_for_32_bits()
     words = ("-m32", "-std=gnu99", "-O1", *WARNINGS, *flags)
-    program = compiled("gcc", words, conformance_source(folder, device), tmp_path / "conformance")
-    succeed([program, folder / "vectors" / f"{device}.txt"])
+    program = compiled("gcc", words, conformance_source(folders[device], device), tmp_path / "conformance")
+    succeed([program, folders[device] / "vectors" / f"{device}.txt"])
 
 
-def test_doubles_of_32_bits_are_refused(folder: Path, narrow: Path) -> None:
+def test_doubles_of_32_bits_are_refused(folders: Folders, narrow: Path) -> None:
     """On AVR a double is a float: right for narrow points that say so, and for integers."""
     words = [tool("avr-gcc"), "-mmcu=atmega2560", "-std=c99", "-fsyntax-only", *WARNINGS, "-x", "c"]
     for header, flags, right in (
-        (folder / "c/sample_drive.h", (), False),
-        (folder / "c/sample_drive.h", ("-DFIELDSCRIBE_FLOAT32",), False),
+        (folders["sample_drive"] / "c/sample_drive.h", (), False),
+        (folders["sample_drive"] / "c/sample_drive.h", ("-DFIELDSCRIBE_FLOAT32",), False),
         (narrow, (), False),
         (narrow, ("-DFIELDSCRIBE_FLOAT32",), True),
         (narrow, (NO_FLOAT,), True),
@@ -96,11 +87,11 @@ def test_doubles_of_32_bits_are_refused(folder: Path, narrow: Path) -> None:
 
 
 @pytest.mark.parametrize("device", ["sample_drive", *MADE])
-def test_headers_have_no_warning_where_an_int_has_16_bits(device: str, folder: Path, tmp_path: Path) -> None:
+def test_headers_have_no_warning_where_an_int_has_16_bits(device: str, folders: Folders, tmp_path: Path) -> None:
     family = {"kitchen_can": "can", "kitchen_uss": "uss"}.get(device, "modbus")
     source = (
         write_files({"all.c": f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{device}_{family}.h"\n'}, tmp_path)
         / "all.c"
     )
-    words = ("-mmcu=atmega2560", "-std=c99", "-Os", *WARNINGS, NO_FLOAT, "-I", folder / "c", "-c")
+    words = ("-mmcu=atmega2560", "-std=c99", "-Os", *WARNINGS, NO_FLOAT, "-I", folders[device] / "c", "-c")
     succeed([tool("avr-gcc"), *words, "-o", tmp_path / "all.o", source])

@@ -24,14 +24,14 @@ def test_the_same_seed_makes_the_same_cases() -> None:
         assert list(cases(Random(SEED), 50)) == list(cases(Random(SEED), 50))
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=5)
 def test_descriptions_and_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Mutated descriptions and random words end in findings, never in a traceback."""
     found = run.table(run.everything(SEED, 400, 0, 100, tmp_path), SEED)
     assert found == 0, capsys.readouterr().out
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=5)
 @pytest.mark.parametrize("family", sorted(CASES))
 def test_frames_in_all_languages(family: str, tmp_path: Path) -> None:
     """No sanitizer speaks up, and all languages say the same of the same frames."""
@@ -52,7 +52,7 @@ def test_a_difference_is_told(tmp_path: Path) -> None:
     assert found[0].endswith("C: ok 1; Rust: bad_crc 0")
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=5)
 def test_a_parser_that_writes_too_far_is_found(tmp_path: Path) -> None:
     """The sanitizers of C see one value beyond those that were asked for."""
     for name in ("gcc", "clang"):

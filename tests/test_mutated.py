@@ -18,7 +18,7 @@ from test_robust import WHOLES, as_texts, as_yaml, changed, nodes, write_files
 if TYPE_CHECKING:
     from pathlib import Path
 
-MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "240"))
+MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "80"))
 PARTS = 8
 
 WRONG: tuple[Any, ...] = (

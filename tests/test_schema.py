@@ -134,7 +134,7 @@ def test_descriptions_are_valid() -> None:
             assert agree(root), file
 
 
-@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.full) for seed in (2, 3, 4))])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.full) for seed in range(2, 13))])
 def test_both_readings_agree_on_mutations(seed: int) -> None:
     """Wrong values at random places of the devices that use everything."""
     dice = random.Random(seed)
@@ -158,13 +158,13 @@ def test_both_readings_agree_on_mutations(seed: int) -> None:
         ...,
     ]
     valid = 0
-    for _ in range(300):
+    for _ in range(100):
         start, path = dice.choice(places)
         device = changed(start, path, dice.choice(wrongs))
         root = load(SourceFile("mutated.yaml", as_yaml(device[path[0]])), Report())
         assert root is not None
         valid += agree(root)
-    assert 5 < valid < 250
+    assert 2 < valid < 85
 
 
 def test_keys_page_and_schema_are_current() -> None:

@@ -18,7 +18,7 @@ def run(*command: object, folder: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.full
+@pytest.mark.full(seconds=10)
 def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
     run(
         sys.executable,

@@ -1,0 +1,51 @@
+"""How the suite is parted among processes: what takes long comes first, so that short tests fill the end."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING, TypeVar
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from c_device import Folders
+
+T = TypeVar("T")
+UNTOLD = 2.0
+"""The seconds that a test of the full suite is taken to need when its marker does not tell."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Where processes share the work, each begins with its part of the long tests, the longest first."""
+    items[:] = dealt(items, seconds, getattr(config, "workerinput", {}).get("workercount", 1))
+
+
+def dealt(items: list[T], seconds: Callable[[T], float], count: int) -> list[T]:
+    """The tests in such an order that xdist, which cuts it in equal parts, gives each process its share of long ones.
+
+    Short tests stay beside those of their file, whose fixtures they share.
+    """
+    long = sorted((item for item in items if seconds(item)), key=seconds, reverse=True)
+    short = iter([item for item in items if not seconds(item)])
+    order: list[T] = []
+    for place in range(count):
+        size = (len(items) - len(order)) // (count - place)
+        own = long[count - 1 - place :: count]
+        order += [*own, *islice(short, size - len(own))]
+    return order
+
+
+def seconds(item: pytest.Item) -> float:
+    """What a test of the full suite is expected to take; nothing for a quick one."""
+    marker = item.get_closest_marker("full")
+    return 0.0 if marker is None else float(marker.kwargs.get("seconds", UNTOLD))
+
+
+@pytest.fixture(scope="session")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> Folders:
+    """The generated C of the made devices."""
+    from c_device import Folders
+
+    return Folders(tmp_path_factory)
