@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldscribe.diagnostics import Report
+from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
     TYPES,
     Allowed,
@@ -266,7 +267,7 @@ def sample_bus() -> Bus:
     gaps = {"holding": ((0x30, 0x8FF),)}
     return Bus(
         *(("rtu", "tcp"), (1, 32), 0, functions, exceptions, gaps),
-        *("even", {"silent_characters": "3.5"}, {"baud": {"4": "4800"}}, {}),
+        *({"silent_characters": "3.5"}, {"baud": {"4": "4800"}}, {}, ModbusBus("even")),
     )
 
 

@@ -6,6 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from c_device import rare_points
+from fieldscribe.families.can.facts import CanBus
+from fieldscribe.families.uss.facts import UssBus
 from fieldscribe.model import (
     Bus,
     Code,
@@ -199,7 +201,7 @@ def can_points() -> tuple[Point, ...]:
 
 def can_device() -> Device:
     """A device with messages of its own."""
-    bus = Bus((), (1, 30), None, (), (), {}, None, {}, {}, {}, bitrate=125000, identifier_bits=29)
+    bus = Bus((), (1, 30), None, (), (), {}, {}, {}, {}, CanBus(125000, 29))
     points = can_points()
     telegrams = (
         Telegram("measured", titles("M"), "cyclic", 20, "measured", SOURCE),
@@ -215,8 +217,7 @@ def uss_bus() -> Bus:
     tasks = tuple(Code(number, f"task_{number}", titles("T"), None, None, ends) for number, ends in answers.items())
     responses = tuple(Code(number, f"response_{number}", titles("R"), None) for number in (0, 1, 2, 4, 5, 7, 8))
     errors = (Code(17, "not_now", titles("N"), None), Code(102, LONG, titles("L"), None))
-    bus = Bus((), (0, 31), 32, tasks, errors, {}, None, {}, {}, {}, responses=responses)
-    return replace(bus, pkw=(0, 3, 4, 127), pzd=(0, 8))
+    return Bus((), (0, 31), 32, tasks, errors, {}, {}, {}, {}, UssBus(responses, (0, 3, 4, 127), (0, 8)))
 
 
 def uss_points() -> tuple[Point, ...]:

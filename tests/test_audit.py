@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.audit.manual import Manual, tokens_of
 from fieldscribe.cli import main
-from fieldscribe.families.modbus import crc16
+from fieldscribe.families.modbus.requests import crc16
 from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:

@@ -9,14 +9,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.dialogue import codec
-from fieldscribe.dialogue.codec import CodecError
-from fieldscribe.dialogue.encoding import encode_point
-from fieldscribe.dialogue.hexadecimal import HexError, parse_hex
-from fieldscribe.dialogue.meanings import meaning_of
-from fieldscribe.dialogue.refusals import RefusedError, amount
-from fieldscribe.dialogue.selection import UnclearError, choose_point, choose_variants
-from fieldscribe.dialogue.typed_values import read_settings, read_value
+from fieldscribe.conversation import codec
+from fieldscribe.conversation.codec import CodecError
+from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.hexadecimal import HexError, parse_hex
+from fieldscribe.conversation.meanings import meaning_of
+from fieldscribe.conversation.refusals import RefusedError, amount
+from fieldscribe.conversation.selection import UnclearError, choose_point, choose_variants
+from fieldscribe.conversation.typed_values import read_settings, read_value
 from fieldscribe.model import Special
 from hypothesis import given
 from hypothesis import strategies as st

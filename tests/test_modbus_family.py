@@ -7,19 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.existence import Comparison, Condition
-from fieldscribe.families.modbus import (
-    FUNCTIONS,
-    PROTOCOL_MOST,
-    Profile,
-    Request,
-    build,
-    crc16,
-    frame,
-    parse_reply,
-    parse_request,
-    plan_blocks,
-    profile_of,
-)
+from fieldscribe.families.modbus.blocks import plan_blocks
+from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
+from fieldscribe.families.modbus.replies import parse_reply
+from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
 from fieldscribe.model import Bus, Code, Place, Point
 from hypothesis import given
 from hypothesis import strategies as st

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from c_device import WARNINGS, write_headers
+from fieldscribe.conversation.codec import decode, setting_of
 from fieldscribe.diagnostics import Report
-from fieldscribe.dialogue.codec import decode, setting_of
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.targets import docs

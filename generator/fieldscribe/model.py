@@ -419,6 +419,11 @@ class Erratum:
 
 
 @dataclass(frozen=True, slots=True)
+class Own:
+    """Facts that one family alone knows; the folder of the family says which."""
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """A worked example of the manual. `answers` names the request that a response answers.
 
@@ -437,9 +442,7 @@ class Frame:
     title: Titles
     source: Source
     errata: tuple[str, ...]
-    pkw: int | None = None
-    """USS: the words of the parameter part, as set for the link; 127 is variable."""
-    can_id: int | None = None
+    own: Own | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -457,13 +460,13 @@ class Role:
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """A layout of bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
+    """A layout of bytes with an identifier, to which the unit number is added if `adds_unit`."""
 
     name: str
     title: Titles
     direction: str
     answers: str | None
-    can_id: int
+    identifier: int
     adds_unit: bool
     roles: tuple[Role, ...]
     source: Source
@@ -507,8 +510,8 @@ class Code:
     """A number of the protocol with a name: a function or an exception.
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
-    once; None is what the protocol says. `answers` are the codes of the other kind that belong to it: of a USS task its
-    positive responses, of a response or an error the tasks that may get it; `refusals` the negative responses.
+    once; None is what the protocol says. `answers` are the codes of the other kind that belong to it: of a request its
+    positive responses, of a response or an error the requests that may get it; `refusals` the negative responses.
     """
 
     number: int
@@ -533,7 +536,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the family's frames need to know of this device."""
+    """What the family's frames need to know of this device; `own` is what this family alone knows."""
 
     framings: tuple[str, ...]
     units: tuple[int, int]
@@ -541,20 +544,21 @@ class Bus:
     functions: tuple[Code, ...]
     exceptions: tuple[Code, ...]
     gaps: Mapping[str, tuple[tuple[int, int], ...]]
-    pad_coil_bytes: str | None
     timing: Mapping[str, str]
     serial: Mapping[str, Mapping[str, str]]
     note: Titles
-    responses: tuple[Code, ...] = ()
-    """USS: the response ids."""
-    pkw: tuple[int, ...] = ()
-    """USS: the lengths in words that the parameter part may have; 127 is variable."""
-    pzd: tuple[int, int] = (0, 0)
-    """USS: how many words of process data there may be."""
-    variant_pzd: tuple[tuple[str, int], ...] = ()
-    """USS: variants ("axis=value") that take at most so many words of process data."""
-    bitrate: int | None = None
-    identifier_bits: int | None = None
+    own: Own | None = None
+
+    def codes(self, section: str) -> tuple[Code, ...]:
+        """The numbered codes under a key of `bus`, whether all families have it or this one alone."""
+        found: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
+        return found
+
+    @property
+    def usual_unit(self) -> int:
+        """The unit that examples go to: 1, or the lowest that the device may have."""
+        low, high = self.units
+        return 1 if low <= 1 <= high else low
 
 
 @dataclass(frozen=True, slots=True)

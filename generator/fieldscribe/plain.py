@@ -6,10 +6,10 @@ What is for people changes often, and must not touch vendored code when it does;
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import lru_cache
 
-from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
+from fieldscribe.model import Code, Device, Entry, Enum, Flag, Own, Point, Source, Special, Titles
 
 _NOWHERE = Source("", None, None, None)
 
@@ -27,9 +27,9 @@ def for_code(device: Device) -> Device:
             note={},
             timing={},
             serial={},
-            functions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.functions),
-            exceptions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.exceptions),
-            responses=tuple(replace(code, title=_plain(code.name)) for code in device.bus.responses),
+            functions=_codes(device.bus.functions),
+            exceptions=_codes(device.bus.exceptions),
+            own=device.bus.own and _own(device.bus.own),
         ),
         groups=tuple(replace(group, title=_plain(group.name), note={}, source=_NOWHERE) for group in device.groups),
         points=tuple(_point(point, enums) for point in device.points),
@@ -52,6 +52,21 @@ def with_digest(device: Device) -> tuple[Device, Device]:
     plain = replace(for_code(device), digest="")
     found = hashlib.sha256(repr(plain).encode("utf-8", "surrogatepass")).hexdigest()
     return replace(device, digest=found), replace(plain, digest=found)
+
+
+def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
+    return tuple(replace(code, title=_plain(code.name)) for code in codes)
+
+
+def _own(own: Own) -> Own:
+    """The facts of one family, whose codes have titles, too."""
+    held = {one.name: getattr(own, one.name) for one in fields(own)}
+    codes = {
+        name: value
+        for name, value in held.items()
+        if isinstance(value, tuple) and value[:1] and isinstance(value[0], Code)
+    }
+    return replace(own, **{name: _codes(value) for name, value in codes.items()})
 
 
 def _point(point: Point, enums: dict[int, Enum]) -> Point:

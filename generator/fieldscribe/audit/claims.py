@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families import families
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
@@ -363,7 +364,8 @@ def _printed(citing: _Citing, draft: Draft) -> Iterator[Claim]:
 
 def _of_entry(kind: str, one: Map) -> Iterator[Claim]:
     citing = _Citing(f"{kind} {one['name']}", one.get("line"), one.get("lines"))
-    for key in ("at", "can_id", "value", "words", "wears"):
+    identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
+    for key in ("at", *identifiers, "value", "words", "wears"):
         for number in _numbers(one.get(key)):
             yield from citing.numbers(key, str(number), (number,))
     layout = one.get("layout")

@@ -38,7 +38,8 @@ def check(subject: Subject) -> None:
     """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
     if not subject.bus_is_whole:
         return
-    read = _reader(str(subject.scope.header["family"]))
+    own = subject.scope.family.part("checks")
+    read: Reader = _unread if own is None else own.read
     seen: dict[str, Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
@@ -53,14 +54,10 @@ def check(subject: Subject) -> None:
         subject.frames.append(replace(found.frame, errata=ids))
 
 
-def _reader(family: str) -> Reader:
-    if family == "can":
-        from fieldscribe.checks.can_frames import read
-    elif family == "uss":
-        from fieldscribe.checks.uss_frames import read
-    else:
-        from fieldscribe.checks.modbus_frames import read
-    return read
+def _unread(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """A frame of a family that does not say how its frames are read."""
+    del subject, seen
+    return Seen(one.frame)
 
 
 def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:

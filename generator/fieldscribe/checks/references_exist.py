@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import families
+
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
 
@@ -12,12 +14,15 @@ def check(subject: Subject) -> None:
     """Names of commands and points that nothing has."""
     scope = subject.scope
     declared = {str(raw["name"]) for raw in scope.listed("commands")}
-    family = scope.header["family"]
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
-        if keeps == "choice" and family != "uss":  # there the task says whether the memory keeps it
-            message = f"a {family} request cannot choose where the device keeps the value"
-            hint = "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores; `choice` is for uss"
+        if keeps == "choice" and not scope.family.chooses_memory:
+            message = f"a {scope.family.name} request cannot choose where the device keeps the value"
+            choosers = " and ".join(one.name for one in families() if one.chooses_memory)
+            hint = (
+                "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores; "
+                f"`choice` is for the tasks of {choosers}"
+            )
             scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
         elif keeps not in (None, "no", "yes", "choice", *declared):
             scope.unknown("command", str(keeps), resolved.draft.span("keep_with"), sorted(declared))

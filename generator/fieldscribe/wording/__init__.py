@@ -178,16 +178,25 @@ def outer_raw(point: Point) -> tuple[int, int] | None:
 
 def entry_text(entry: Entry) -> str:
     """One named number: `0 = keypad (Keypad / Bedienfeld)`."""
+    return f"{entry.raw} = {entry_meaning(entry)}"
+
+
+def entry_meaning(entry: Entry) -> str:
+    """What a named number means: `keypad (Keypad / Bedienfeld)`."""
     title = title_text(entry.title)
     quantity = f", {entry.quantity}" if entry.quantity and entry.quantity not in title else ""
-    return f"{entry.raw} = {entry.name} ({title}{quantity})"
+    return f"{entry.name} ({title}{quantity})"
 
 
 def special_text(special: Special, width: int) -> str:
     """A special code of a point of `width` bits: `7FFFh = no_sensor (No sensor), no value`."""
+    return f"{special_numbers(special, width)} = {special_meaning(special)}"
+
+
+def special_meaning(special: Special) -> str:
+    """What a special code means: `no_sensor (No sensor), no value`."""
     remarks = special_remarks(special)
-    numbers = special_numbers(special, width)
-    return f"{numbers} = {special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
+    return f"{special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
 
 
 def codes_text(point: Point, mark: str = "") -> str:
@@ -237,10 +246,14 @@ def flag_bits(flag: Flag, point: Point | None = None) -> str:
 
 def flag_text(flag: Flag, point: Point | None = None) -> str:
     """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
-    head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag.name} ({title_text(flag.title)})"
+    return f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag_meaning(flag)}"
+
+
+def flag_meaning(flag: Flag) -> str:
+    """What a flag means: `fault (Fault), true when 0`, or `mode (Mode): 0 = stop (Stop)`."""
     inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
     values = ": " + ", ".join(map(flag_value_text, flag.values)) if flag.values else ""
-    return head + inverted + values
+    return f"{flag.name} ({title_text(flag.title)}){inverted}{values}"
 
 
 def flag_value_text(entry: Entry) -> str:

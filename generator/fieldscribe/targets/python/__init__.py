@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.resources import runtime_files
 from fieldscribe.targets.python.device import device_view
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
@@ -19,45 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
-_MODULES = (
-    "__init__",
-    "can/__init__",
-    "can/decoder",
-    "can/device",
-    "can/frames",
-    "can/receiver",
-    "can/session",
-    "commands",
-    "descriptors",
-    "device",
-    "errors",
-    "facts",
-    "fast",
-    "forms",
-    "handles",
-    "layouts",
-    "lookup",
-    "modbus/__init__",
-    "modbus/device",
-    "modbus/frames",
-    "modbus/planner",
-    "modbus/session",
-    "named",
-    "points",
-    "quantities",
-    "records",
-    "rules",
-    "session",
-    "special",
-    "texts",
-    "uss/__init__",
-    "uss/descriptors",
-    "uss/device",
-    "uss/frames",
-    "uss/session",
-    "words",
-    "wrappers",
-)
+_RUNTIME = "fieldscribe_runtime"
+
+NEEDS_FAMILY = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -80,8 +45,8 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
     """
     del device
-    for name in (*(f"{module}.py" for module in _MODULES), "py.typed"):
-        yield f"python/fieldscribe_runtime/{name}", f"python/runtime/fieldscribe_runtime/{name}"
+    for name in runtime_files(f"python/runtime/{_RUNTIME}"):
+        yield f"python/{_RUNTIME}/{name}", f"python/runtime/{_RUNTIME}/{name}"
 
 
 def _head(device: Device) -> Mapping[str, object]:

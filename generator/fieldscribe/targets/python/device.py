@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
-from fieldscribe.targets.python.families import FAMILIES
+from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, parameter, sorted_imports
 from fieldscribe.text import python_string
 
@@ -47,7 +47,7 @@ class DeviceView:
 
 def device_view(device: Device, names: Identifiers) -> DeviceView:
     """The classes of the device."""
-    family = FAMILIES[device.family]
+    family = in_python(device)
     axes = tuple(
         Axis(python_string(axis), parameter(axis), f"{pascal(axis)}Choice", tuple(map(python_string, values)))
         for axis, values in device.variants.items()

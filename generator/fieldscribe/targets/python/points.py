@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.existence import only_for, uncertain
-from fieldscribe.targets.python.families import FAMILIES
-from fieldscribe.targets.python.families.family import RUNTIME, Family
+from fieldscribe.targets.python.families import RUNTIME, Family, in_python
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
@@ -67,7 +66,7 @@ class PointsView:
 
 def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
-    family = FAMILIES[device.family]
+    family = in_python(device)
     scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
     errata = frozenset([one.id for one in device.errata if one.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}

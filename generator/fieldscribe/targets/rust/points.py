@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.access import read_lines, write_lines
 from fieldscribe.targets.rust.documentation import point_doc
-from fieldscribe.targets.rust.families import family_traits, space
+from fieldscribe.targets.rust.families import in_rust
+from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.layout import binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
@@ -54,7 +55,7 @@ def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from family_traits(subject, scope)
+    yield from in_rust(scope.family).traits(subject, scope)
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
