@@ -81,7 +81,7 @@ class Draft:
         """What happens to a written value, or the command that keeps it: the word of the nearer layer."""
         kept, command = self.layer("keeps"), self.layer("keep_with")
         if kept is None or (command is not None and self._rank(command) < self._rank(kept)):
-            return self.get("keep_with")
+            return None if command is None else str(command["keep_with"])
         return str(kept["keeps"])
 
     def _rank(self, layer: Map) -> int:

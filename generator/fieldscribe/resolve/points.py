@@ -188,9 +188,9 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif draft.untyped is None and "takes" in draft.own and not draft.failed & {"type", "untyped"}:
-        hint = "its type says how many words it takes: leave `takes` out"
-        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
+    elif draft.untyped is None and "words" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `words` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("words"), hint)
     return draft.untyped
 
 
