@@ -75,7 +75,7 @@ WRITTEN = [
     ("type: U16", "type: u16"),
     ("type: uint32_be", "type: u32"),
     ("keeps: true", "keeps: yes"),
-    ("words: little endian, type: u32", "word_order: low first"),
+    ("word_order: little endian, type: u32", "word_order: low first"),
     ("changes: constant", "changes: never"),
     ("steps: 10", "steps: {0: 10}"),
     ("bits: 15:8", "bits: 15..8"),
