@@ -16,7 +16,20 @@ VoltageClassChoice = Literal[
 
 
 class HitachiL200(Points, Device):
-    """Hitachi L200 over a transport: `drive.point.read()`."""
+    """Hitachi L200 over a transport: `drive.point.read()`.
+
+        drive = HitachiL200(transport, 1, voltage_class='200V')
+        drive.network_frequency_setpoint.read()
+        drive.network_frequency_setpoint.write(value)
+        drive.read_many('status')
+        HitachiL200.network_frequency_setpoint.decode(raw)
+        help(HitachiL200.network_frequency_setpoint)
+
+    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,
@@ -32,7 +45,20 @@ class HitachiL200(Points, Device):
 
 
 class HitachiL200Async(Points, AsyncDevice):
-    """Hitachi L200 over a transport: `await drive.point.read()`."""
+    """Hitachi L200 over a transport: `await drive.point.read()`.
+
+        drive = HitachiL200Async(transport, 1, voltage_class='200V')
+        await drive.network_frequency_setpoint.read()
+        await drive.network_frequency_setpoint.write(value)
+        await drive.read_many('status')
+        HitachiL200Async.network_frequency_setpoint.decode(raw)
+        help(HitachiL200Async.network_frequency_setpoint)
+
+    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,

@@ -9,8 +9,34 @@ from .points import Points
 
 
 class JumoController(Points, Device):
-    """JUMO Controller with MOD-Bus over a transport: `drive.point.read()`."""
+    """JUMO Controller with MOD-Bus over a transport: `drive.point.read()`.
+
+        drive = JumoController(transport, 1)
+        drive.setpoint_1.read()
+        drive.setpoint_1.write(value)
+        drive.read_many('examples')
+        JumoController.setpoint_1.decode(raw)
+        help(JumoController.setpoint_1)
+
+    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
 
 class JumoControllerAsync(Points, AsyncDevice):
-    """JUMO Controller with MOD-Bus over a transport: `await drive.point.read()`."""
+    """JUMO Controller with MOD-Bus over a transport: `await drive.point.read()`.
+
+        drive = JumoControllerAsync(transport, 1)
+        await drive.setpoint_1.read()
+        await drive.setpoint_1.write(value)
+        await drive.read_many('examples')
+        JumoControllerAsync.setpoint_1.decode(raw)
+        help(JumoControllerAsync.setpoint_1)
+
+    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """

@@ -9,8 +9,34 @@ from .points import Points
 
 
 class NordSk5xxe(Points, Device):
-    """NORD SK 5xxE over a transport: `drive.point.read()`."""
+    """NORD SK 5xxE over a transport: `drive.point.read()`.
+
+        drive = NordSk5xxe(transport, 1)
+        drive.control_word.read()
+        drive.control_word.write(value)
+        drive.read_many('process_data')
+        NordSk5xxe.control_word.decode(raw)
+        help(NordSk5xxe.control_word)
+
+    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
 
 class NordSk5xxeAsync(Points, AsyncDevice):
-    """NORD SK 5xxE over a transport: `await drive.point.read()`."""
+    """NORD SK 5xxE over a transport: `await drive.point.read()`.
+
+        drive = NordSk5xxeAsync(transport, 1)
+        await drive.control_word.read()
+        await drive.control_word.write(value)
+        await drive.read_many('process_data')
+        NordSk5xxeAsync.control_word.decode(raw)
+        help(NordSk5xxeAsync.control_word)
+
+    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """

@@ -83,156 +83,251 @@ class Points(PointTable):
         "p102_set_1": Documented(
             "the manual does not settle its type",
             at=holding(0x1980),
+            code="P102",
         ),
         "p102_set_2": Documented(
             "the manual does not settle its type",
             at=holding(0x1981),
+            code="P102",
         ),
         "p102_set_3": Documented(
             "the manual does not settle its type",
             at=holding(0x1982),
+            code="P102",
         ),
         "p102_set_4": Documented(
             "the manual does not settle its type",
             at=holding(0x1983),
+            code="P102",
         ),
         "maximum_frequency": Documented(
             "the manual does not settle its type",
             at=holding(0x19C0),
+            code="P103",
         ),
-        "bus_bit_8_function": Documented("the manual prints no address"),
-        "bus_bit_9_function": Documented("the manual prints no address"),
-        "bus_bit_10_function": Documented("the manual prints no address"),
-        "bus_bit_13_function": Documented("the manual prints no address"),
-        "p502": Documented("the manual does not settle its type", at=holding(0x7D80)),
+        "bus_bit_8_function": Documented(
+            "the manual prints no address",
+            code="P480[11]",
+        ),
+        "bus_bit_9_function": Documented(
+            "the manual prints no address",
+            code="P480[12]",
+        ),
+        "bus_bit_10_function": Documented(
+            "the manual prints no address",
+            code="P481[9]",
+        ),
+        "bus_bit_13_function": Documented(
+            "the manual prints no address",
+            code="P481[10]",
+        ),
+        "p502": Documented(
+            "the manual does not settle its type",
+            at=holding(0x7D80),
+            code="P502",
+        ),
         "control_word_source": Documented(
             "the manual does not settle its type",
             at=holding(0x7F40),
+            code="P509",
         ),
         "uss_baud_rate": Documented(
             "the manual does not settle its type",
             at=holding(0x7FC0),
+            code="P511",
         ),
         "uss_address": Documented(
             "the manual does not settle its type",
             at=holding(0x8000),
+            code="P512",
         ),
-        "p513_index_2": Documented("the manual prints no address"),
+        "p513_index_2": Documented("the manual prints no address", code="P513[2]"),
         "actual_value_source_set_1_index_1": Documented(
             "the manual does not settle its type",
             at=holding(0x87C0, index=1),
+            code="P543",
         ),
         "actual_value_source_set_1_index_2": Documented(
             "the manual does not settle its type",
             at=holding(0x87C4, index=2),
+            code="P543",
         ),
         "actual_value_source_set_1_index_3": Documented(
             "the manual does not settle its type",
             at=holding(0x87C8, index=3),
+            code="P543",
         ),
         "actual_value_source_set_1_index_4": Documented(
             "the manual does not settle its type",
             at=holding(0x87CC, index=4),
+            code="P543",
         ),
         "actual_value_source_set_1_index_5": Documented(
             "the manual does not settle its type",
             at=holding(0x87D0, index=5),
+            code="P543",
         ),
         "actual_value_source_set_2_index_1": Documented(
             "the manual does not settle its type",
             at=holding(0x87C1, index=1),
+            code="P543",
         ),
         "actual_value_source_set_2_index_2": Documented(
             "the manual does not settle its type",
             at=holding(0x87C5, index=2),
+            code="P543",
         ),
         "actual_value_source_set_2_index_3": Documented(
             "the manual does not settle its type",
             at=holding(0x87C9, index=3),
+            code="P543",
         ),
         "actual_value_source_set_2_index_4": Documented(
             "the manual does not settle its type",
             at=holding(0x87CD, index=4),
+            code="P543",
         ),
         "actual_value_source_set_2_index_5": Documented(
             "the manual does not settle its type",
             at=holding(0x87D1, index=5),
+            code="P543",
         ),
         "actual_value_source_set_3_index_1": Documented(
             "the manual does not settle its type",
             at=holding(0x87C2, index=1),
+            code="P543",
         ),
         "actual_value_source_set_3_index_2": Documented(
             "the manual does not settle its type",
             at=holding(0x87C6, index=2),
+            code="P543",
         ),
         "actual_value_source_set_3_index_3": Documented(
             "the manual does not settle its type",
             at=holding(0x87CA, index=3),
+            code="P543",
         ),
         "actual_value_source_set_3_index_4": Documented(
             "the manual does not settle its type",
             at=holding(0x87CE, index=4),
+            code="P543",
         ),
         "actual_value_source_set_3_index_5": Documented(
             "the manual does not settle its type",
             at=holding(0x87D2, index=5),
+            code="P543",
         ),
         "actual_value_source_set_4_index_1": Documented(
             "the manual does not settle its type",
             at=holding(0x87C3, index=1),
+            code="P543",
         ),
         "actual_value_source_set_4_index_2": Documented(
             "the manual does not settle its type",
             at=holding(0x87C7, index=2),
+            code="P543",
         ),
         "actual_value_source_set_4_index_3": Documented(
             "the manual does not settle its type",
             at=holding(0x87CB, index=3),
+            code="P543",
         ),
         "actual_value_source_set_4_index_4": Documented(
             "the manual does not settle its type",
             at=holding(0x87CF, index=4),
+            code="P543",
         ),
         "actual_value_source_set_4_index_5": Documented(
             "the manual does not settle its type",
             at=holding(0x87D3, index=5),
+            code="P543",
         ),
         "setpoint_1_function": Documented(
             "the manual does not settle its type",
             at=holding(0x8880, index=1),
+            code="P546[1]",
         ),
-        "setpoint_2_function": Documented("the manual prints no address"),
-        "setpoint_3_function": Documented("the manual prints no address"),
-        "setpoint_4_function": Documented("the manual prints no address"),
-        "setpoint_5_function": Documented("the manual prints no address"),
-        "p601": Documented("the manual does not settle its type", at=holding(0x9640)),
+        "setpoint_2_function": Documented(
+            "the manual prints no address",
+            code="P546[2]",
+        ),
+        "setpoint_3_function": Documented(
+            "the manual prints no address",
+            code="P546[3]",
+        ),
+        "setpoint_4_function": Documented(
+            "the manual prints no address",
+            code="P546[4]",
+        ),
+        "setpoint_5_function": Documented(
+            "the manual prints no address",
+            code="P546[5]",
+        ),
+        "p601": Documented(
+            "the manual does not settle its type",
+            at=holding(0x9640),
+            code="P601",
+        ),
         "p607_index_1": Documented(
             "the manual does not settle its type",
             at=holding(0x97C0, index=1),
+            code="P607",
         ),
         "p607_index_2": Documented(
             "the manual does not settle its type",
             at=holding(0x97C1, index=2),
+            code="P607",
         ),
         "received_control_word": Documented(
             "the manual does not settle its type",
             at=holding(0xB900, index=1),
+            code="P740[1]",
         ),
-        "received_setpoint_1": Documented("the manual prints no address"),
-        "received_setpoint_2": Documented("the manual prints no address"),
-        "received_setpoint_3": Documented("the manual prints no address"),
-        "received_setpoint_4": Documented("the manual prints no address"),
-        "received_setpoint_5": Documented("the manual prints no address"),
+        "received_setpoint_1": Documented(
+            "the manual prints no address",
+            code="P740[2]",
+        ),
+        "received_setpoint_2": Documented(
+            "the manual prints no address",
+            code="P740[3]",
+        ),
+        "received_setpoint_3": Documented(
+            "the manual prints no address",
+            code="P740[4]",
+        ),
+        "received_setpoint_4": Documented(
+            "the manual prints no address",
+            code="P740[5]",
+        ),
+        "received_setpoint_5": Documented(
+            "the manual prints no address",
+            code="P740[6]",
+        ),
         "sent_status_word": Documented(
             "the manual does not settle its type",
             at=holding(0xB940, index=1),
+            code="P741[1]",
         ),
-        "sent_actual_value_1": Documented("the manual prints no address"),
-        "sent_actual_value_2": Documented("the manual prints no address"),
-        "sent_actual_value_3": Documented("the manual prints no address"),
-        "sent_actual_value_4": Documented("the manual prints no address"),
-        "sent_actual_value_5": Documented("the manual prints no address"),
+        "sent_actual_value_1": Documented(
+            "the manual prints no address",
+            code="P741[2]",
+        ),
+        "sent_actual_value_2": Documented(
+            "the manual prints no address",
+            code="P741[3]",
+        ),
+        "sent_actual_value_3": Documented(
+            "the manual prints no address",
+            code="P741[4]",
+        ),
+        "sent_actual_value_4": Documented(
+            "the manual prints no address",
+            code="P741[5]",
+        ),
+        "sent_actual_value_5": Documented(
+            "the manual prints no address",
+            code="P741[6]",
+        ),
     }
 
     # process_data: Process data

@@ -29,7 +29,20 @@ InterfaceChoice = Literal[
 
 
 class SiemensMm4(Points, UssDevice):
-    """Siemens MICROMASTER 4 over a transport: `drive.point.read()`."""
+    """Siemens MICROMASTER 4 over a transport: `drive.point.read()`.
+
+        drive = SiemensMm4(transport, 1, link, model='mm410', interface='rs485')
+        drive.maximum_frequency.read()
+        drive.maximum_frequency.write(value)
+        drive.read_many('parameters')
+        SiemensMm4.maximum_frequency.decode(raw)
+        help(SiemensMm4.maximum_frequency)
+
+    The transport is one as `UssTransport` says; `fieldscribe_runtime.uss` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,
@@ -48,7 +61,20 @@ class SiemensMm4(Points, UssDevice):
 
 
 class SiemensMm4Async(Points, AsyncUssDevice):
-    """Siemens MICROMASTER 4 over a transport: `await drive.point.read()`."""
+    """Siemens MICROMASTER 4 over a transport: `await drive.point.read()`.
+
+        drive = SiemensMm4Async(transport, 1, link, model='mm410', interface='rs485')
+        await drive.maximum_frequency.read()
+        await drive.maximum_frequency.write(value)
+        await drive.read_many('parameters')
+        SiemensMm4Async.maximum_frequency.decode(raw)
+        help(SiemensMm4Async.maximum_frequency)
+
+    The transport is one as `AsyncUssTransport` says; `fieldscribe_runtime.uss` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,

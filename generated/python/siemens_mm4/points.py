@@ -113,66 +113,82 @@ class Points(PointTable):
         "display_value": Documented(
             "the manual does not settle its type",
             at=parameter(0),
+            code="r0000",
         ),
         "firmware_version": Documented(
             "the manual does not settle its type",
             at=parameter(18),
+            code="r0018",
         ),
         "output_frequency": Documented(
             "the manual does not settle its type",
             at=parameter(21),
+            code="r0021",
         ),
         "output_current": Documented(
             "the manual does not settle its type",
             at=parameter(27),
+            code="r0027",
         ),
         "second_control_word_display": Documented(
             "the manual does not settle its type",
             at=parameter(56),
+            code="r0056",
         ),
         "remote_local_selection_index_0": Documented(
             "the manual does not settle its type",
             at=parameter(719, index=0),
+            code="P0719",
         ),
         "remote_local_selection_index_1": Documented(
             "the manual does not settle its type",
             at=parameter(719, index=1),
+            code="P0719",
         ),
         "jog_acceleration_time": Documented(
             "the manual does not settle its type",
             at=parameter(1060),
+            code="P1060",
         ),
         "jog_deceleration_time": Documented(
             "the manual does not settle its type",
             at=parameter(1061),
+            code="P1061",
         ),
         "acceleration_time": Documented(
             "the manual does not settle its type",
             at=parameter(1120),
+            code="P1120",
         ),
         "deceleration_time": Documented(
             "the manual does not settle its type",
             at=parameter(1121),
+            code="P1121",
         ),
         "rs485_control_word_1": Documented(
             "the manual does not settle its type",
             at=parameter(2036),
+            code="r2036",
         ),
         "rs485_control_word_2": Documented(
             "the manual does not settle its type",
             at=parameter(2037),
+            code="r2037",
         ),
         "secret_password": Documented(
             "the manual does not settle its type",
             at=parameter(3950),
+            code="P3950",
         ),
         "second_setpoint": Documented(
             "the manual does not settle its scale",
             at=telegram("task", 2),
+            code="HSW2",
         ),
         "second_actual_value": Documented(
             "the manual does not settle its scale",
             at=telegram("answer", 2),
+            code="HIW2",
         ),
     }
 

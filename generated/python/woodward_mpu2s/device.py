@@ -21,7 +21,20 @@ VoltageChoice = Literal[
 
 
 class WoodwardMpu2s(Points, CanDevice):
-    """Woodward MPU2-S over a transport: `drive.point.read()`."""
+    """Woodward MPU2-S over a transport: `drive.point.read()`.
+
+        drive = WoodwardMpu2s(transport, 1, voltage='100V')
+        drive.generator_frequency_setpoint.read()
+        drive.generator_frequency_setpoint.write(value)
+        drive.read_many('parameters_general')
+        WoodwardMpu2s.generator_frequency_setpoint.decode(raw)
+        help(WoodwardMpu2s.generator_frequency_setpoint)
+
+    The transport is one as `CanTransport` says; `fieldscribe_runtime.can` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,
@@ -37,7 +50,20 @@ class WoodwardMpu2s(Points, CanDevice):
 
 
 class WoodwardMpu2sAsync(Points, AsyncCanDevice):
-    """Woodward MPU2-S over a transport: `await drive.point.read()`."""
+    """Woodward MPU2-S over a transport: `await drive.point.read()`.
+
+        drive = WoodwardMpu2sAsync(transport, 1, voltage='100V')
+        await drive.generator_frequency_setpoint.read()
+        await drive.generator_frequency_setpoint.write(value)
+        await drive.read_many('parameters_general')
+        WoodwardMpu2sAsync.generator_frequency_setpoint.decode(raw)
+        help(WoodwardMpu2sAsync.generator_frequency_setpoint)
+
+    The transport is one as `AsyncCanTransport` says; `fieldscribe_runtime.can` has that class.
+    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
+    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
+    `status` and the `point`; `POINTS` holds all points by name.
+    """
 
     def __init__(
         self,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.python.device import device_view
+from fieldscribe.targets.python.device import device_view, uses
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
@@ -31,7 +31,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     head = _head(device)
     enums = enums_view(device, names)
     folder = f"python/{names.package}"
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, "view": names})
+    shown = {"uses": uses(device, names.device_class, "")}
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})

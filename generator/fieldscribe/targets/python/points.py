@@ -102,7 +102,8 @@ def _documented(point: Point, scope: Scope) -> Group:
     scope.used.add("Documented")
     where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
     why = python_string(point.reason or "no reason given")
-    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where))
+    code = [f"code={python_string(point.code)}"] if point.code else []
+    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
 
 
 def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:

@@ -87,8 +87,8 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
-    if left_out := tuple(point.item for point in device.points if not point.generated):
-        lines.add("left_out", left_out)
+    if left_out := [point for point in device.points if not point.generated]:
+        lines.add("left_out", tuple(one.item for one in left_out), tuple(one.code or "none" for one in left_out))
     own.frames(lines, device)
     return lines
 
