@@ -18,7 +18,7 @@ from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
-from models import HERTZ, STATUS_FLAGS, entry, plain_points, point, sample_device, titles, trip_device
+from models import HERTZ, STATUS_FLAGS, changed, entry, plain_points, point, sample_device, titles, trip_device
 from python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
 from python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
 
@@ -646,7 +646,7 @@ def test_long_names_of_words_are_formatted(tmp_path: Path) -> None:
 
 def test_separate_places(tmp_path: Path) -> None:
     both = (Place("read", "input", (7,), None), Place("write", "holding", (9,), 16))
-    device = sample_device((replace(plain_points()[2], places=both, errata=()), replace(plain_points()[1], access="w")))
+    device = sample_device((replace(plain_points()[2], places=both, errata=()), changed(plain_points()[1], access="w")))
     folder = write_package(replace(device, blocks={}, id="placed"), tmp_path)
     text = (folder / "placed" / "points.py").read_text("utf-8")
     assert "at=input_register(0x0007)," in text

@@ -172,9 +172,11 @@ def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
     many = filled("a [", ", ", [f"0x{number:04X}" for number in range(40)], "];")
     assert max(map(len, many)) <= 104
     assert "".join(line.strip() for line in many).count("0x") == 40
-    steps = "?".join(f".times(with.factor_{number})" for number in range(9))
-    assert chained("Rule::new(1, 1).times(with.a)") == ("Rule::new(1, 1).times(with.a)",)
-    assert chained(f"Rule::new(1, 1){steps}")[1] == "    ?.times(with.factor_1)"
+    steps = [f".times(with.factor_{number})" for number in range(9)]
+    assert chained(("Rule::new(1, 1).times(with.a)", ".over(with.b)")) == (
+        "Rule::new(1, 1).times(with.a)?.over(with.b)",
+    )
+    assert chained((f"Rule::new(1, 1){steps[0]}", *steps[1:]))[1] == "    ?.times(with.factor_1)"
     assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView
-    from fieldscribe.targets.identifiers import Owner
+    from fieldscribe.targets.identifiers import Named
 
 
 class OfFamily(Protocol):
@@ -24,8 +24,8 @@ class OfFamily(Protocol):
     def bus_view(self, device: Device, view: DeviceView, scope: Scope) -> Any:
         """The view of the header of frames, `<family>.h.j2`."""
 
-    def identifiers(self, bus: Any, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-        """Every identifier in that header with what it belongs to."""
+    def identifiers(self, device: Device, bus: Any, scope: Scope) -> Iterator[Named]:
+        """Every identifier in that header by what it belongs to."""
 
     def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:
         """Macros with which points answer conformance vectors that only this family has, by their function."""

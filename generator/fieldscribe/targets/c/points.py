@@ -9,7 +9,7 @@ from fieldscribe.targets.c.comments import comment_lines
 from fieldscribe.targets.c.conversions import INLINE, Writer, value_type
 from fieldscribe.targets.c.defines import defines
 from fieldscribe.targets.c.layout import filled, function
-from fieldscribe.targets.c.limits import ranges_of, ranges_table
+from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
@@ -58,7 +58,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         rules=shape == "ruled" and rule_name(point, scope) == f"{name}_rule",
         words=has_words(point),
         bits=point.bits is not None,
-        flags=tuple(f"{name}_{flag.name}" for flag in point.flags if flag.width > 1),
+        flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
         functions=tuple(one.text for one in functions if not one.floating),
         floats=tuple(one.text for one in functions if one.floating),
     )
@@ -110,10 +110,10 @@ def _tables(point: Point, name: str, scope: Scope) -> Iterator[TableView]:
     """The arrays of a point: the words of a text, its ranges if it is the first that has them."""
     if point.text is not None:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
-        yield TableView("uint16_t", f"{name}_addresses[{point.words}]", tuple(rows))
+        yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
     elif ranges_table(point, scope) == f"{name}_ranges":
-        rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in ranges_of(point)), ", ", "    ")
-        yield TableView("fieldscribe_range", f"{name}_ranges[]", tuple(rows))
+        rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
+        yield TableView("fieldscribe_range", f"{name}_ranges", "", tuple(rows))
 
 
 def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:

@@ -37,11 +37,11 @@ def head(device: Device, comment: str) -> str:
 
 
 def _raw_only(point: Point) -> tuple[str, Lines]:
-    """Name and lines of the constant of a point that is reached raw only."""
+    """Item and lines of the constant of a point that is reached raw only."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    name = upper(point.item)
-    return name, binding(4, f"pub const {name}: runtime::Documented", f"runtime::Documented::new({where})")
+    left = f"pub const {upper(point.item)}: runtime::Documented"
+    return point.item, binding(4, left, f"runtime::Documented::new({where})")
 
 
 def device_context(device: Device, scope: Scope) -> dict[str, object]:

@@ -89,7 +89,7 @@ def _table(subject: Subject, left: str) -> Lines:
 def _constant(left: str, call: str) -> Lines:
     """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
     lines = binding(4, left, call)
-    if all(4 + len(line) <= _WIDTH for line in lines) and lines[0].startswith(left):
+    if all(4 + len(line) <= _WIDTH for line in (*lines, f"{left} =")):
         return lines
     return "#[rustfmt::skip] // its name is longer than a line", f"{left} = {call};"
 

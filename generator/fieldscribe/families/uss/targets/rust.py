@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
@@ -61,11 +61,14 @@ def traits(subject: Subject, scope: Scope) -> Iterator[str]:
     yield f"impl runtime::uss::{trait} {{}}"
 
 
-def identifiers(device: Device) -> Iterator[Identifier]:
+def identifiers(device: Device) -> Iterator[Names]:
     """The names of tasks and responses."""
-    for module, codes in (("tasks", device.bus.functions), ("responses", of_bus(device.bus).responses)):
+    for kind, module, codes in (
+        ("function", "tasks", device.bus.functions),
+        ("response", "responses", of_bus(device.bus).responses),
+    ):
         for code in codes:
-            yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
+            yield Names(f"Rust, module `{module}`", Owner(kind, code.name), (code.name.upper(),))
 
 
 def _fixed(device: Device) -> Iterator[str]:
