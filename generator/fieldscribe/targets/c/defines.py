@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Flag, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
 
 
-def defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     """The macros of a generated point and their literals."""
     yield from place_defines(point, macro, scope)
     if point.words > 1 or point.text is not None:
@@ -42,13 +42,13 @@ def shares_values(point: Point) -> bool:
     return len(wide) > 1 and len(set(wide)) == 1
 
 
-def place_defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def place_defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     """The macros that say where a point is."""
     if point.address is not None:
         yield from _places(point, macro, scope)
 
 
-def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     yield f"{macro}_ADDRESS", hexadecimal(min(point.addresses))
     if point.index is not None:
         yield f"{macro}_INDEX", unsigned(point.index)

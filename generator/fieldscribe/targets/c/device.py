@@ -10,7 +10,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.comments import comment_lines
 from fieldscribe.targets.c.defines import defines, place_defines
 from fieldscribe.targets.c.points import computes_in_double, named_numbers, point_view
-from fieldscribe.targets.c.scope import Scope, scope_of
+from fieldscribe.targets.c.scope import HeaderScope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
@@ -24,7 +24,7 @@ STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR"
 """What conversions answer."""
 
 
-def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, Scope]:
+def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, HeaderScope]:
     """The header's view, and the scope it was built in; with `names_only` all of its names, and no bodies."""
     scope = scope_of(device, names_only=names_only)
     by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
@@ -65,7 +65,7 @@ def old_items(point: Point) -> Iterator[tuple[str, str]]:
     yield from ((old, replace(point, name=old).item) for old in point.was)
 
 
-def _title(group: str, scope: Scope) -> str:
+def _title(group: str, scope: HeaderScope) -> str:
     """What stands above a group: its name, and the space of its points if they have but one."""
     space = scope.spaces.get(group)
     return group.replace("_", " ") + (f" ({space})" if space else "")
@@ -107,7 +107,7 @@ def _function_tails(view: PointView) -> list[str]:
     return [*tails, *view.flags, *codes]
 
 
-def _aliases(point: Point, view: PointView, old: AliasView, scope: Scope) -> Iterator[AliasView]:
+def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """Everything that a renamed point has, by its old name."""
     function, macro = f"{scope.prefix}_{old.old_item}", f"{scope.upper}_{upper(old.old_item)}"
     for (name, _), (new, _) in zip(defines(point, macro, scope), view.defines, strict=True):
@@ -125,7 +125,7 @@ def _aliases(point: Point, view: PointView, old: AliasView, scope: Scope) -> Ite
             yield replace(old, old=f"{macro}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
-def _remark(point: Point, scope: Scope) -> RemarkView:
+def _remark(point: Point, scope: HeaderScope) -> RemarkView:
     remark = f"not generated: {point.reason or 'documented only'}"
     lines = () if scope.names_only else comment_lines(point, scope, remark)
     macro = f"{scope.upper}_{upper(point.item)}"

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import DeviceView
     from fieldscribe.targets.identifiers import Named
 
@@ -21,10 +21,10 @@ class OfFamily(Protocol):
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes that a function names."""
 
-    def bus_view(self, device: Device, view: DeviceView, scope: Scope) -> Any:
+    def bus_view(self, device: Device, view: DeviceView, scope: HeaderScope) -> Any:
         """The view of the header of frames, `<family>.h.j2`."""
 
-    def identifiers(self, device: Device, bus: Any, scope: Scope) -> Iterator[Named]:
+    def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
         """Every identifier in that header by what it belongs to."""
 
     def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.identifiers import Named
 
 _LINE = 120
@@ -61,7 +61,7 @@ def shares(point: Point) -> bool:
 class Layouts:
     """The layouts of a device, each once, by their names."""
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(self, scope: HeaderScope) -> None:
         self._prefix = scope.prefix
         self._known: dict[str, Descriptor] = {}
 
@@ -99,7 +99,7 @@ def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Ite
         yield Owner("point", one.item), (one.name,)
 
 
-def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: Scope) -> tuple[AliasView, ...]:
+def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: HeaderScope) -> tuple[AliasView, ...]:
     """The descriptors of renamed points by the names that they had."""
     renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
     return tuple(
@@ -137,7 +137,7 @@ def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
     return "".join(f"_{part}" for part in parts)
 
 
-def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], ...]:
+def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, str], ...]:
     """The codes with which a device refuses: enumerator, number and comment."""
     return tuple(
         (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))

@@ -13,7 +13,7 @@ from fieldscribe.text import python_doc, python_string
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 
 def variants(device: Device) -> Group:
@@ -25,7 +25,7 @@ def variants(device: Device) -> Group:
     return Group("{", tuple(made), "}")
 
 
-def commands(device: Device, scope: Scope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
+def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
     """Each command: its attribute, what makes it, the arguments and the docstring."""
     for one, name in command_attributes(device):
         scope.used.add("Command")

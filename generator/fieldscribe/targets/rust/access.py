@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bound, Point
     from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 _WRITES = {"coil": (5, 15), "holding": (6, 16)}
 _WIDTH = 112
 
 
-def read_lines(subject: Subject) -> tuple[str, ...]:
+def read_lines(subject: CratePoint) -> tuple[str, ...]:
     """The facts of reading."""
     count, factors, place = count_type(subject), subject.factors_type, subject.point.places[0]
     facts = [f"count {count};"] if count else []
@@ -31,7 +31,7 @@ def read_lines(subject: Subject) -> tuple[str, ...]:
     return _block("read", [(fact,) for fact in facts])
 
 
-def write_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     """The facts of writing."""
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
@@ -52,7 +52,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
     return (f"{name} {{", *(f"    {line}" for line in lines), "}")
 
 
-def _allowed(subject: Subject, scope: Scope) -> Iterator[Lines]:
+def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     """What may be written, where that is not every number between two ends."""
     point = subject.point
     if subject.limits:
@@ -67,7 +67,7 @@ def _allowed(subject: Subject, scope: Scope) -> Iterator[Lines]:
         yield filled("in [", " | ", [interval(*one) for one in ranges], "];")
 
 
-def _limits(point: Point, scope: Scope) -> Iterator[str]:
+def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
     """A pair of ends for each range, of which other points set one or both."""
     yield "limits |with| ["
     for one in point.allowed.intervals:
@@ -83,7 +83,7 @@ def _limits(point: Point, scope: Scope) -> Iterator[str]:
     yield "];"
 
 
-def _end(bound: Bound, scope: Scope, *, lower: bool) -> tuple[str, ...]:
+def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
     return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
 
 
@@ -96,7 +96,7 @@ def _float_ranges(point: Point) -> Iterator[str]:
         yield f"ranges [{pairs}];"
 
 
-def _place(point: Point, scope: Scope) -> Iterator[str]:
+def _place(point: Point, scope: CrateScope) -> Iterator[str]:
     """Function and address that write the point, where they are not the usual ones."""
     first = point.places[0]
     place = point.write_place or first

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.families import Needs, Tokens, Way
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
 
 
-def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
+def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
     scaled = [one for one in scope.subjects if one.form == "scaled"]
     floats = [one for one in scope.subjects if one.form == "float"]
@@ -107,7 +107,7 @@ def _bracketed(tokens: Tokens) -> Tokens:
     return (f"({first})",) if not others else (f"({first}", *others[:-1], f"{others[-1]})")
 
 
-def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
+def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint]) -> Iterator[Table]:
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
@@ -132,7 +132,7 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
         yield Table(f"{kind}_by_{run}", run, tuple(found), kind)
 
 
-def _exchanges(scope: Scope) -> Iterator[tuple[str, str, Tokens]]:
+def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
     """The kind, the runner's function and the row of each point that travels."""
     for one in scope.subjects:
         if not one.point.places:
@@ -142,7 +142,7 @@ def _exchanges(scope: Scope) -> Iterator[tuple[str, str, Tokens]]:
             yield kind, run, row_of(one, _bracketed(("wire", *given)))
 
 
-def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
     point = subject.point
     text = "_text" if subject.form == "text" else ""
@@ -153,7 +153,7 @@ def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
     yield from in_rust(scope.family).ways(subject, scope)
 
 
-def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
+def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
     """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
     point = subject.point
     if point.bits:
@@ -164,12 +164,12 @@ def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
     return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
 
 
-def of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """The struct of what the scale needs, and its fields."""
     return subject.factors_struct, subject.factors
 
 
-def of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """The struct of all that writing needs, and its fields."""
     return subject.name, subject.arguments
 
@@ -192,7 +192,7 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
             yield f"{whole[-1]},"
 
 
-def row_of(subject: Subject, how: Tokens) -> Tokens:
+def row_of(subject: CratePoint, how: Tokens) -> Tokens:
     """What a table says of one point."""
     return rust_string(subject.point.item), subject.name, *how
 
@@ -201,13 +201,13 @@ def _sizes(point: Point) -> Tokens:
     return _bracketed(("sizes", str(point.text.characters if point.text is not None else 0), str(point.words)))
 
 
-def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[Tokens]:
+def _digits(subjects: Iterable[CratePoint], access: str, *, coded: bool) -> Iterator[Tokens]:
     for one in subjects:
         if access in one.point.access and bool(one.point.specials) == coded:
             yield row_of(one, _counted(one))
 
 
-def _counted(subject: Subject) -> Tokens:
+def _counted(subject: CratePoint) -> Tokens:
     digits = subject.point.digits
     return _bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
 
@@ -227,13 +227,13 @@ def _references(point: Point) -> Tokens:
     return _bracketed(("at" if point.text is None else "text", *keys))
 
 
-def _reads(subjects: Iterable[Subject]) -> Iterator[Tokens]:
+def _reads(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if "r" in one.point.access:
             yield row_of(one, _bracketed(_arguments(*of_scale(one))))
 
 
-def _writes(subjects: Iterable[Subject]) -> Iterator[Tokens]:
+def _writes(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if "w" in one.point.access:
             yield row_of(one, _bracketed(_arguments(*of_all(one))))
@@ -245,13 +245,13 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
     return f"{struct}:", *(token for name in names for token in (value_name(name), rust_string(name)))
 
 
-def _names(subjects: Iterable[Subject]) -> Iterator[Tokens]:
+def _names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if one.enum is not None:
             yield rust_string(one.point.item), type_name(one.enum.name), *_bracketed(("enum", one.carried))
 
 
-def _flags(subjects: Iterable[Subject]) -> Iterator[Tokens]:
+def _flags(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if one.form == "flags":
             for flag in one.point.flags:
@@ -259,7 +259,7 @@ def _flags(subjects: Iterable[Subject]) -> Iterator[Tokens]:
                 yield rust_string(f"{one.point.item} {flag.name}"), one.name, *calls
 
 
-def _flag_names(subjects: Iterable[Subject]) -> Iterator[Tokens]:
+def _flag_names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         for flag in one.point.flags:
             for entry in flag.values if flag.width > 1 else ():

@@ -8,7 +8,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
-from fieldscribe.targets.rust.subjects import Subject, scope_of
+from fieldscribe.targets.rust.subjects import CratePoint, scope_of
 from fieldscribe.targets.rust.words import UNKNOWN, constant_name, getter_name
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def _of_enum(enum: Enum) -> Iterator[Names]:
         yield Names(space, Owner("target", "a number without a name"), UNKNOWN[:1])
 
 
-def _of_point(subject: Subject) -> Iterator[Names]:
+def _of_point(subject: CratePoint) -> Iterator[Names]:
     point, owner = subject.point, Owner("point", subject.point.item)
     yield Names("Rust, module `points`", owner, (subject.name,))
     for old in point.was if point.variant is None else ():
@@ -78,7 +78,7 @@ def _of_point(subject: Subject) -> Iterator[Names]:
         yield from _of_flags(subject, owner)
 
 
-def _constants(subject: Subject, owner: Owner) -> Iterator[Names]:
+def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
     """The constants of a point that the author named, and those of every point that these would hide."""
     point, own = subject.point, f"Rust, the point `{subject.point.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
@@ -96,7 +96,7 @@ def _constants(subject: Subject, owner: Owner) -> Iterator[Names]:
         yield Names(own, Owner("code", special.name, owner), _code_names(special))
 
 
-def _shared_codes(subject: Subject) -> Iterator[Names]:
+def _shared_codes(subject: CratePoint) -> Iterator[Names]:
     """The type of codes that many points have, with its constants and its own table."""
     name = subject.point.shared_codes
     owner, space = Owner("special codes", name), f"Rust, the special codes `{name}`"
@@ -111,7 +111,7 @@ def _code_names(special: Special) -> tuple[str, ...]:
     return (name,) if special.low == special.high else (name, f"{name}_LAST")
 
 
-def _of_flags(subject: Subject, owner: Owner) -> Iterator[Names]:
+def _of_flags(subject: CratePoint, owner: Owner) -> Iterator[Names]:
     space = f"Rust, the flags of `{subject.point.item}`"
     yield Names(space, Owner("target", "the constant `ALL_FALSE` of every word of flags"), ("ALL_FALSE",))
     for flag in subject.point.flags:

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
-def point_view(subject: Subject, scope: Scope) -> PointView:
+def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
     """All that the templates need of a point."""
     point, code = subject.point, subject.point.code
     return PointView(
@@ -38,7 +38,7 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
     )
 
 
-def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
+def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
     names = ", ".join(rust_string(name) for name in (point.item, point.code) if name)
@@ -78,7 +78,7 @@ def _whereabouts(point: Point) -> Iterator[str]:
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
 
 
-def _outer_limits(subject: Subject) -> Iterator[str]:
+def _outer_limits(subject: CratePoint) -> Iterator[str]:
     """The ends of what may be written, where they are not the type's."""
     ends, raw = subject.point.outer, subject.raw
     if subject.form not in ("float", "text", "digits") and ends != type_range(raw):

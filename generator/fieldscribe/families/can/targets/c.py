@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
 
@@ -110,7 +110,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places]
@@ -153,7 +153,7 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
     own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
@@ -188,11 +188,11 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
             yield one.function, f"WRITE{tail}({how})"
 
 
-def _array(message: Message | None, scope: Scope) -> str:
+def _array(message: Message | None, scope: HeaderScope) -> str:
     return "" if message is None else f"{scope.prefix}_message_{message.name}"
 
 
-def _message(message: Message, scope: Scope) -> MessageView:
+def _message(message: Message, scope: HeaderScope) -> MessageView:
     roles = (
         (
             f"FIELDSCRIBE_CAN_{upper(role.kind)}",
@@ -210,7 +210,7 @@ def _message(message: Message, scope: Scope) -> MessageView:
     )
 
 
-def _telegram(telegram: Telegram, message: Message, scope: Scope) -> TelegramView:
+def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> TelegramView:
     macro = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}"
     name = f"{scope.prefix}_telegram_{telegram.name}"
     slots = -(-telegram.words // message.words)
@@ -229,7 +229,7 @@ def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message 
     return None, None
 
 
-def _groups(device: Device, scope: Scope) -> Iterator[GroupView]:
+def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
     for group in device.groups:
         addresses: dict[int, None] = {}
         for point in device.points:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Role, Telegram
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
 _PLAIN = {"multiplexer": "Multiplexer"}
@@ -68,7 +68,7 @@ def context(device: Device) -> dict[str, object]:
     }
 
 
-def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """A parameter is read and written word by word; a point of a telegram is received in frames."""
     if subject.point.telegram is None:
         yield "impl runtime::can::Parameter {}"
@@ -77,7 +77,7 @@ def traits(subject: Subject, scope: Scope) -> Iterator[str]:
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(telegram)}; }}"
 
 
-def _received(subject: Subject, scope: Scope) -> str | None:
+def _received(subject: CratePoint, scope: CrateScope) -> str | None:
     """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
     point = subject.point
     _, message = scope.telegrams.get(point.telegram or "", (None, None))
@@ -138,7 +138,7 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
     )
 
 
-def tables_of_points(scope: Scope) -> Iterator[Table]:
+def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """The points that come in frames of a telegram."""
     heard = [one for one in scope.subjects if one.form != "text" and _received(one, scope) is not None]
     if heard:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Block, Command, Device, Place, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
 
@@ -99,7 +99,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_modbus.h`."""
     bus = device.bus
     functions = tuple(
@@ -137,7 +137,7 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
     own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
@@ -216,13 +216,13 @@ def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
     return next((number for number in wanted if number in functions), 0)
 
 
-def _blocks(group: str, blocks: tuple[Block, ...], scope: Scope) -> BlocksView:
+def _blocks(group: str, blocks: tuple[Block, ...], scope: HeaderScope) -> BlocksView:
     rows = tuple((hexadecimal(one.function, 2), hexadecimal(one.address), unsigned(one.count)) for one in blocks)
     name = f"{scope.upper}_{upper(group)}_BLOCKS_COUNT"
     return BlocksView(group, f"{scope.prefix}_{group}_blocks", name, rows)
 
 
-def _command(command: Command, scope: Scope) -> CommandView:
+def _command(command: Command, scope: HeaderScope) -> CommandView:
     macro = f"{scope.upper}_COMMAND_{upper(command.name)}"
     value = "1U" if command.value is None else unsigned(command.value)
     comment = c_comment(command.title["en"]) + (": any value does" if command.value is None else "")

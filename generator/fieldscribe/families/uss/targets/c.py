@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bus, Code, Device, Point, Telegram
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
 
@@ -101,7 +101,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_uss.h`."""
     bus = device.bus
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
@@ -144,7 +144,7 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(device: Device, bus: BusView, scope: Scope) -> Iterator[Named]:
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
     """Every identifier of the header, by what it belongs to."""
     own = Owner("target", "what the header of frames needs")
     yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
@@ -194,7 +194,7 @@ def _lists(bus: Bus) -> tuple[tuple[Code, ...], ...]:
     return bus.functions, of_bus(bus).responses, bus.exceptions
 
 
-def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
+def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: HeaderScope) -> CodesView:
     prefix = f"{scope.upper}_{upper(kind)}"
     entries = (
         (f"{prefix}_{upper(code.name)}", str(code.number), c_string(code.name), c_comment(code.title["en"]))
@@ -241,7 +241,7 @@ def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: lis
     return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item, tail)
 
 
-def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
+def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: HeaderScope) -> WordView:
     position = f"{{{min(point.addresses)}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus, Device
     from fieldscribe.targets.rust.families import Way
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
 def context(device: Device) -> dict[str, object]:
@@ -50,7 +50,7 @@ def _profile(bus: Bus) -> str:
     return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
 
 
-def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """A point is a parameter, or is sent, or is received in the process data."""
     point = subject.point
     if point.telegram is None:
@@ -79,7 +79,7 @@ def _fixed(device: Device) -> Iterator[str]:
             yield point.item
 
 
-def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     """Words of process data go one way; parameters can be written for good."""
     point = subject.point
     if point.telegram is None:
@@ -89,7 +89,7 @@ def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
         yield from _process_ways(subject, scope.telegrams[point.telegram][0].direction)
 
 
-def _process_ways(subject: Subject, direction: str) -> Iterator[Way]:
+def _process_ways(subject: CratePoint, direction: str) -> Iterator[Way]:
     point = subject.point
     if direction == "response" and point.readable:
         yield "read", "receive", (of_scale(subject),)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Names
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 Tokens = tuple[str, ...]
 """Words of a row, between which it may be broken."""
@@ -59,10 +59,10 @@ class OfFamily:
     """
 
     context: Callable[[Device], Mapping[str, object]]
-    traits: Callable[[Subject, Scope], Iterable[str]] = nothing
+    traits: Callable[[CratePoint, CrateScope], Iterable[str]] = nothing
     identifiers: Callable[[Device], Iterable[Names]] = nothing
-    ways: Callable[[Subject, Scope], Iterable[Way]] = nothing
-    tables_of_points: Callable[[Scope], Iterable[Table]] = nothing
+    ways: Callable[[CratePoint, CrateScope], Iterable[Way]] = nothing
+    tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
 
