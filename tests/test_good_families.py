@@ -359,3 +359,17 @@ def test_points_are_found(device: str, what: str, items: list[str]) -> None:
     """By address, index and printed number."""
     found = dict.fromkeys(match.point.item for match in find(kitchen(device), what))
     assert list(found) == items
+
+
+def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
+    """Whether it is yes or no, or the name of a command."""
+    rows = """  keeps: yes
+points:
+- {name: by_command, at: 1, keep_with: enter}
+- {name: by_itself, at: 2}
+commands:
+- {name: enter, at: 25, function: 06h, value: any}
+"""
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
+    rows = rows.replace("  keeps: yes", "  keep_with: enter").replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]
