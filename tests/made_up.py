@@ -35,13 +35,12 @@ parts: [{parts}]
 """
 
 _GROUP = """\
-group:
-  name: group_{number}
-  title: {{en: Group {number}, de: Gruppe {number}}}
-  space: holding
-  access: rw
-  source: {{document: manual, section: "{number}"}}
-  numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+group: group_{number}
+title: {{en: Group {number}, de: Gruppe {number}}}
+space: holding
+access: rw
+source: {{document: manual, section: "{number}"}}
+numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
 points:
 """
 

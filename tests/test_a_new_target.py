@@ -26,7 +26,10 @@ title: Made up
 family: modbus
 documents: {{manual: {{title: Manual, language: en}}}}
 bus: {{framings: [rtu], units: 1..247, functions: {{03h: read_registers, 06h: write_register}}}}
-group: {{name: main, space: holding, source: {{document: manual, section: "1"}}}}
+---
+group: main
+space: holding
+source: {{document: manual, section: "1"}}
 points:
 - {{name: speed, at: 7}}
 - {{name: {second}, at: 8}}

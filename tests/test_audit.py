@@ -54,7 +54,10 @@ documents:
   manual:
     {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
 bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
-group: {name: main, space: holding, source: {document: manual, section: Parameters}}
+---
+group: main
+space: holding
+source: {document: manual, section: Parameters}
 points:
 - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
 - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
@@ -155,7 +158,10 @@ errata:
   taken: {crc: 0C 91}
   why: So the bytes say.
   certainty: certain
-group: {name: coils, space: coil, source: {document: manual, section: Coils}, numbering: {modicon: wire + 1}}
+group: coils
+space: coil
+source: {document: manual, section: Coils}
+numbering: {modicon: wire + 1}
 points:
 """
     + "".join(
@@ -163,7 +169,9 @@ points:
         for number in range(20)
     )
     + """# part parameters.yaml
-group: {name: parameters, space: holding, source: {document: manual, section: Parameters}}
+group: parameters
+space: holding
+source: {document: manual, section: Parameters}
 points:
 - {code: P601, name: factor, at: ~, range: 0..9, line: 32}
 - {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
@@ -278,9 +286,12 @@ bus:
     11: {name: unused_11, line: 9}
     12: {name: unused_12, line: 9}
 telegrams:
-- {name: task, direction: request, words: 2}
+- {name: task, direction: request, length: 2}
 parts: [words.yaml]
-group: {name: parameters, space: parameter, source: {document: manual, section: Words}}
+---
+group: parameters
+space: parameter
+source: {document: manual, section: Words}
 points:
 - code: P0700
   name: source
@@ -307,13 +318,13 @@ errata:
   why: The response list has it.
   certainty: likely
 # part words.yaml
-group:
-  name: words
-  space: telegram
-  telegram: task
-  access: w
-  numbering: {pzd: wire + 1}
-  source: {document: manual, section: Words}
+---
+group: words
+space: telegram
+telegram: task
+access: w
+numbering: {pzd: wire + 1}
+source: {document: manual, section: Words}
 points:
 - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
 - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}

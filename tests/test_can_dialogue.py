@@ -466,23 +466,22 @@ messages:
 - {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
 - {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
 - {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}
-telegrams: [{name: cells, direction: cyclic, words: 6, message: cells}]
+telegrams: [{name: cells, direction: cyclic, length: 6, message: cells}]
 parts: [limits.yaml]
-group:
-  name: cells
-  space: telegram
-  telegram: cells
-  source: {document: manual, section: "1"}
-  addressing: number + index - 1
+---
+group: cells
+space: telegram
+telegram: cells
+source: {document: manual, section: "1"}
+addressing: number + index - 1
 points: [{name: cell, at: {number: 0, indices: 6}}]
 """
 LIMITS = """\
-group:
-  name: limits
-  space: parameter
-  access: r
-  source: {document: manual, section: "2"}
-  addressing: 100h * number + index
+group: limits
+space: parameter
+access: r
+source: {document: manual, section: "2"}
+addressing: 100h * number + index
 points: [{name: limit, at: {number: 1, indices: 2}}]
 """
 

@@ -43,13 +43,12 @@ bus:
   functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}
 """
 MAIN = """\
-group:
-  name: main
-  title: {en: Main}
-  space: holding
-  access: rw
-  source: {document: manual, section: "1"}
-  numbering: {modicon: wire + 1}
+group: main
+title: {en: Main}
+space: holding
+access: rw
+source: {document: manual, section: "1"}
+numbering: {modicon: wire + 1}
 points:
 - {code: P1, name: speed, title: {en: "TITLE"}, at: 10h, range: 0..4000, scale: value = raw * 0.1, unit: Hz}
 - {code: P2, name: ratio, title: {en: Ratio}, at: 12h, range: 1..500}

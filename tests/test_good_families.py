@@ -31,10 +31,10 @@ title: Drive
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: read, 06h: write, 10h: write_many}}
-group:
-  name: a
-  space: holding
-  source: {document: manual, section: "1"}
+---
+group: a
+space: holding
+source: {document: manual, section: "1"}
 """
 
 
@@ -119,7 +119,7 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "points:\n- {name: a, at: 77h, type: f32, word_order: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
     assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 

@@ -27,7 +27,10 @@ bus:
   framings: [rtu]
   units: 1..247
   functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: mode, at: 900, range: 0..5}
 """
@@ -75,7 +78,7 @@ WRITTEN = [
     ("type: U16", "type: u16"),
     ("type: uint32_be", "type: u32"),
     ("keeps: true", "keeps: yes"),
-    ("word_order: little endian, type: u32", "word_order: low first"),
+    ("words: little endian, type: u32", "words: low first"),
     ("changes: constant", "changes: never"),
     ("steps: 10", "steps: {0: 10}"),
     ("bits: 15:8", "bits: 15..8"),
@@ -185,7 +188,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("scale: [{if: mode == 0, then: value = raw}]", "unknown-key", "did you mean `when`?"),
         ("no_value: [7FFFh]", "unknown-key", "`special: {7FFFh: {name: not_available, no_value: yes}}`"),
         ("size: 2", "unknown-key", "the `type` says how wide a number is"),
-        ("byte_order: little", "unknown-key", "`word_order: low first`"),
+        ("byte_order: little", "unknown-key", "`words: low first`"),
         ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),
         ("divisor: 10", "unknown-key", "`scale: value = raw / 10`"),
         ("offset: -40", "unknown-key", "what is added to a number stands in its rule"),
@@ -281,7 +284,7 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("units: 1..247", "units: 1-247", "write 1..247"),
         ("units: 1..247", "units: [1, 247]", "write `units: 1..247`"),
         ("units: 1..247", "units: 1..247\n  gaps: {holding: [100-200]}", "write 100..200"),
-        ("units: 1..247", "units: 1..247\n  word_order: little", "write `word_order: low first`"),
+        ("units: 1..247", "units: 1..247\n  words: little", "write `words: low first`"),
         ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
         ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
         ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),

@@ -28,7 +28,10 @@ documents: {manual: {title: Manual, language: en}}
 variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
 parts: [other.yaml]
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: actual, at: 9, access: r}
 - {name: highest, at: 10, range: 0..400}
@@ -38,7 +41,9 @@ points:
 - {name: trend, at: 15, access: r, when: model == pro and highest == 1}
 """
 OTHER = """\
-group: {name: other, space: holding, source: {document: manual, section: "2"}}
+group: other
+space: holding
+source: {document: manual, section: "2"}
 points:
 - {name: last, at: 13, access: r}
 - {name: final, at: 16, access: r}

@@ -380,7 +380,7 @@ def _printed(citing: _Citing, draft: Draft) -> Iterator[Claim]:
 def _of_entry(kind: str, one: Map) -> Iterator[Claim]:
     citing = _Citing(f"{kind} {one['name']}", one.get("line"), one.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
-    for key in ("at", *identifiers, "value", "words", "wears"):
+    for key in ("at", *identifiers, "value", "length", "wears"):
         for number in _numbers(one.get(key)):
             yield from citing.numbers(key, str(number), (number,))
     layout = one.get("layout")
