@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from fractions import Fraction
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
@@ -67,13 +66,6 @@ points:
 """
 
 
-def write(folder: Path, device: str) -> None:
-    """Writes device.yaml, and what stands behind a line `# part NAME` as that part."""
-    first, *parts = re.split(r"^# part (.*)\n", device, flags=re.MULTILINE)
-    for name, text in zip(["device.yaml", *parts[::2]], [first, *parts[1::2]], strict=True):
-        (folder / name).write_text(text, encoding="utf-8")
-
-
 def audit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], manual: str = MANUAL, device: str = DEVICE
 ) -> tuple[int, dict[str, Any]]:
@@ -81,7 +73,7 @@ def audit(
     folder = tmp_path / "audited"
     folder.mkdir(exist_ok=True)
     digest = sha256(MANUAL.encode()).hexdigest()
-    write(folder, device.replace("SHA", digest))
+    (folder / "device.yaml").write_text(device.replace("SHA", digest), encoding="utf-8")
     path = tmp_path / "manual.txt"
     path.write_text(manual, encoding="utf-8")
     code = main(["audit", str(folder), "--manual", str(path), "--report", "json"])
@@ -146,9 +138,8 @@ The request 05 06 10 28 01 F4 0C 91 is printed with the checksum 0C 92.
 """  # fmt: skip
 
 LONG_DEVICE = (
-    DEVICE[: DEVICE.index("group:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
-    + """parts: [parameters.yaml]
-frames:
+    DEVICE[: DEVICE.index("---\n")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
+    + """frames:
 - {name: write_base_frequency, line: 28, direction: request, bytes: 05 06 10 28 01 F4 0C 92}
 errata:
 - id: checksum
@@ -158,6 +149,7 @@ errata:
   taken: {crc: 0C 91}
   why: So the bytes say.
   certainty: certain
+---
 group: coils
 space: coil
 source: {document: manual, section: Coils}
@@ -168,7 +160,7 @@ points:
         f"- {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
         for number in range(20)
     )
-    + """# part parameters.yaml
+    + """---
 group: parameters
 space: holding
 source: {document: manual, section: Parameters}
@@ -287,7 +279,6 @@ bus:
     12: {name: unused_12, line: 9}
 telegrams:
 - {name: task, direction: request, length: 2}
-parts: [words.yaml]
 ---
 group: parameters
 space: parameter
@@ -317,7 +308,6 @@ errata:
   taken: {refusals: [7]}
   why: The response list has it.
   certainty: likely
-# part words.yaml
 ---
 group: words
 space: telegram
@@ -348,7 +338,8 @@ def test_uss_manuals_are_read_as_they_write(
     folder = tmp_path / "audited"
     folder.mkdir()
     manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
-    write(folder, USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()))
+    text = USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest())
+    (folder / "device.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "manual.txt").write_text(manual, "utf-8")
     main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
     assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing

@@ -64,7 +64,7 @@ def made(tmp_path: Path, rows: str) -> Device:
     return device
 
 
-NORD = """  addressing: number * 64 + (index - 1) * sets + (set - 1)
+NORD = """addressing: number * 64 + (index - 1) * sets + (set - 1)
 points:
 - {name: alone, at: {number: 601}}
 - {name: by_set, title: {en: Ramp, de: Rampe}, at: {number: 102, sets: 4}, was: [ramp]}
@@ -363,7 +363,7 @@ def test_points_are_found(device: str, what: str, items: list[str]) -> None:
 
 def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
     """Whether it is yes or no, or the name of a command."""
-    rows = """  keeps: yes
+    rows = """keeps: yes
 points:
 - {name: by_command, at: 1, keep_with: enter}
 - {name: by_itself, at: 2}
@@ -371,5 +371,5 @@ commands:
 - {name: enter, at: 25, function: 06h, value: any}
 """
     assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
-    rows = rows.replace("  keeps: yes", "  keep_with: enter").replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    rows = rows.replace("keeps: yes", "keep_with: enter", 1).replace("at: 1, keep_with: enter", "at: 1, keeps: no")
     assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]

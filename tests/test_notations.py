@@ -64,9 +64,7 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
     """As texts in quotes, so that YAML leaves them alone."""
     files = {}
     for path in sorted(folder.glob("*.yaml")):
-        root = load(SourceFile(path.name, path.read_text("utf-8")), Report())
-        assert root is not None
-        files[path.name] = noted(root, notation)
+        files[path.name] = noted(load(SourceFile(path.name, path.read_text("utf-8")), Report()), notation)
     write_files(tmp_path / "device", as_texts(files))
     assert loaded(tmp_path / "device") == loaded(folder)
 

@@ -27,7 +27,6 @@ family: modbus
 documents: {manual: {title: Manual, language: en}}
 variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
-parts: [other.yaml]
 ---
 group: main
 space: holding
@@ -39,8 +38,7 @@ points:
 - {name: output, at: 12, access: r}
 - {name: newer, at: 14, access: r, since: firmware 2}
 - {name: trend, at: 15, access: r, when: model == pro and highest == 1}
-"""
-OTHER = """\
+---
 group: other
 space: holding
 source: {document: manual, section: "2"}
@@ -65,7 +63,6 @@ class Basic(Slave):
 def tempco(tmp_path_factory: pytest.TempPathFactory) -> Device:
     file = tmp_path_factory.mktemp("tempco") / "device.yaml"
     file.write_text(TEMPCO, "utf-8")
-    (file.parent / "other.yaml").write_text(OTHER, "utf-8")
     report = Report()
     device = load_device(file, report)
     assert device is not None, report.findings
