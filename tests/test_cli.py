@@ -152,7 +152,7 @@ def test_check(run: Callable[..., Result], small: Path) -> None:
     (small / "main.yaml").write_text(MAIN.replace("at: 12h", "at: 10h"), "utf-8")
     wrong = run("check")
     assert wrong.code == 1
-    assert " --> descriptions/small_drive/main.yaml:10:" in wrong.out
+    assert " --> descriptions/small_drive/main.yaml:9:" in wrong.out
     assert "^" in wrong.out
     assert "1 error in 1 file" in wrong.out
     data = json.loads(run("check", "--format", "json").out)

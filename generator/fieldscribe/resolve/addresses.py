@@ -255,7 +255,7 @@ class Places:
         """A finding for a word that its space or telegram does not have."""
         if space == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
-            hint = "`at` counts the words of the whole telegram from 0; correct it, or `words` of the telegram"
+            hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
         elif single:
             message = f"the address {address} lies outside 0..{last}"
             hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"
