@@ -14,6 +14,7 @@ from fieldscribe.export import export_model
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
 from fieldscribe.pipeline import load_device
 from fieldscribe.plain import digest, for_code
+from fieldscribe.wording import default_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -113,6 +114,37 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
     assert points["by_both_set_1_index_2"].title == {"en": "By both (set 1, index 2)"}
     lines = [points[f"by_both_set_{one}_index_2"].source.line for one in (1, 2, 4)]
     assert lines == [5, 5, 7]
+
+
+def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
+    """Each follows from the other where no other point is needed; the nearer layer decides which of both is said."""
+    rows = """  points:
+  - {name: first, at: 1, scale: value = raw * 0.1, default: 0200h}
+  - {name: in_units, at: 2, scale: value = raw * 0.1, default_in_units: 51.2}
+  - {name: named, at: 3, scale: value = raw * 0.1, special: {7FFFh: idle}, default: idle}
+  - {name: entry, at: 4, enum: {3: on}, default: "on"}
+  - {name: moving_raw, at: 5, scale: value = raw * first.raw, default: 4}
+  - {name: moving_value, at: 6, scale: value = raw * first.raw, default_in_units: 4}
+  - {name: real, at: 7, type: f32, default_in_units: 0.5}
+  - name: ramp
+    at: 9
+    scale: value = raw * 0.1
+    default: 5
+    sets: {2: {at: 10, default_in_units: 0.7}, 3: {at: 11}}
+"""
+    found = {one.name: (one.default, one.default_raw, default_text(one)) for one in made(tmp_path, rows).points}
+    assert found == {
+        "first": (Fraction("51.2"), 512, "51.2"),
+        "in_units": (Fraction("51.2"), 512, "51.2"),
+        "named": (Fraction("3276.7"), 0x7FFF, "idle"),
+        "entry": (3, 3, "3"),
+        "moving_raw": (None, 4, "raw 4"),
+        "moving_value": (4, None, "4"),
+        "real": (Fraction(1, 2), None, "0.5"),
+        "ramp": (Fraction(1, 2), 5, "0.5"),
+        "ramp_set_2": (Fraction("0.7"), 7, "0.7"),
+        "ramp_set_3": (Fraction(1, 2), 5, "0.5"),
+    }
 
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:

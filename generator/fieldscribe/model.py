@@ -224,9 +224,10 @@ class Point:
     integer path, 10^-k units; it is None where no 64-bit integer holds the counts, and there are none then.
     `encodes_values` is False where raw numbers, or what a scale multiplies them to, exceed 53 bits: values are decoded
     only. `most_raw` is how large a raw number may be for a scale that other points decide, where the type goes beyond:
-    larger ones overflow. `specials` are never computed with; `specials_of` names what gives those that are not the
-    point's own to many points (a type, a group, a format). `steps` gives (from raw, step in raw). `generated` is False
-    for what is only documented; `reason` says why.
+    larger ones overflow. `default` is the factory setting in the unit, `default_raw` as it travels: each is None where
+    only other points tell; a floating-point number has the first alone. `specials` are never computed with;
+    `specials_of` names what gives those that are not the point's own to many points (a type, a group, a format).
+    `steps` gives (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
     """
 
     name: str
@@ -246,6 +247,7 @@ class Point:
     decimals: int | None
     allowed: Allowed
     default: Fraction | None
+    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
     enum: Enum | None
     flags: tuple[Flag, ...]

@@ -33,6 +33,7 @@ _PRINTED = {
     "type": "Type",
     "scale": "Scale",
     "default": "Default",
+    "default_in_units": "Default",
     "code": "Code",
     "title": "Title",
 }

@@ -6,7 +6,7 @@ import struct
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.wording.exact import fixed_rule, hex_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
@@ -22,12 +22,11 @@ def sample_raw(point: Point) -> int | None:
         kind = ("<f", "<I") if point.type == "f32" else ("<d", "<Q")
         result: int = struct.unpack(kind[1], struct.pack(kind[0], float(number)))[0]
         return result
-    rule = fixed_rule(point)
-    if rule is not None and point.default is not None:
-        raw = (point.default * rule[2] - rule[1]) / rule[0]
-        special = point.special(int(raw))
-        if raw.denominator == 1 and (special is None or special.writable):
-            return _with_fixed(point, int(raw)) if special is None else int(raw)
+    raw = point.default_raw
+    if raw is not None:
+        special = point.special(raw)
+        if special is None or special.writable:
+            return _with_fixed(point, raw) if special is None else raw
     ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
     return _with_fixed(point, min(ends, key=abs)) if ends else None
 

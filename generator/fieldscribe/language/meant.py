@@ -172,6 +172,12 @@ def _decimals(_: str, value: Any) -> str | None:
     return f"it counts the digits behind the point: write `decimals: {digits}`"
 
 
+def _default(_: str, value: Any) -> str | None:
+    """A value where a raw number belongs."""
+    fraction = isinstance(value, Decimal) and "." in str(value)
+    return f"it is a raw number; a value in the unit is `default_in_units: {value}`" if fraction else None
+
+
 def _source(_: str, value: Any) -> str | None:
     if isinstance(value, str | int | Decimal) and len(str(value)) <= _LONGEST:
         return f'write `source: {{document: …, section: "{value}"}}`'
@@ -291,6 +297,7 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "values": _values,
     "steps": _steps,
     "decimals": _decimals,
+    "default": _default,
     "source": _source,
     "at": _at,
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 _INHERITED = inherited(GROUP)
 """What a group says for its points."""
 
+_RIVALS = (("range", "range_in_units"), ("default", "default_in_units"))
+"""Two ways to say one fact: the nearer layer wins, whichever it says."""
+
 
 @dataclass(slots=True, eq=False)
 class Draft:
@@ -51,6 +54,10 @@ class Draft:
         for layer in reversed(self.layers):
             keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
+            for pair in _RIVALS:
+                for said, rival in (pair, pair[::-1]):
+                    if said in keys and rival not in keys:
+                        where.pop(rival, None)
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Linear, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
+from fieldscribe.resolve.defaults import default_of
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import paths_of
@@ -19,16 +19,13 @@ from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.telegrams import SPACE
-from fieldscribe.resolve.values import integer, number
+from fieldscribe.resolve.values import integer
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.telegrams import Telegrams
-
-
-_MOST_NAMES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +99,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
     paths = paths_of(draft, cases, ranges.bounds)
+    default, default_raw = default_of(scope, draft, enum, shape.specials, cases)
     access = places.access(draft, shape.space)
     writable = "w" in access
     reason = _reason(draft, place is not None, access, raw_alone=paths.raw_alone)
@@ -124,7 +122,8 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         encodes_values=paths.encodes_values,
         most_raw=paths.most_raw,
         allowed=allowed,
-        default=None if draft.text else _default(scope, draft, enum, shape, cases),
+        default=default,
+        default_raw=default_raw,
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.bits, shape.width),
@@ -201,25 +200,6 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
         scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, unit_hint(str(symbol), scope.units))
         draft.failed.add("unit")
     return found or PLAIN
-
-
-def _default(
-    scope: Scope, draft: Draft, enum: Enum | None, shape: Shape, cases: tuple[ScaleCase, ...] | None
-) -> Fraction | None:
-    """The factory setting in the unit; of an enum, and of special codes under a fixed scale, also by name."""
-    raw = draft.get("default")
-    for entry in enum.entries if enum is not None else ():
-        if entry.name == raw:
-            return Fraction(entry.raw)
-    rule = cases[0].rule if cases is not None else Linear(Fraction(1), Fraction(0), ())
-    for special in shape.specials if not rule.factors and len(cases or ()) < 2 and not draft.floating else ():
-        if special.name == raw and special.low == special.high:
-            return (special.low - rule.offset) / rule.ratio
-    if isinstance(raw, str) and enum is not None and raw.isidentifier():
-        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
-        scope.report.error("bad-number", f"`{raw}` is no name of this enum", draft.span("default"), hint)
-        return None
-    return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 
 def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:

@@ -218,15 +218,13 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
 
 def default_text(point: Point) -> str:
     """The factory setting in the unit, or the name of the special code that it is; empty where there is none."""
-    if point.default is None:
-        return ""
-    rule = fixed_rule(point)
-    if point.specials and rule is not None and not point.info.floating:
-        raw = (point.default * rule[2] - rule[1]) / rule[0]
-        special = point.special(raw.numerator) if raw.denominator == 1 else None
-        if special is not None:
-            return special.name
-    return with_unit(number_text(point.default), point)
+    raw = point.default_raw
+    special = None if raw is None else point.special(raw)
+    if special is not None:
+        return special.name
+    if point.default is not None:
+        return with_unit(number_text(point.default), point)
+    return "" if raw is None else f"raw {raw}"
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:
