@@ -367,6 +367,7 @@ int main(void)
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
         request.values = written;
+        request.given = 1U;
         for (at = 0; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);
         }
@@ -384,7 +385,7 @@ int main(void)
                 exact[length - 1U] = (uint8_t)(crc >> 8);
             }
         }
-        if (fieldscribe_modbus_left(framing, &request, exact, length) > 300U) {
+        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 999U, length) > 300U) {
             return 2;
         }
         if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&
@@ -414,7 +415,7 @@ int main(void)
     static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
     const uint16_t written[1] = {500U};
     static const fieldscribe_modbus_writing what = {6U, 0x1028U, 1U};
-    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written);
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written, 1U);
     fieldscribe_modbus_reply reply = {NULL, 0U, 9U, 9U};
     uint16_t value = 0U;
     request.transaction = 7U;
@@ -535,8 +536,8 @@ void start(void)
     result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
     result += (int32_t)kitchen_sink_plain_f32_check(pattern);
     word = kitchen_sink_ratio_insert(word, 200U);
-    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words);
-    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words);
+    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words, 2U);
+    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words, 2U);
     result += (int32_t)fieldscribe_modbus_build(
         &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
     for (;;) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -59,7 +60,7 @@ int main(void)
         fieldscribe_can_reply_length(NULL) != 0U ||
         fieldscribe_can_read_answer(talk, 5U, &kitchen_can_transformer_secondary_frame.read, &frame, &word) !=
             FIELDSCRIBE_CAN_OK ||
-        !fieldscribe_take_u16(kitchen_can_transformer_secondary_frame.layout, &word, &raw) || raw != 400U ||
+        !fieldscribe_take_u16(kitchen_can_transformer_secondary_frame.layout, &word, 1U, &raw) || raw != 400U ||
         fieldscribe_can_read_answer(talk, 5U, &kitchen_can_voltage_limit_frame.read, &frame, &word) !=
             FIELDSCRIBE_CAN_WRONG_ADDRESS ||
         word != 400U ||
@@ -67,31 +68,31 @@ int main(void)
             FIELDSCRIBE_CAN_WRONG_ID) {
         return 2;
     }
-    if (!fieldscribe_put_u16(kitchen_can_frequency_setpoint_frame.layout, 0x2D00U, &word) ||
-        fieldscribe_can_write(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+    if (!fieldscribe_put_u16(kitchen_can_frequency_setpoint_frame.layout, 0x2D00U, &word, 1U) ||
+        fieldscribe_can_write(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, word, &frame) !=
             FIELDSCRIBE_CAN_OK ||
         !shows(&frame, 0x33FU, "\\xEE\\x05\\x00\\x0B\\x2D\\x00\\xC3\\x0E")) {
         return 3;
     }
     frame.id = 0x325U;
     raw = 0x2D01U;
-    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, word, &frame) !=
             FIELDSCRIBE_CAN_OK ||
-        fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &raw, &frame) !=
+        fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, raw, &frame) !=
             FIELDSCRIBE_CAN_ECHO_MISMATCH ||
-        fieldscribe_can_write(talk, 31U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+        fieldscribe_can_write(talk, 31U, &kitchen_can_frequency_setpoint_frame.write, word, &frame) !=
             FIELDSCRIBE_CAN_BAD_UNIT) {
         return 4;
     }
     /* bits of a shared word, with constants beside them */
     word = 0xFFFFU;
-    if (!fieldscribe_put_bit(kitchen_can_slow_ramp_frame.layout, false, &word) ||
-        fieldscribe_can_write(talk, 5U, &kitchen_can_slow_ramp_frame.update, &word, &frame) != FIELDSCRIBE_CAN_OK ||
+    if (!fieldscribe_put_bit(kitchen_can_slow_ramp_frame.layout, false, &word, 1U) ||
+        fieldscribe_can_write(talk, 5U, &kitchen_can_slow_ramp_frame.update, word, &frame) != FIELDSCRIBE_CAN_OK ||
         frame.data[4] != 0xFFU || frame.data[5] != 0x07U) {
         return 5;
     }
     frame.id = 0x325U;
-    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_slow_ramp_frame.update, &word, &frame) !=
+    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_slow_ramp_frame.update, word, &frame) !=
         FIELDSCRIBE_CAN_OK) {
         return 12;
     }
@@ -109,11 +110,11 @@ int main(void)
         if (fieldscribe_can_word_to_write(&kitchen_can_fault_text_1_frame.write, at, &write_one) !=
                 FIELDSCRIBE_CAN_OK ||
             fieldscribe_can_word_to_read(&kitchen_can_fault_text_1_frame.read, at, &read_one) != FIELDSCRIBE_CAN_OK ||
-            fieldscribe_can_write(talk, 1U, &write_one, &words[at], &frame) != FIELDSCRIBE_CAN_OK) {
+            fieldscribe_can_write(talk, 1U, &write_one, words[at], &frame) != FIELDSCRIBE_CAN_OK) {
             return 7;
         }
         frame.id = 0x321U;
-        if (fieldscribe_can_write_answer(talk, 1U, &write_one, &words[at], &frame) != FIELDSCRIBE_CAN_OK) {
+        if (fieldscribe_can_write_answer(talk, 1U, &write_one, words[at], &frame) != FIELDSCRIBE_CAN_OK) {
             return 14;
         }
         words[at] = 0U;
@@ -149,7 +150,8 @@ int main(void)
 {
     fieldscribe_can_frame frame = {0x705U, 8U, {0U}};
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS];
-    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, 5U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(
+        &kitchen_can_telegram_heartbeat, 5U, slots, KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS);
     const uint8_t nobody[8] = {5U, 31U, 0U, 0U, 0U, 0U, 5U, 31U};
     uint16_t beats = 0U;
     fieldscribe_can_content content = {5U, 0U, 0U};
@@ -164,12 +166,13 @@ int main(void)
     }
     memcpy(frame.data, right, 8U);
     if (!fieldscribe_can_take(&receiver, &frame) ||
-        fieldscribe_can_received(&receiver, &kitchen_can_beats_frame.heard, &beats) != FIELDSCRIBE_CAN_OK ||
+        fieldscribe_can_received(&receiver, &kitchen_can_beats_frame.heard, &beats, 1U) != FIELDSCRIBE_CAN_OK ||
         beats != 0x1234U) {
         return 20;
     }
     /* no device has that unit, though the frame is a good one */
-    receiver = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, 31U, slots);
+    receiver = fieldscribe_can_listen(
+        &kitchen_can_telegram_heartbeat, 31U, slots, KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS);
     frame.id = 0x71FU;
     memcpy(frame.data, nobody, 8U);
     return fieldscribe_can_take(&receiver, &frame) ? 21 : 0;
@@ -202,32 +205,37 @@ static int taken(fieldscribe_can_receiver *receiver, uint8_t multiplexer, uint8_
 int main(void)
 {
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
-    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 2U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(
+        &kitchen_can_telegram_measurements, 2U, slots, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS);
     uint32_t hours = 7U;
     int8_t exponent = 0;
     uint16_t words[2] = {9U, 9U};
     uint16_t text[KITCHEN_CAN_DISPLAY_WORDS];
-    if (fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words) !=
+    if (fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words, 2U) !=
             FIELDSCRIBE_CAN_MISSING ||
         words[0] != 9U || !taken(&receiver, 0U, 0xFEU) ||
         taken(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS, 0U) ||
-        fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words) != FIELDSCRIBE_CAN_OK ||
-        !fieldscribe_take_s8(kitchen_can_power_exponent_frame.layout, words, &exponent) || exponent != -2) {
+        fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words, 2U) !=
+            FIELDSCRIBE_CAN_OK ||
+        !fieldscribe_take_s8(kitchen_can_power_exponent_frame.layout, words, 2U, &exponent) || exponent != -2) {
         return 1;
     }
     /* a number over two frames counts once its high word came before and after its low word */
     words[0] = 9U;
     if (!taken(&receiver, 1U, 0x01U) || !taken(&receiver, 2U, 0x02U) ||
-        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) != FIELDSCRIBE_CAN_TORN ||
+        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U) !=
+            FIELDSCRIBE_CAN_TORN ||
         words[0] != 9U || !taken(&receiver, 1U, 0x01U) ||
-        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) != FIELDSCRIBE_CAN_OK ||
-        !fieldscribe_take_u32(kitchen_can_operating_hours_frame.layout, words, &hours) || hours != 0x01010202U) {
+        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U) !=
+            FIELDSCRIBE_CAN_OK ||
+        !fieldscribe_take_u32(kitchen_can_operating_hours_frame.layout, words, 2U, &hours) || hours != 0x01010202U) {
         return 2;
     }
     if (fieldscribe_can_word(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_WORDS, words) != FIELDSCRIBE_CAN_MISSING) {
         return 3;
     }
-    return fieldscribe_can_received_text(&receiver, &kitchen_can_display_frame.heard, text) == FIELDSCRIBE_CAN_MISSING
+    return fieldscribe_can_received_text(&receiver, &kitchen_can_display_frame.heard, text,
+               KITCHEN_CAN_DISPLAY_WORDS) == FIELDSCRIBE_CAN_MISSING
         ? 0
         : 4;
 }
@@ -260,9 +268,11 @@ int main(void)
     }
     /* the constant bit comes by itself */
     if (!fieldscribe_put_u16(kitchen_uss_control_word_frame.layout, 0x007FU,
-            fieldscribe_uss_words_sent(&kitchen_uss_control_word_frame.sent, words)) ||
+            fieldscribe_uss_words_sent(&kitchen_uss_control_word_frame.sent, words, 2U),
+            kitchen_uss_control_word_frame.sent.words) ||
         !fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
-            fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words)) ||
+            fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words, 2U),
+            kitchen_uss_main_setpoint_frame.sent.words) ||
         fieldscribe_uss_build(drive, &link, &request, &process, frame, sizeof frame, &length) != FIELDSCRIBE_USS_OK ||
         length != 16U ||
         memcmp(frame, "\\x02\\x0E\\x03\\x12\\xBC\\0\\0\\0\\0\\0\\0\\x04\\x7F\\x33\\x33\\xDA", 16U) != 0) {
@@ -274,11 +284,12 @@ int main(void)
         return 3;
     }
     if (fieldscribe_uss_parse(drive, &link, &request, answer, sizeof answer, &reply) != FIELDSCRIBE_USS_OK ||
-        fieldscribe_uss_words_of_reply(&reply, &kitchen_uss_command_source_frame.read, value) != FIELDSCRIBE_USS_OK ||
-        !fieldscribe_take_u16(kitchen_uss_command_source_frame.layout, value, &source) ||
+        fieldscribe_uss_words_of_reply(&reply, &kitchen_uss_command_source_frame.read, value, 2U) !=
+            FIELDSCRIBE_USS_OK ||
+        !fieldscribe_take_u16(kitchen_uss_command_source_frame.layout, value, 2U, &source) ||
         source != KITCHEN_USS_COMMAND_SOURCE_TERMINALS ||
-        fieldscribe_uss_words_heard(&kitchen_uss_status_word_frame.heard, heard)[0] != 0xFA31U ||
-        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, heard)[0] != 0U) {
+        fieldscribe_uss_words_heard(&kitchen_uss_status_word_frame.heard, heard, 2U)[0] != 0xFA31U ||
+        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, heard, 2U)[0] != 0U) {
         return 4;
     }
     reply.room = 1U;
@@ -287,27 +298,27 @@ int main(void)
         return 5;
     }
     reply.room = KITCHEN_USS_TELEGRAM_TASK_WORDS;
-    if (!fieldscribe_put_u32(kitchen_uss_maximum_frequency_frame.layout, 0x42200000U, value)) {
+    if (!fieldscribe_put_u32(kitchen_uss_maximum_frequency_frame.layout, 0x42200000U, value, 2U)) {
         return 6;
     }
-    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_frame.write, value);
+    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_frame.write, value, 2U);
     if (request.task != KITCHEN_USS_TASK_WRITE_DOUBLE_WORD || request.value != 0x42200000U ||
         fieldscribe_uss_parse(drive, &link, &request, refusal, sizeof refusal, &reply) != FIELDSCRIBE_USS_REFUSED ||
         reply.error != KITCHEN_USS_ERROR_NOT_NOW || heard[0] != 0xFA31U ||
         strcmp(kitchen_uss_error_name(reply.error), "not_now") != 0) {
         return 7;
     }
-    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_eeprom_frame.write, value);
+    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_eeprom_frame.write, value, 2U);
     if (request.task != 13U || request.width != 2U || request.parameter != 1082U) {
         return 8;
     }
     value[0] = 6U;
-    request = fieldscribe_uss_write(3U, &kitchen_uss_baud_rate_index_1_eeprom_frame.write, value);
+    request = fieldscribe_uss_write(3U, &kitchen_uss_baud_rate_index_1_eeprom_frame.write, value, 2U);
     if (request.task != 12U || request.index != 1U || request.width != 1U || request.value != 6U) {
         return 9;
     }
-    if (!fieldscribe_put_s16(kitchen_uss_reaction_frame.layout, -5, value) || value[0] != 0xFFFBU ||
-        !fieldscribe_take_s16(kitchen_uss_reaction_frame.layout, value, &raw) || raw != -5 ||
+    if (!fieldscribe_put_s16(kitchen_uss_reaction_frame.layout, -5, value, 2U) || value[0] != 0xFFFBU ||
+        !fieldscribe_take_s16(kitchen_uss_reaction_frame.layout, value, 2U, &raw) || raw != -5 ||
         kitchen_uss_error_name(3U) != NULL) {
         return 10;
     }
@@ -358,7 +369,8 @@ int main(void)
         &kitchen_can_message_read_answer, &kitchen_can_message_write_request, &kitchen_can_message_heartbeat};
     fieldscribe_can_slot *const slots =
         (fieldscribe_can_slot *)malloc(KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS * sizeof(fieldscribe_can_slot));
-    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 1U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(
+        &kitchen_can_telegram_measurements, 1U, slots, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS);
     unsigned round_number;
     unsigned taken = 0U;
     unsigned torn = 0U;
@@ -382,7 +394,7 @@ int main(void)
             return 2;
         }
         taken += fieldscribe_can_take(&receiver, &frame) ? 1U : 0U;
-        torn += fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) ==
+        torn += fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U) ==
                 FIELDSCRIBE_CAN_TORN
             ? 1U
             : 0U;
@@ -425,7 +437,7 @@ int main(void)
             exact[6] = 0U;
             exact[length - 1U] = fieldscribe_uss_check(exact, length - 1U);
         }
-        if (fieldscribe_uss_left(&link, exact, length) > 257U) {
+        if (fieldscribe_uss_left(&link, exact, 999U, length) > 257U) {
             return 2;
         }
         if (fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, exact, length, &reply) ==
@@ -463,7 +475,7 @@ int main(void)
     static const fieldscribe_can_telegram many = {&profile, &message, 5U, 200U};
     fieldscribe_can_slot slots[2];
     fieldscribe_can_frame frame = {0x100U, 8U, {0xFFU, 0xFFU, 1U, 2U, 3U, 4U, 0U, 0U}};
-    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&none, 1U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&none, 1U, slots, 2U);
     fieldscribe_can_content content = {1U, 0U, 0U};
     uint16_t raw = 0U;
     if (fieldscribe_can_slots(&none) != 2U || fieldscribe_can_slots(&many) != 2U ||
@@ -507,7 +519,7 @@ int main(void)
     static const uint8_t frame[12] = {0U, 0U, 0U, 0U, 0U, 6U, 1U, 6U, 0U, 0U, 0U, 0U};
     uint16_t one[1] = {0U};
     static const fieldscribe_modbus_writing what = {0x06U, 0U, 0U};
-    const fieldscribe_modbus_request nothing = fieldscribe_modbus_write(1U, &what, one + 1);
+    const fieldscribe_modbus_request nothing = fieldscribe_modbus_write(1U, &what, one + 1, 0U);
     fieldscribe_modbus_reply reply = {NULL, 0U, 0U, 0U};
     return fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &nothing, frame, 12U, &reply) ==
             FIELDSCRIBE_MODBUS_ECHO_MISMATCH
@@ -532,7 +544,7 @@ def test_strange_tables_and_requests_are_safe(family: str, compiler: str, folder
 def test_a_runtime_of_another_version_is_refused(family: str, folder: Path, tmp_path: Path) -> None:
     for path in folder.glob("*.h"):
         text = path.read_text("utf-8")
-        renewed = text.replace(f"_{family.upper()}_INTERFACE 2\n", f"_{family.upper()}_INTERFACE 3\n")
+        renewed = re.sub(rf"(#define \w+_{family.upper()}_INTERFACE) \d+", r"\1 99", text)
         (tmp_path / path.name).write_text(renewed, encoding="utf-8")
     header = tmp_path / f"kitchen_{family}_{family}.h"
     done = run([tool("gcc"), "-std=c99", "-fsyntax-only", "-x", "c", header])
@@ -554,15 +566,16 @@ fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
 void start(void);
 void start(void)
 {
-    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 1U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(
+        &kitchen_can_telegram_measurements, 1U, slots, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS);
     uint16_t words[2] = {0U, 0U};
     uint16_t raw = 0U;
     result = (int32_t)kitchen_can_voltage_setpoint_100v_encode_count(wanted, 400U, &raw);
-    result += (int32_t)fieldscribe_put_u16(kitchen_can_voltage_setpoint_100v_frame.layout, raw, words);
+    result += (int32_t)fieldscribe_put_u16(kitchen_can_voltage_setpoint_100v_frame.layout, raw, words, 2U);
     result += (int32_t)fieldscribe_can_write(
-        &kitchen_can_can_dialogue, 1U, &kitchen_can_voltage_setpoint_100v_frame.write, words, &frame);
+        &kitchen_can_can_dialogue, 1U, &kitchen_can_voltage_setpoint_100v_frame.write, words[0], &frame);
     result += (int32_t)fieldscribe_can_take(&receiver, &frame);
-    result += (int32_t)fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words);
+    result += (int32_t)fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U);
     for (;;) {
     }
 }
@@ -591,13 +604,15 @@ void start(void)
     const kitchen_uss_main_setpoint_with setpoint = {0U, reference};
     result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, &setpoint, &raw);
     result += (int32_t)fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
-        fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words));
+        fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words, 2U),
+        kitchen_uss_main_setpoint_frame.sent.words);
     result += (int32_t)fieldscribe_uss_build(
         &kitchen_uss_uss_profile, &link, &request, &process, frame, sizeof frame, &length);
     result += (int32_t)fieldscribe_uss_parse(
         &kitchen_uss_uss_profile, &link, &request, frame, length, &reply);
     result += (int32_t)fieldscribe_take_s16(kitchen_uss_main_actual_value_frame.layout,
-        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, words), &raw);
+        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, words, 2U),
+        kitchen_uss_main_actual_value_frame.heard.words, &raw);
     result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, &setpoint, &count);
     shown = count;
     for (;;) {
@@ -643,10 +658,12 @@ static size_t receive(uint8_t *bytes, size_t most)
 static size_t heard(fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *frame)
 {
     size_t got = 0U;
-    uint32_t left = fieldscribe_modbus_left(framing, request, frame, got);
+    uint32_t left = fieldscribe_modbus_left(
+        &kitchen_sink_modbus_profile, framing, request, frame, FIELDSCRIBE_MODBUS_TCP_MOST, got);
     while (left > 0U && waiting > 0U) {
         got += receive(frame + got, left);
-        left = fieldscribe_modbus_left(framing, request, frame, got);
+        left = fieldscribe_modbus_left(
+        &kitchen_sink_modbus_profile, framing, request, frame, FIELDSCRIBE_MODBUS_TCP_MOST, got);
     }
     return got;
 }
@@ -692,15 +709,24 @@ int main(void)
     if (got != 9U || waiting != 1U) {
         return 4;
     }
-    request = fieldscribe_modbus_write(1U, &one_word, words);
+    request = fieldscribe_modbus_write(1U, &one_word, words, 9U);
     if (fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) != 8U ||
         fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, &request) != 12U) {
         return 5;
     }
-    request.unit = 0U; /* to all: nobody answers */
-    return profile->broadcast == 0U && fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) != 0U
-        ? 6
-        : 0;
+    /* a buffer that is too small for the answer is filled, and no more */
+    if (fieldscribe_modbus_left(profile, FIELDSCRIBE_MODBUS_RTU, &request, rtu, 4U, 0U) != 4U ||
+        fieldscribe_modbus_left(profile, FIELDSCRIBE_MODBUS_RTU, &request, rtu, 7U, 5U) != 2U ||
+        fieldscribe_modbus_left(profile, FIELDSCRIBE_MODBUS_RTU, &request, rtu, 7U, 7U) != 0U) {
+        return 6;
+    }
+    request.unit = (uint8_t)profile->broadcast; /* to all: nobody answers */
+    return profile->broadcast == 0U &&
+            fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) == 0U &&
+            fieldscribe_modbus_left(profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, 0U) == 0U &&
+            fieldscribe_modbus_left(profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, 0U) == 0U
+        ? 0
+        : 7;
 }
 """
 
@@ -717,11 +743,17 @@ int main(void)
         fieldscribe_uss_reply_length(&none) != 8U) {
         return 1;
     }
-    if (fieldscribe_uss_left(&varies, answer, 0U) != 14U || fieldscribe_uss_left(&varies, answer, 2U) != 12U ||
-        fieldscribe_uss_left(&varies, answer, 14U) != 0U || fieldscribe_uss_left(&varies, answer, 99U) != 0U) {
+    if (fieldscribe_uss_left(&varies, answer, 99U, 0U) != 14U ||
+        fieldscribe_uss_left(&varies, answer, 99U, 2U) != 12U ||
+        fieldscribe_uss_left(&varies, answer, 99U, 14U) != 0U ||
+        fieldscribe_uss_left(&varies, answer, 99U, 99U) != 0U) {
         return 2;
     }
-    return fieldscribe_uss_left(&fixed, answer, 2U) == 14U && fieldscribe_uss_left(&none, answer, 8U) == 0U ? 0 : 3;
+    if (fieldscribe_uss_left(&varies, answer, 13U, 2U) != 11U || fieldscribe_uss_left(&fixed, answer, 2U, 2U) != 0U) {
+        return 4;
+    }
+    return fieldscribe_uss_left(&fixed, answer, 99U, 2U) == 14U &&
+        fieldscribe_uss_left(&none, answer, 99U, 8U) == 0U ? 0 : 3;
 }
 """
 
@@ -732,6 +764,236 @@ def test_a_receiver_knows_how_long_an_answer_is(use: str, folder: Path, tmp_path
     (tmp_path / "serial.c").write_text(SERIAL if use == "modbus" else SERIAL_USS, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
     succeed([compiled("gcc", flags, tmp_path / "serial.c", tmp_path / "serial")])
+
+
+# words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
+TOO_FEW = {
+    "modbus": """
+    static const fieldscribe_modbus_writing two = {0x10U, 8U, 2U};
+    const fieldscribe_modbus_profile *const profile = &kitchen_sink_modbus_profile;
+    const fieldscribe_layout *const layout = kitchen_sink_plain_u32_frame.layout;
+    uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+    size_t length = 0U;
+    uint32_t raw = 9U;
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &two, one, 1U);
+    if (fieldscribe_take_u32(layout, one, 1U, &raw) || fieldscribe_put_u32(layout, raw, one, 1U) ||
+        fieldscribe_take_u32(layout, NULL, 2U, &raw) || raw != 9U || one[0] != 0xA5A5U) {
+        return 1;
+    }
+    if (fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length) !=
+        FIELDSCRIBE_MODBUS_BAD_COUNT) {
+        return 2;
+    }
+    request.given = 0U; /* nor is an echo held against what is not there */
+    request.function = 0x06U;
+    request.count = 1U;
+    return fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length) ==
+            FIELDSCRIBE_MODBUS_BAD_COUNT
+        ? 0
+        : 3;
+""",
+    "uss": """
+    const fieldscribe_uss_link link = {4U, 1U, false};
+    const fieldscribe_uss_words process = {one, 1U};
+    const fieldscribe_uss_reply reply = {NULL, 0U, 2U, 2U, 0x12345678U, 0U};
+    const fieldscribe_uss_request request =
+        fieldscribe_uss_write(1U, &kitchen_uss_maximum_frequency_frame.write, one, 1U);
+    uint8_t frame[FIELDSCRIBE_USS_MOST];
+    size_t length = 0U;
+    int16_t raw = 9;
+    if (fieldscribe_uss_words_of_reply(&reply, &kitchen_uss_maximum_frequency_frame.read, one, 1U) !=
+            FIELDSCRIBE_USS_BUFFER_TOO_SMALL || one[0] != 0xA5A5U) {
+        return 1;
+    }
+    if (fieldscribe_uss_build(&kitchen_uss_uss_profile, &link, &request, &process, frame, sizeof frame, &length) !=
+        FIELDSCRIBE_USS_BAD_VALUE) {
+        return 2;
+    }
+    /* a link with one word of process data does not carry the second */
+    if (fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, one, 1U) != NULL ||
+        fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, one, 1U) != NULL ||
+        fieldscribe_uss_words_sent(&kitchen_uss_control_word_frame.sent, one, 1U) != one) {
+        return 3;
+    }
+    return fieldscribe_take_s16(kitchen_uss_main_actual_value_frame.layout,
+               fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, one, 1U),
+               kitchen_uss_main_actual_value_frame.heard.words, &raw) ||
+            fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
+                fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, one, 1U),
+                kitchen_uss_main_setpoint_frame.sent.words)
+        ? 4
+        : 0;
+""",
+    "can": """
+    static fieldscribe_can_frame frame = {0x322U, 8U, {0xDDU, 0U, 1U, 1U, 1U, 1U, 1U, 1U}};
+    fieldscribe_can_slot *const slots = (fieldscribe_can_slot *)malloc(sizeof(fieldscribe_can_slot));
+    fieldscribe_can_slot enough[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 2U, slots, 1U);
+    uint16_t word = 9U;
+    if (fieldscribe_can_take(&receiver, &frame) ||
+        fieldscribe_can_word(&receiver, 0U, &word) != FIELDSCRIBE_CAN_MISSING || word != 9U) {
+        return 1;
+    }
+    free(slots);
+    receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 2U, enough, FIELDSCRIBE_COUNT(enough));
+    if (!fieldscribe_can_take(&receiver, &frame) || fieldscribe_can_word(&receiver, 0U, &word) != FIELDSCRIBE_CAN_OK) {
+        return 2;
+    }
+    return fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, one, 1U) ==
+                FIELDSCRIBE_CAN_BUFFER_TOO_SMALL &&
+            fieldscribe_can_received_text(&receiver, &kitchen_can_display_frame.heard, one, 0U) ==
+                FIELDSCRIBE_CAN_BUFFER_TOO_SMALL &&
+            one[0] == 0xA5A5U
+        ? 0
+        : 3;
+""",
+}
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("family", sorted(TOO_FEW))
+def test_too_few_words_are_refused(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
+    device = "kitchen_sink" if family == "modbus" else f"kitchen_{family}"
+    text = f"""
+#include <stdlib.h>
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "{device}_{family}.h"
+static int refuses(uint16_t *one)
+{{{TOO_FEW[family]}}}
+int main(void)
+{{
+    uint16_t *const one = (uint16_t *)malloc(sizeof(uint16_t));
+    int result;
+    one[0] = 0xA5A5U;
+    result = refuses(one);
+    free(one);
+    return result;
+}}
+"""
+    (tmp_path / "few.c").write_text(text, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
+    succeed([compiled(compiler, flags, tmp_path / "few.c", tmp_path / "few")])
+
+
+def test_a_point_of_two_words_does_not_fit_into_one(folder: Path, tmp_path: Path) -> None:
+    """Functions of points say in their parameters how many words they take; gcc holds arrays against that."""
+    for count in (2, 1):
+        text = f"""#include "kitchen_sink.h"
+uint16_t use(uint32_t raw);
+uint16_t use(uint32_t raw)
+{{
+    uint16_t words[{count}];
+    kitchen_sink_plain_u32_to_words(raw, words);
+    return words[0];
+}}
+"""
+        (tmp_path / "two.c").write_text(text, "utf-8")
+        flags = ("-std=c99", "-O1", *WARNINGS, f"-I{folder}", "-c", "-o", tmp_path / "o")
+        done = run([tool("gcc"), *flags, tmp_path / "two.c"])
+        assert (done.returncode == 0) == (count == 2)
+        assert count == 2 or re.search("overflow|array-bounds", done.stderr)
+
+
+BLOCK = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+int main(void)
+{
+    const fieldscribe_modbus_reading *const point = &kitchen_sink_plain_u32_frame.read;
+    const fieldscribe_modbus_reading block = {point->function, (uint16_t)(point->address - 1U), 4U};
+    const fieldscribe_modbus_reading next = {point->function, (uint16_t)(point->address + 2U), 2U};
+    const fieldscribe_modbus_reading before = {point->function, (uint16_t)(point->address - 2U), 1U};
+    uint16_t words[4] = {7U, 0x1234U, 0x5678U, 8U};
+    fieldscribe_modbus_reply reply = {words, 4U, 4U, 0U};
+    uint32_t raw = 0U;
+    if (!fieldscribe_take_u32(kitchen_sink_plain_u32_frame.layout,
+            fieldscribe_modbus_words_in(&block, &reply, point), point->count, &raw) ||
+        (raw != 0x12345678U && raw != 0x56781234U)) {
+        return 1;
+    }
+    if (fieldscribe_modbus_words_in(&block, &reply, &next) != NULL ||
+        fieldscribe_modbus_words_in(&block, &reply, &before) != NULL) {
+        return 2;
+    }
+    reply.count = 0U; /* as after an answer that was not good */
+    return fieldscribe_take_u32(kitchen_sink_plain_u32_frame.layout,
+               fieldscribe_modbus_words_in(&block, &reply, point), point->count, &raw)
+        ? 3
+        : 0;
+}
+"""
+
+
+def test_a_point_comes_out_of_a_block(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "block.c").write_text(BLOCK, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
+    succeed([compiled("gcc", flags, tmp_path / "block.c", tmp_path / "block")])
+
+
+@pytest.mark.parametrize("language", ["c", "c++"])
+@pytest.mark.parametrize("family", ["modbus", "can", "uss"])
+def test_the_definition_may_be_asked_for_late(family: str, language: str, folder: Path, tmp_path: Path) -> None:
+    """A header that another header brought in before still defines its functions when it is included for them."""
+    header = f"kitchen_{'sink' if family == 'modbus' else family}_{family}.h"
+    call = {"modbus": "fieldscribe_modbus_crc(bytes, 1U)", "uss": "fieldscribe_uss_check(bytes, 1U)"}
+    text = f"""#include "{header}"
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "{header}"
+#include "{header}"
+int main(void)
+{{
+    const uint8_t bytes[1] = {{0U}};
+    const fieldscribe_layout layout = {{FIELDSCRIBE_U8, 1U, 0U, false, 0U, 0xFFU, 0U, 0U}};
+    uint16_t word = bytes[0];
+    return fieldscribe_put_u8(&layout, 1U, &word, 1U) && {call.get(family, "fieldscribe_can_reply_length(NULL)")} != 1U
+        ? 0
+        : 1;
+}}
+"""
+    (tmp_path / "late.c").write_text(text, "utf-8")
+    compiler = ("gcc", "-std=c99") if language == "c" else ("g++", "-x", "c++", "-std=c++11")
+    image = tmp_path / "late"
+    succeed([tool(compiler[0]), *compiler[1:], *WARNINGS, f"-I{folder}", "-o", image, tmp_path / "late.c"])
+    succeed([image])
+
+
+RENAMED = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_uss_uss.h"
+int main(void)
+{
+    const kitchen_uss_old_main_setpoint_with with = {0U, 0x42480000U};
+    int16_t raw = 0;
+    const fieldscribe_uss_request request = fieldscribe_uss_read(3U, &kitchen_uss_old_command_source_frame.read);
+    return request.parameter == kitchen_uss_command_source_frame.read.parameter &&
+            kitchen_uss_old_maximum_frequency_eeprom_frame.write.parameter == 1082U &&
+            kitchen_uss_old_main_setpoint_encode_count(4000000, &with, &raw) == KITCHEN_USS_OK && raw == 0x3333 &&
+            kitchen_uss_old_command_source_name(KITCHEN_USS_OLD_COMMAND_SOURCE_TERMINALS) != NULL
+        ? 0
+        : 1;
+}
+"""
+
+
+def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
+    """Frames, structs and enums of its own like constants and functions."""
+    for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss"):
+        made = kitchen(name)
+        plain = replace(made, points=tuple(replace(one, was=()) for one in made.points))
+        points = tuple(replace(one, was=(f"old_{one.name}",)) if one.generated else one for one in plain.points)
+        device = replace(plain, points=points)
+        names = {one.name for one in c.identifiers(device)}
+        assert {one.name for one in c.identifiers(plain)} < names
+        for one in c.identifiers(plain):
+            if one.owner.kind == "point":
+                begin = len(f"{name}_")
+                old = "OLD_" if one.name.isupper() else "old_"
+                known = one.owner.name in {point.item for point in points if point.generated}
+                assert not known or f"{one.name[:begin]}{old}{one.name[begin:]}" in names
+    write_headers(device, tmp_path)
+    (tmp_path / "old.c").write_text(RENAMED, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, f"-I{tmp_path / 'c'}")
+    succeed([compiled("gcc", flags, tmp_path / "old.c", tmp_path / "old")])
 
 
 USER = """
@@ -747,7 +1009,7 @@ int user_@NUMBER@(const uint8_t *bytes, size_t length, uint8_t *frame)
     if (fieldscribe_modbus_build(&kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, 8U, &used) !=
             FIELDSCRIBE_MODBUS_OK ||
         fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, bytes, length, &reply) != FIELDSCRIBE_MODBUS_OK ||
-        !fieldscribe_take_u32(kitchen_sink_plain_u32_frame.layout, words, &raw)) {
+        !fieldscribe_take_u32(kitchen_sink_plain_u32_frame.layout, words, 2U, &raw)) {
         return 0;
     }
     return raw == 7U ? 1 : 2;
@@ -829,17 +1091,64 @@ def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
     assert sizes[2] - sizes[1] <= 264
 
 
+ONE_POINT = """
+#define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "hitachi_l200_modbus.h"
+uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+volatile size_t heard;
+volatile uint16_t shown;
+void start(void);
+static bool exchange(const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    const fieldscribe_modbus_profile *const profile = &hitachi_l200_modbus_profile;
+    size_t length = 0U;
+    return fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, request, frame, sizeof frame, &length) ==
+            FIELDSCRIBE_MODBUS_OK &&
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, request, frame, heard, reply) == FIELDSCRIBE_MODBUS_OK;
+}
+void start(void)
+{
+    uint16_t words[1];
+    uint16_t raw = 0U;
+    fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+    const fieldscribe_modbus_request request = fieldscribe_modbus_read(5U, &hitachi_l200_base_frequency_frame.read);
+    if (exchange(&request, &reply) &&
+        fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, reply.count, &raw)) {
+        shown = raw;
+    }
+    for (;;) {
+    }
+}
+"""
+
+
+def test_a_program_that_reads_registers_links_nothing_else(tmp_path: Path) -> None:
+    """Requests bring what they need: neither what writes nor what reads bits is in the image."""
+    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
+    assert device is not None
+    write_headers(device, tmp_path)
+    (tmp_path / "one.c").write_text(ONE_POINT, "utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", f"-I{tmp_path / 'c'}")
+    image = compiled("arm-none-eabi-gcc", (*flags, *SECTIONS, *WARNINGS), tmp_path / "one.c", tmp_path / "one.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    assert not re.search("take_bits|take_echo|put_writing|put_values|_tcp", symbols)
+    text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
+    print(f"Cortex-M0, -Os, one register read over RTU: .text {text} bytes")
+    assert text <= 1000
+
+
 MISUSE = {
     "no `write` of a point that is only read": (
-        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_@R@_frame.write, words); (void)r;",
+        "(void)fieldscribe_modbus_write(1U, &kitchen_sink_@R@_frame.write, words, 2U);",
         "write",
     ),
     "a bit group is not written like a word": (
-        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.write, words); (void)r;",
+        "(void)fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.write, words, 2U);",
         "write",
     ),
     "what reads does not write": (
-        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.read, words); (void)r;",
+        "(void)fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.read, words, 2U);",
         "incompatible|cannot convert|no matching function|no known conversion",
     ),
     "a status is not ignored": (
@@ -847,7 +1156,7 @@ MISUSE = {
         "unused-result|nodiscard|warn_unused_result",
     ),
     "whether a number fits is not ignored": (
-        "fieldscribe_put_u16(kitchen_sink_ratio_frame.layout, 9U, words);",
+        "fieldscribe_put_u16(kitchen_sink_ratio_frame.layout, 9U, words, 2U);",
         "unused-result|nodiscard|warn_unused_result",
     ),
 }

@@ -6,9 +6,8 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.checks.identifiers import RUST_CONSTANTS, RUST_UNKNOWN
 from fieldscribe.checks.prefixes import C_TAILS, HEADER, LAYOUT
-from fieldscribe.names import pascal
+from fieldscribe.names import RUST_CONSTANTS, RUST_UNKNOWN, pascal
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from test_good import sink
@@ -70,6 +69,17 @@ def test_c_table(name: str) -> None:
     found = set(c_identifiers(device))
     assert len(found) > 7 * len(device.points)
     assert {name for name in found - known(device) if not LAYOUT.fullmatch(name)} == set()
+
+
+def test_the_headers_reserve_no_more_than_they_define() -> None:
+    """A name that no header of any family defines would be refused for nothing."""
+    found = set()
+    for device in map(kitchen, KITCHENS):
+        made = "\n".join(text for _, path, text in outputs(device, ["c"]) if path.endswith(".h") and device.id in path)
+        found |= set(c_identifiers(device))
+        found |= set(re.findall(rf"^static const .*\b{device.id}_(\w+)\[\] =", made, re.MULTILINE))
+        found |= set(re.findall(rf"^typedef .* {device.id}_(\w+);$", made, re.MULTILINE))
+    assert HEADER - found == set()
 
 
 def test_rust_table() -> None:

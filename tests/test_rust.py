@@ -22,7 +22,7 @@ from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import assignment, binding, calls, chained, comparison, filled
+from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
 from made_once import made_once
 from models import entry, kitchen_sink, point, sample_device, titles, trip_device
@@ -161,6 +161,8 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
     assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
     assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
+    assert chain("static A: B", "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
+    assert chain("static A: B", "C::new(1)", [".d()", ".e()"]) == ("static A: B = C::new(1)", "    .d()", "    .e();")
     assert comparison(8, name, "== 0") == (f"{name} == 0",)
     assert comparison(36, name, "== 0") == (name, "    == 0")
 
@@ -269,6 +271,35 @@ def test_vectors_of_another_description_are_refused(
     assert "is of another description" in done.stderr
 
 
+def test_vectors_that_are_not_there_say_what_to_set(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "none.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    assert done.returncode != 0
+    assert "set FIELDSCRIBE_VECTORS to the absolute path of sample_drive.txt" in done.stderr
+    assert "panicked" not in done.stderr
+
+
+def test_no_line_of_the_runtime_is_too_long() -> None:
+    """What stands in a macro, and what has no place to break, rustfmt leaves as it is."""
+    sources = sorted((templates_dir() / "rust/runtime").rglob("*.rs"))
+    lines = ((path, line) for path in sources for line in path.read_text("utf-8").splitlines())
+    assert not [(path.name, line) for path, line in lines if len(line) > 120]
+    assert len(sources) > 40
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_table_has_every_point_once(name: str) -> None:
+    device = MODELS[name]()
+    text = sources(device)["lib.rs"]
+    found = re.search(
+        r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL
+    )
+    assert found
+    assert found[1].split() == [subject.name for subject in scope_of(device).subjects]
+
+
 @pytest.mark.full(seconds=26)
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
@@ -347,6 +378,14 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
 
 WITHOUT_COUNTS = ("float", "text", "digits")
 CLIENTS = {
+    "modbus": """use fieldscribe_runtime::{client::Transport, modbus::{Block, Client, Command}};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
+}
+pub fn command(client: &mut Client<Line>, command: &Command) -> bool { client.command(command).is_ok() }
+pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
     "can": """use fieldscribe_runtime::can::{Client, Frame, Receiver, Transport};
 pub struct Line;
 impl Transport for Line {
@@ -374,7 +413,9 @@ def probe_source(device: str) -> str:
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
         traits = " ".join(family_traits(subject, scope))
+        reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
+        bodies += parameter_probes(subject, name) if reached else ()
         item = subject.point.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
@@ -384,13 +425,7 @@ def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[st
     """Heads and bodies of functions that call what a client that blocks offers for a point."""
     point, read, write = subject.point, f"<{name} as Readable>", f"<{name} as Writable>"
     client, value = "client: &mut Client<Line>", f"<{name} as Point>::Value"
-    update = "update" if point.bits else "write_with"
     with_head, with_body = ("", "") if point.bits else (f", with: {write}::With", ", with")
-    if "::Parameter" in traits and point.readable:
-        yield f"get({client}, with: {read}::Factors) -> bool", f"client.read_with::<{name}>(with).is_ok()"
-    if "::Parameter" in traits and point.writable and (not point.bits or point.readable):
-        head = f"put({client}, value: {value}{with_head}) -> bool"
-        yield head, f"client.{update}::<{name}>(value{with_body}).is_ok()"
     if "uss::Sent" in traits and point.writable:
         head = f"send({client}, value: {value}{with_head}) -> bool"
         yield head, f"client.set{'_bits' if point.bits else '_with'}::<{name}>(value{with_body}).is_ok()"
@@ -399,6 +434,33 @@ def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[st
     if "can::Received" in traits:
         receiver = f"Receiver<<{name} as runtime::can::Received>::Telegram>"
         yield f"hear(all: &mut {receiver}, frame: &Frame) -> bool", f"all.take(frame) && all.raw::<{name}>().is_ok()"
+
+
+def parameter_probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that read and write a point over a client: values, counts, raw numbers."""
+    point, client, with_ = subject.point, "client: &mut Client<Line>", f"with: <{name} as Writable>::With"
+    value, raw, factors = (f"<{name} as {one}" for one in ("Point>::Value", "Point>::Raw", "Readable>::Factors"))
+    if point.readable:
+        yield f"get({client}, with: {factors}) -> bool", f"client.read_with::<{name}>(with).is_ok()"
+        if is_counted(subject):
+            yield f"get_count({client}, with: {factors}) -> bool", f"client.read_count_with::<{name}>(with).is_ok()"
+    if not point.writable:
+        return
+    if point.bits:
+        if point.readable and not subject.arguments and point.encodes_values:
+            yield f"put({client}, value: {value}) -> bool", f"client.update::<{name}>(value).is_ok()"
+        return
+    yield f"put_raw({client}, raw: {raw}, {with_}) -> bool", f"client.write_raw_with::<{name}>(raw, with).is_ok()"
+    if point.encodes_values:
+        yield f"put({client}, value: {value}, {with_}) -> bool", f"client.write_with::<{name}>(value, with).is_ok()"
+    if is_counted(subject):
+        head = f"put_count({client}, count: <{name} as CountWritable>::Count, {with_}) -> bool"
+        yield head, f"client.write_count_with::<{name}>(count, with).is_ok()"
+
+
+def is_counted(subject: Subject) -> bool:
+    """Whether the point has counts."""
+    return subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
 
 
 def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
@@ -412,7 +474,7 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
     if subject.point.bits:
         yield f"insert(word: u16, raw: {raw}) -> u16", f"<{name} as BitGroup>::insert(word, raw)"
     read, write = f"<{name} as Readable>", f"<{name} as Writable>"
-    counted = subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
+    counted = is_counted(subject)
     if subject.point.readable:
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"

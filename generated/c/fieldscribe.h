@@ -7,9 +7,16 @@
  * Points need nothing else. Frames also need functions that are defined once in a program: one C file, and no other,
  * says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames that the program uses.
  *
+ * ..._encode holds a value against the limits of the point. fieldscribe_put_u16 and its like do not: they put any raw
+ * number into words that has no more bits than the point, so take what ..._encode gave, or ask ..._check. Words come
+ * with how many there are, and too few are refused. Families say how a point is found among others: in a block
+ * (fieldscribe_modbus_words_in), a telegram (fieldscribe_can_received), process data (fieldscribe_uss_words_heard).
+ *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
  * -ffast-math, its parts and x87 arithmetic are refused with floating point: without them results are exact to the bit.
+ * Clang tells no header of the parts (-freciprocal-math and its like): on x86 they are off here; elsewhere do not give
+ * them.
  */
 #ifndef FIELDSCRIBE_H
 #define FIELDSCRIBE_H
@@ -1407,32 +1414,50 @@ typedef struct fieldscribe_layout {
 } fieldscribe_layout;
 
 /*
- * The raw number out of words. False, and nothing stored, when the point's raw number has another type: a call that
- * is right once is always right.
+ * The raw number out of words, of which there are `count`. False, and nothing stored, when the point's raw number has
+ * another type (a call that is right once is always right), or when there are no words or fewer than the point has.
  */
-FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(const fieldscribe_layout *layout, const uint16_t *words, bool *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words, uint8_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_s8(const fieldscribe_layout *layout, const uint16_t *words, int8_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *words, uint16_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_s16(const fieldscribe_layout *layout, const uint16_t *words, int16_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *words, uint32_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_s32(const fieldscribe_layout *layout, const uint16_t *words, int32_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *words, uint64_t *raw);
-FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, int64_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_bit(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, bool *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u8(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint8_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s8(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, int8_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u16(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint16_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s16(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, int16_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u32(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint32_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s32(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, int32_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_u64(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint64_t *raw);
+FIELDSCRIBE_CHECKED bool fieldscribe_take_s64(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, int64_t *raw);
 
 /*
  * The raw number into words. A point that shares its word changes its own bits alone: words[0] must hold the word as
- * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point.
+ * it was just read. False, and nothing stored, when the raw number has another type or more bits than the point, or
+ * when there are no words or fewer than the point has.
  */
-FIELDSCRIBE_CHECKED bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_u8(const fieldscribe_layout *layout, uint8_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_s8(const fieldscribe_layout *layout, int8_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_u16(const fieldscribe_layout *layout, uint16_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_s16(const fieldscribe_layout *layout, int16_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_u32(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words);
-FIELDSCRIBE_CHECKED bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u8(
+    const fieldscribe_layout *layout, uint8_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s8(
+    const fieldscribe_layout *layout, int8_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u16(
+    const fieldscribe_layout *layout, uint16_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s16(
+    const fieldscribe_layout *layout, int16_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u32(
+    const fieldscribe_layout *layout, uint32_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s32(
+    const fieldscribe_layout *layout, int32_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_u64(
+    const fieldscribe_layout *layout, uint64_t raw, uint16_t *words, size_t count);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_s64(
+    const fieldscribe_layout *layout, int64_t raw, uint16_t *words, size_t count);
 
 /* A text: where each of its words is, in the order of reading. */
 typedef struct fieldscribe_text {
@@ -1441,9 +1466,14 @@ typedef struct fieldscribe_text {
     uint16_t words;
 } fieldscribe_text;
 
-/* Words in the order of their addresses, as frames carry them, into the order of reading, and back. */
-void fieldscribe_take_text(const fieldscribe_text *text, const uint16_t *words, uint16_t *reading);
-void fieldscribe_put_text(const fieldscribe_text *text, const uint16_t *reading, uint16_t *words);
+/*
+ * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
+ * stored, when one of both has fewer words than the text: `count` and `room` say how many.
+ */
+FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
+    const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
+FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
+    const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room);
 
 #ifdef __cplusplus
 }
@@ -1459,6 +1489,13 @@ void fieldscribe_put_text(const fieldscribe_text *text, const uint16_t *reading,
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Whether a layout is of that type, and all its words are there. */
+static bool fieldscribe_layout_fits(
+    const fieldscribe_layout *layout, const uint16_t *words, size_t count, fieldscribe_type type)
+{
+    return (layout->type == (uint8_t)type) && (words != NULL) && (count >= layout->words);
+}
 
 /* Where a word stands; `significance` counts from the low word. */
 static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
@@ -1505,7 +1542,7 @@ static int32_t fieldscribe_layout_signed_field(const fieldscribe_layout *layout,
 {
     const uint32_t field = fieldscribe_layout_field(layout, words);
     const uint32_t most = fieldscribe_layout_most(layout) >> 1;
-    return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)(field & most);
+    return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)field;
 }
 
 /* Puts words in their places. */
@@ -1551,157 +1588,171 @@ static bool fieldscribe_layout_put_signed(const fieldscribe_layout *layout, int3
     return true;
 }
 
-bool fieldscribe_take_bit(const fieldscribe_layout *layout, const uint16_t *words, bool *raw)
+bool fieldscribe_take_bit(const fieldscribe_layout *layout, const uint16_t *words, size_t count, bool *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_BIT) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_BIT)) {
         return false;
     }
     *raw = fieldscribe_layout_field(layout, words) != 0U;
     return true;
 }
 
-bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words, uint8_t *raw)
+bool fieldscribe_take_u8(const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint8_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_U8) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U8)) {
         return false;
     }
     *raw = (uint8_t)(fieldscribe_layout_field(layout, words) & 0xFFU);
     return true;
 }
 
-bool fieldscribe_take_s8(const fieldscribe_layout *layout, const uint16_t *words, int8_t *raw)
+bool fieldscribe_take_s8(const fieldscribe_layout *layout, const uint16_t *words, size_t count, int8_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_S8) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S8)) {
         return false;
     }
     *raw = (int8_t)fieldscribe_layout_signed_field(layout, words);
     return true;
 }
 
-bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *words, uint16_t *raw)
+bool fieldscribe_take_u16(const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint16_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_U16) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U16)) {
         return false;
     }
     *raw = (uint16_t)(fieldscribe_layout_field(layout, words) & 0xFFFFU);
     return true;
 }
 
-bool fieldscribe_take_s16(const fieldscribe_layout *layout, const uint16_t *words, int16_t *raw)
+bool fieldscribe_take_s16(const fieldscribe_layout *layout, const uint16_t *words, size_t count, int16_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_S16) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S16)) {
         return false;
     }
     *raw = (int16_t)fieldscribe_layout_signed_field(layout, words);
     return true;
 }
 
-bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *words, uint32_t *raw)
+bool fieldscribe_take_u32(const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint32_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_U32) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U32)) {
         return false;
     }
     *raw = fieldscribe_layout_field(layout, words);
     return true;
 }
 
-bool fieldscribe_take_s32(const fieldscribe_layout *layout, const uint16_t *words, int32_t *raw)
+bool fieldscribe_take_s32(const fieldscribe_layout *layout, const uint16_t *words, size_t count, int32_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_S32) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S32)) {
         return false;
     }
     *raw = fieldscribe_layout_signed_field(layout, words);
     return true;
 }
 
-bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *words, uint64_t *raw)
+bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *words, size_t count, uint64_t *raw)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_U64) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64)) {
         return false;
     }
     *raw = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
     return true;
 }
 
-bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, int64_t *raw)
+bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, size_t count, int64_t *raw)
 {
     const uint64_t most = layout->mask >> 1;
     uint64_t bits;
-    if (layout->type != (uint8_t)FIELDSCRIBE_S64) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64)) {
         return false;
     }
     bits = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
-    *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)(bits & most);
+    *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
     return true;
 }
 
-bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words)
+bool fieldscribe_put_bit(const fieldscribe_layout *layout, bool raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_BIT) && fieldscribe_layout_put(layout, raw ? 1U : 0U, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_BIT) &&
+        fieldscribe_layout_put(layout, raw ? 1U : 0U, words);
 }
 
-bool fieldscribe_put_u8(const fieldscribe_layout *layout, uint8_t raw, uint16_t *words)
+bool fieldscribe_put_u8(const fieldscribe_layout *layout, uint8_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_U8) && fieldscribe_layout_put(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U8) && fieldscribe_layout_put(layout, raw, words);
 }
 
-bool fieldscribe_put_s8(const fieldscribe_layout *layout, int8_t raw, uint16_t *words)
+bool fieldscribe_put_s8(const fieldscribe_layout *layout, int8_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_S8) && fieldscribe_layout_put_signed(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S8) &&
+        fieldscribe_layout_put_signed(layout, raw, words);
 }
 
-bool fieldscribe_put_u16(const fieldscribe_layout *layout, uint16_t raw, uint16_t *words)
+bool fieldscribe_put_u16(const fieldscribe_layout *layout, uint16_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_U16) && fieldscribe_layout_put(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U16) && fieldscribe_layout_put(layout, raw, words);
 }
 
-bool fieldscribe_put_s16(const fieldscribe_layout *layout, int16_t raw, uint16_t *words)
+bool fieldscribe_put_s16(const fieldscribe_layout *layout, int16_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_S16) && fieldscribe_layout_put_signed(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S16) &&
+        fieldscribe_layout_put_signed(layout, raw, words);
 }
 
-bool fieldscribe_put_u32(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
+bool fieldscribe_put_u32(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_U32) && fieldscribe_layout_put(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U32) && fieldscribe_layout_put(layout, raw, words);
 }
 
-bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t *words)
+bool fieldscribe_put_s32(const fieldscribe_layout *layout, int32_t raw, uint16_t *words, size_t count)
 {
-    return (layout->type == (uint8_t)FIELDSCRIBE_S32) && fieldscribe_layout_put_signed(layout, raw, words);
+    return fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S32) &&
+        fieldscribe_layout_put_signed(layout, raw, words);
 }
 
-bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words)
+bool fieldscribe_put_u64(const fieldscribe_layout *layout, uint64_t raw, uint16_t *words, size_t count)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_U64) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_U64)) {
         return false;
     }
     fieldscribe_layout_store(layout, raw, words);
     return true;
 }
 
-bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words)
+bool fieldscribe_put_s64(const fieldscribe_layout *layout, int64_t raw, uint16_t *words, size_t count)
 {
-    if (layout->type != (uint8_t)FIELDSCRIBE_S64) {
+    if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64)) {
         return false;
     }
     fieldscribe_layout_store(layout, (raw < 0) ? ~(uint64_t)(-1 - raw) : (uint64_t)raw, words);
     return true;
 }
 
-void fieldscribe_take_text(const fieldscribe_text *text, const uint16_t *words, uint16_t *reading)
+bool fieldscribe_take_text(
+    const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room)
 {
     size_t at;
+    if ((count < text->words) || (room < text->words)) {
+        return false;
+    }
     for (at = 0U; at < text->words; ++at) {
         reading[at] = words[text->addresses[at] - text->first];
     }
+    return true;
 }
 
-void fieldscribe_put_text(const fieldscribe_text *text, const uint16_t *reading, uint16_t *words)
+bool fieldscribe_put_text(
+    const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room)
 {
     size_t at;
+    if ((count < text->words) || (room < text->words)) {
+        return false;
+    }
     for (at = 0U; at < text->words; ++at) {
         words[text->addresses[at] - text->first] = reading[at];
     }
+    return true;
 }
 
 #ifdef __cplusplus

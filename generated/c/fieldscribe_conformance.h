@@ -719,6 +719,11 @@ static inline bool fieldscribe_same_function(fieldscribe_function one, fieldscri
     return one == other;
 }
 
+static inline bool fieldscribe_same_object(const void *one, const void *other)
+{
+    return one == other;
+}
+
 static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 {
     return one == other;
@@ -732,6 +737,8 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 /* A struct has a name in place of an address. */
 #define FIELDSCRIBE_ALIAS_OF_STRUCT(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, sizeof(old_name) == sizeof(new_name))
+#define FIELDSCRIBE_ALIAS_OF_OBJECT(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_object(&(old_name), &(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \
@@ -753,31 +760,35 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 
 /* ---- Raw numbers in words ---- */
 
-/* The raw number of the line out of words; a layout of another type stores nothing. */
-#define FIELDSCRIBE_TAKEN(how, kind, raw_type, words)                                            \
+/* The raw number of the line out of words; a layout of another type stores nothing, and too few words bring nothing. */
+#define FIELDSCRIBE_TAKEN(how, kind, raw_type, from)                                             \
     {                                                                                            \
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
-        fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, words, &raw) &&               \
-            raw == (raw_type)fieldscribe_other(v));                                              \
-        fieldscribe_agree(v, fieldscribe_take_##kind(how, words, &raw));                         \
+        fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, from, (how)->words, &raw) &&  \
+            !fieldscribe_take_##kind(how, from, (how)->words - 1U, &raw) &&                      \
+            !fieldscribe_take_##kind(how, NULL, (how)->words, &raw) && raw == (raw_type)fieldscribe_other(v)); \
+        fieldscribe_agree(v, fieldscribe_take_##kind(how, from, (how)->words, &raw));            \
         fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
     }
 
-/* The raw number of the line into words; one that a shared word has no room for changes nothing. */
-#define FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, field, words)                                 \
+/* The raw number of the line into words; one that has too few of them, or no room in a shared one, changes nothing. */
+#define FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, field, into)                                  \
     {                                                                                            \
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
-        const uint16_t before = (words)[0];                                                      \
+        const uint16_t before = (into)[0];                                                       \
         fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
-        fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, words));                  \
+        fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, into, (how)->words) &&    \
+            !fieldscribe_put_##kind(how, raw, into, (how)->words - 1U) &&                        \
+            !fieldscribe_put_##kind(how, raw, NULL, (how)->words));                              \
         if ((how)->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                        \
-            fieldscribe_agree(v, !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), words)); \
+            fieldscribe_agree(v,                                                                 \
+                !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), into, (how)->words)); \
         }                                                                                        \
-        fieldscribe_agree(v, (words)[0] == before);                                              \
-        fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, words));                           \
+        fieldscribe_agree(v, (into)[0] == before);                                               \
+        fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, into, (how)->words));              \
     }
 #define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
 
@@ -829,13 +840,13 @@ static inline void fieldscribe_holds_signs(fieldscribe_vector *v)
         uint16_t words[2] = {0xA5A5U, 0xA5A5U};
         int16_t back = 99;
         int32_t wide = 99;
-        fieldscribe_agree(v, fieldscribe_put_s16(&part, numbers[at], words) == fits);
+        fieldscribe_agree(v, fieldscribe_put_s16(&part, numbers[at], words, 1U) == fits);
         fieldscribe_agree(v, words[0] == (fits ? (0xA505U | ((bits & 0xFU) << 4)) : 0xA5A5U));
-        fieldscribe_agree(v, fieldscribe_take_s16(&part, words, &back) && back == (fits ? numbers[at] : -6));
-        fieldscribe_agree(v, fieldscribe_put_s16(&whole, numbers[at], words) && words[0] == (bits & 0xFFFFU));
-        fieldscribe_agree(v, fieldscribe_take_s16(&whole, words, &back) && back == numbers[at]);
-        fieldscribe_agree(v, fieldscribe_put_s32(&two, numbers[at], words) && words[1] == (bits >> 16));
-        fieldscribe_agree(v, fieldscribe_take_s32(&two, words, &wide) && wide == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_take_s16(&part, words, 1U, &back) && back == (fits ? numbers[at] : -6));
+        fieldscribe_agree(v, fieldscribe_put_s16(&whole, numbers[at], words, 1U) && words[0] == (bits & 0xFFFFU));
+        fieldscribe_agree(v, fieldscribe_take_s16(&whole, words, 1U, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_s32(&two, numbers[at], words, 2U) && words[1] == (bits >> 16));
+        fieldscribe_agree(v, fieldscribe_take_s32(&two, words, 2U, &wide) && wide == numbers[at]);
     }
 }
 
@@ -845,8 +856,12 @@ static inline void fieldscribe_refuses_long_numbers(
     uint16_t words[4] = {7U, 7U, 7U, 7U};
     int64_t back = 9;
     uint64_t same = 9U;
-    fieldscribe_agree(v, !fieldscribe_put_s64(no_sign, 1, words) && !fieldscribe_put_u64(a_sign, 1U, words));
-    fieldscribe_agree(v, !fieldscribe_take_s64(no_sign, words, &back) && !fieldscribe_take_u64(a_sign, words, &same));
+    fieldscribe_agree(v, !fieldscribe_put_s64(no_sign, 1, words, 4U) && !fieldscribe_put_u64(a_sign, 1U, words, 4U));
+    fieldscribe_agree(v,
+        !fieldscribe_take_s64(no_sign, words, 4U, &back) && !fieldscribe_take_u64(a_sign, words, 4U, &same));
+    fieldscribe_agree(v, !fieldscribe_put_u64(no_sign, 1U, words, 3U) && !fieldscribe_put_s64(a_sign, 1, words, 3U));
+    fieldscribe_agree(v,
+        !fieldscribe_take_u64(no_sign, words, 3U, &same) && !fieldscribe_take_s64(a_sign, words, 3U, &back));
     fieldscribe_agree(v, words[0] == 7U && words[1] == 7U && words[3] == 7U && back == 9 && same == 9U);
 }
 
@@ -863,12 +878,12 @@ static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
         uint16_t words[5] = {0U, 0U, 0U, 0U, 9U};
         int64_t back = 9;
         uint64_t same = 9U;
-        fieldscribe_agree(v, fieldscribe_put_s64(&with_sign, numbers[at], words) && words[4] == 9U);
+        fieldscribe_agree(v, fieldscribe_put_s64(&with_sign, numbers[at], words, 4U) && words[4] == 9U);
         fieldscribe_agree(v, words[2] == (bits >> 48) && words[0] == ((bits >> 32) & 0xFFFFU));
         fieldscribe_agree(v, words[3] == ((bits >> 16) & 0xFFFFU) && words[1] == (bits & 0xFFFFU));
-        fieldscribe_agree(v, fieldscribe_take_s64(&with_sign, words, &back) && back == numbers[at]);
-        fieldscribe_agree(v, fieldscribe_put_u64(&without, bits, words) && words[0] == (bits >> 48));
-        fieldscribe_agree(v, fieldscribe_take_u64(&without, words, &same) && same == bits && words[4] == 9U);
+        fieldscribe_agree(v, fieldscribe_take_s64(&with_sign, words, 4U, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_u64(&without, bits, words, 4U) && words[0] == (bits >> 48));
+        fieldscribe_agree(v, fieldscribe_take_u64(&without, words, 4U, &same) && same == bits && words[4] == 9U);
     }
     with_sign.type = (uint8_t)FIELDSCRIBE_U64;
     without.type = (uint8_t)FIELDSCRIBE_S64;

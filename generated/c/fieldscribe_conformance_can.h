@@ -35,7 +35,8 @@ static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_
 static const char *fieldscribe_can_status_text(fieldscribe_can_status status)
 {
     static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
-        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
+        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn",
+        "buffer_too_small"};
     return names[(size_t)status];
 }
 
@@ -119,10 +120,10 @@ static inline void fieldscribe_writes_to(
     const char *received = NULL;
     fieldscribe_can_frame frame;
     if (fieldscribe_step(v, place, &sent, &received)) {
-        fieldscribe_agree(v, fieldscribe_can_write(dialogue, unit, what, word, &frame) == FIELDSCRIBE_CAN_OK);
+        fieldscribe_agree(v, fieldscribe_can_write(dialogue, unit, what, *word, &frame) == FIELDSCRIBE_CAN_OK);
         fieldscribe_sends_frame(v, sent, &frame);
         frame = fieldscribe_frame_of(received);
-        fieldscribe_is_answer(v, fieldscribe_can_write_answer(dialogue, unit, what, word, &frame));
+        fieldscribe_is_answer(v, fieldscribe_can_write_answer(dialogue, unit, what, *word, &frame));
     }
 }
 
@@ -190,7 +191,10 @@ static inline void fieldscribe_writes_to(
         uint16_t words[3];                                                                       \
         fieldscribe_can_status status;                                                           \
         fieldscribe_fill(words, sizeof words);                                                   \
-        status = fieldscribe_can_received((const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words); \
+        fieldscribe_agree(v, fieldscribe_can_received((const fieldscribe_can_receiver *)v->receiver, &(frame).heard, \
+            words, (frame).layout->words - 1U) == FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);             \
+        status = fieldscribe_can_received(                                                       \
+            (const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words, (frame).layout->words); \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
@@ -207,7 +211,11 @@ static inline void fieldscribe_writes_to(
         uint16_t words[macro##_WORDS + 1U];                                                      \
         fieldscribe_can_status status;                                                           \
         fieldscribe_fill(words, sizeof words);                                                   \
-        status = fieldscribe_can_received_text((const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words); \
+        fieldscribe_agree(v, fieldscribe_can_received_text((const fieldscribe_can_receiver *)v->receiver, \
+            &(frame).heard, words, macro##_WORDS - 1U) == FIELDSCRIBE_CAN_BUFFER_TOO_SMALL);     \
+        fieldscribe_untouched(v, words, sizeof words);                                           \
+        status = fieldscribe_can_received_text(                                                  \
+            (const fieldscribe_can_receiver *)v->receiver, &(frame).heard, words, macro##_WORDS); \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
         fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
         fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
@@ -294,7 +302,14 @@ typedef struct fieldscribe_slots {
     fieldscribe_can_slot all[257];
 } fieldscribe_slots;
 
-/* To a unit that a device cannot have nothing belongs, whatever comes. */
+/* A receiver whose slots are too few has no word, and touches none of them. */
+static inline bool fieldscribe_hears_nothing(const fieldscribe_can_receiver *receiver)
+{
+    uint16_t word = 0x5A5AU;
+    return fieldscribe_can_word(receiver, 0U, &word) == FIELDSCRIBE_CAN_MISSING && word == 0x5A5AU;
+}
+
+/* To a unit that a device cannot have nothing belongs, whatever comes; and without enough slots. */
 static void fieldscribe_has_no_such_unit(
     fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
 {
@@ -304,7 +319,9 @@ static void fieldscribe_has_no_such_unit(
     fieldscribe_can_receiver other;
     if (fieldscribe_can_slots(&telegram) <= 256U && receiver->unit > 0U && receiver->unit < 255U) {
         telegram.profile = &profile;
-        other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all);
+        other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, fieldscribe_can_slots(&telegram) - 1U);
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame) && fieldscribe_hears_nothing(&other));
+        other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, fieldscribe_can_slots(&telegram));
         profile.first_unit = (uint8_t)(receiver->unit + 1U);
         fieldscribe_agree(v, !fieldscribe_can_take(&other, frame));
         profile.first_unit = 0U;
@@ -335,7 +352,7 @@ static void fieldscribe_finds_the_frame(
     turned.data[0] = frame->data[at];
     turned.data[at] = frame->data[0];
     telegram.message = &message;
-    other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all);
+    other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, 256U);
     fieldscribe_agree(v, fieldscribe_can_take(&other, &turned) && slots.all[frame->data[at]].now == 1U);
 }
 
@@ -375,8 +392,8 @@ static const fieldscribe_named_telegram *fieldscribe_listen(
         return NULL;
     }
     fieldscribe_fill(slots, sizeof *slots);
-    *receiver =
-        fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(v, "unit", 255U), slots->all);
+    *receiver = fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(v, "unit", 255U), slots->all,
+        fieldscribe_can_slots(one->telegram));
     return one;
 }
 

@@ -9,20 +9,24 @@
  *
  *     uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
  *     uint16_t words[1];
- *     fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+ *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &hitachi_l200_base_frequency_frame.read);
  *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length);
  *     send(frame, length);
  *     got = 0U;
- *     while ((left = fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, frame, got)) > 0U) {
+ *     while ((left = fieldscribe_modbus_left(
+ *                 &profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, got)) > 0U) {
  *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply);
- *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, &raw);
+ *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, reply.count, &raw);
  *
- * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words), then
- * fieldscribe_modbus_write(unit, &frame.write, words). To a broadcast fieldscribe_modbus_reply_length is 0: nobody
- * answers, so do not wait.
+ * Reading a block, in the same way: point = fieldscribe_modbus_words_in(&block, &reply, &frame.read) for each of its
+ * points, then fieldscribe_take_u16(frame.layout, point, frame.read.count, &raw), which is false where it was NULL.
+ *
+ * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words, count)
+ * puts any that fits into the words, then fieldscribe_modbus_write(unit, &frame.write, words, count). Nobody answers
+ * what goes to all units: nothing is left to be received, so skip the parsing.
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"
@@ -152,19 +156,6 @@ typedef struct fieldscribe_modbus_command {
 } fieldscribe_modbus_command;
 
 /*
- * A request. `values` has `count` items for functions that write: words, or 0 and 1 for coils. For 08h `address` is the
- * sub-function (0) and values[0] the test data. `transaction` is used by TCP alone.
- */
-typedef struct fieldscribe_modbus_request {
-    uint16_t transaction;
-    uint8_t unit;
-    uint8_t function;
-    uint16_t address;
-    uint16_t count;
-    const uint16_t *values;
-} fieldscribe_modbus_request;
-
-/*
  * What an answer says. The caller gives `values` with `room` items; `count` of them were stored: words, or 0 and 1, or
  * for 05h, 06h and 08h the value that was echoed, if there is room for it. `exception` is the device's code, or 0.
  */
@@ -175,31 +166,79 @@ typedef struct fieldscribe_modbus_reply {
     uint8_t exception;
 } fieldscribe_modbus_reply;
 
-/* The request that reads a point or a block. */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_read(
-    uint8_t unit, const fieldscribe_modbus_reading *what);
+/* What is asked for: words, or bits, or that something is written; so a program links what it asks for alone. */
+typedef struct fieldscribe_modbus_kind fieldscribe_modbus_kind;
+extern const fieldscribe_modbus_kind fieldscribe_modbus_words;
+extern const fieldscribe_modbus_kind fieldscribe_modbus_bits;
+extern const fieldscribe_modbus_kind fieldscribe_modbus_written;
 
-/* The request that writes a point; `values` stay the caller's and are read when the frame is built. */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values);
+/*
+ * A request, as fieldscribe_modbus_read, _write and _send make it. `values` has `given` items, at least `count` for
+ * functions that write: words, or 0 and 1 for coils. For 08h, which is written, too, `address` is the sub-function (0)
+ * and values[0] the test data. `transaction` is used by TCP alone.
+ */
+typedef struct fieldscribe_modbus_request {
+    uint16_t transaction;
+    uint8_t unit;
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+    const uint16_t *values;
+    size_t given;
+    const fieldscribe_modbus_kind *kind;
+} fieldscribe_modbus_request;
+
+/* Functions that read coils or discrete inputs. */
+static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
+{
+    return (function == 0x01U) || (function == 0x02U);
+}
+
+/* The request that reads a point or a block. */
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
+    uint8_t unit, const fieldscribe_modbus_reading *what)
+{
+    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL, 0U,
+        fieldscribe_modbus_reads_bits(what->function) ? &fieldscribe_modbus_bits : &fieldscribe_modbus_words};
+    return request;
+}
+
+/*
+ * The request that writes a point, with `given` words (or coils), which no frame is built of if they are too few. They
+ * stay the caller's and are read when the frame is built.
+ */
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
+{
+    const fieldscribe_modbus_request request = {
+        0U, unit, what->function, what->address, what->count, values, given, &fieldscribe_modbus_written};
+    return request;
+}
 
 /* The request of a command. */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_send(
-    uint8_t unit, const fieldscribe_modbus_command *command);
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_send(
+    uint8_t unit, const fieldscribe_modbus_command *command)
+{
+    return fieldscribe_modbus_write(unit, &command->write, &command->value, 1U);
+}
+
+/* The bytes of the answer to a request, unless the device refuses it; 0 where nobody answers: it goes to all units. */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request);
+
+/*
+ * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
+ * never more than fit; 0 when it is whole, and where nobody answers.
+ */
+FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
+    size_t length);
 
 /* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
-
-/* The bytes of the answer to a request, unless the device refuses it; 0 where nobody answers: it goes to all units. */
-FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request);
-
-/* How many bytes of the answer are still to be waited for when `length` of them have come; 0 when it is whole. */
-FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length);
 
 /* Reads the answer to a request. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -224,6 +263,10 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
+/* The words of a point, or its coils, in what a block brought; NULL when that does not hold all of them. */
+FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+    const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
+
 /* The checksum of RTU frames; its low byte travels first. */
 FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length);
 
@@ -242,23 +285,16 @@ FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t
 extern "C" {
 #endif
 
-fieldscribe_modbus_request fieldscribe_modbus_read(uint8_t unit, const fieldscribe_modbus_reading *what)
-{
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL};
-    return request;
-}
-
-fieldscribe_modbus_request fieldscribe_modbus_write(
-    uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values)
-{
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, values};
-    return request;
-}
-
-fieldscribe_modbus_request fieldscribe_modbus_send(uint8_t unit, const fieldscribe_modbus_command *command)
-{
-    return fieldscribe_modbus_write(unit, &command->write, &command->value);
-}
+/*
+ * What kinds of requests do in their own ways: put their data into a frame, from the unit on, and take that of an
+ * answer, whose `pdu` starts at the function, that of the request, and has `size` bytes (at least 2).
+ */
+struct fieldscribe_modbus_kind {
+    fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *profile,
+        const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+    fieldscribe_modbus_status (*take)(const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size,
+        fieldscribe_modbus_reply *reply);
+};
 
 uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {
@@ -290,11 +326,6 @@ static bool fieldscribe_modbus_reads(uint8_t function)
     return (function >= 0x01U) && (function <= 0x04U);
 }
 
-static bool fieldscribe_modbus_reads_bits(uint8_t function)
-{
-    return (function == 0x01U) || (function == 0x02U);
-}
-
 /* 05h carries FF00h for on; every other single value travels as it is. */
 static uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
 {
@@ -317,28 +348,37 @@ static const fieldscribe_modbus_function *fieldscribe_modbus_find(
     return NULL;
 }
 
-/* Whether this device takes the request. */
+/* Whether this device takes the request, whatever it writes. */
 static fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
-    const uint8_t function = request->function;
-    const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, function);
-    const bool writes = (function == 0x05U) || (function == 0x06U) || (function == 0x0FU) || (function == 0x10U);
-    const bool single = (function == 0x05U) || (function == 0x06U) || (function == 0x08U);
+    const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, request->function);
     bool to_one;
-    uint16_t at;
-    if ((known == NULL) || !(fieldscribe_modbus_reads(function) || writes || single)) {
+    if (known == NULL) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
     to_one = (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
-    if ((request->unit == profile->broadcast) ? !(writes && known->broadcast) : !to_one) {
+    if ((request->unit == profile->broadcast) ? !known->broadcast : !to_one) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if ((request->count == 0U) || (request->count > known->most) || (single && (request->count != 1U)) ||
-        (!fieldscribe_modbus_reads(function) && (request->values == NULL))) {
+    if ((request->count == 0U) || (request->count > known->most)) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if ((function == 0x08U) ? (request->address != 0U) : (((uint32_t)request->address + request->count) > 0x10000U)) {
+    if (((uint32_t)request->address + request->count) > 0x10000U) {
+        return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
+    }
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Whether it takes what is written, too. */
+static fieldscribe_modbus_status fieldscribe_modbus_allows_values(const fieldscribe_modbus_request *request)
+{
+    const uint8_t function = request->function;
+    uint16_t at;
+    if ((request->given == 0U) || (request->given < request->count)) {
+        return FIELDSCRIBE_MODBUS_BAD_COUNT;
+    }
+    if ((function == 0x08U) && (request->address != 0U)) {
         return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
     }
     if ((function == 0x05U) || (function == 0x0FU)) {
@@ -393,36 +433,72 @@ static void fieldscribe_modbus_put_values(
     }
 }
 
-/* The request from the unit to the end of its data, if the device takes it and it fits; `used` is 0 on an error. */
-static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
+/* The six bytes with which all requests begin. */
+static void fieldscribe_modbus_put_head(const fieldscribe_modbus_request *request, uint16_t number, uint8_t *buffer)
+{
+    buffer[0] = request->unit;
+    buffer[1] = request->function;
+    fieldscribe_modbus_put(&buffer[2], request->address);
+    fieldscribe_modbus_put(&buffer[4], number);
+}
+
+static fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
-    const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
-    const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
+    if (fieldscribe_modbus_reads(request->function)) {
+        status = fieldscribe_modbus_allows(profile, request);
+    }
+    if (status != FIELDSCRIBE_MODBUS_OK) {
+        return status;
+    }
+    if (size < 6U) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    fieldscribe_modbus_put_head(request, request->count, buffer);
+    *used = 6U;
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
+{
+    const uint8_t function = request->function;
+    const bool several = (function == 0x0FU) || (function == 0x10U);
+    const bool single = (function == 0x05U) || (function == 0x06U) || (function == 0x08U);
     const size_t before = several ? 7U : 6U; /* the data */
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     uint32_t data_bytes = 0U;
-    uint16_t number = request->count;
+    if (several || single) {
+        status = fieldscribe_modbus_allows(profile, request);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        status = fieldscribe_modbus_allows_values(request);
+    }
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
     if (several) {
         data_bytes = fieldscribe_modbus_data_bytes(profile, request);
-    } else if (!fieldscribe_modbus_reads(request->function)) {
-        number = fieldscribe_modbus_single(request);
     }
     if ((data_bytes > 0xFFU) || (size < before) || (data_bytes > (size - before))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    buffer[0] = request->unit;
-    buffer[1] = request->function;
-    fieldscribe_modbus_put(&buffer[2], request->address);
-    fieldscribe_modbus_put(&buffer[4], number);
+    fieldscribe_modbus_put_head(request, several ? request->count : fieldscribe_modbus_single(request), buffer);
     if (several) {
         buffer[6] = (uint8_t)data_bytes;
         fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
     }
     *used = before + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* The request from the unit to the end of its data; one that nobody made by its functions has no kind. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
+{
+    return (request->kind == NULL) ? FIELDSCRIBE_MODBUS_BAD_FUNCTION
+                                   : request->kind->put(profile, request, buffer, size, used);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
@@ -462,29 +538,36 @@ fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_
     return status;
 }
 
-/* Stores the words that an answer brings in `bytes` bytes of data. */
-static fieldscribe_modbus_status fieldscribe_modbus_take_words(
-    const uint8_t *data, uint8_t bytes, uint16_t count, const fieldscribe_modbus_reply *reply)
+static fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
+    const uint16_t count = request->count;
+    const uint8_t bytes = pdu[1];
     uint16_t at;
-    if (((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
+    if ((size != (2U + (size_t)bytes)) || ((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     if (reply->room < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
-        reply->values[at] = fieldscribe_modbus_get(data + (2U * at));
+        reply->values[at] = fieldscribe_modbus_get(&pdu[2U + (2U * (size_t)at)]);
     }
+    reply->count = count;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Stores the bits that an answer brings in `bytes` bytes of data. */
-static fieldscribe_modbus_status fieldscribe_modbus_take_bits(
-    const uint8_t *data, uint8_t bytes, uint16_t count, const fieldscribe_modbus_reply *reply)
+static fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    const uint32_t most = (uint32_t)bytes * 8U;
+    const uint16_t count = request->count;
+    const uint8_t bytes = pdu[1];
+    uint32_t most;
     uint16_t at;
+    if (size != (2U + (size_t)bytes)) {
+        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+    }
+    most = (uint32_t)bytes * 8U;
     if ((count > most) || (((uint32_t)count + 7U) < most)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
@@ -492,46 +575,50 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_bits(
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
-        reply->values[at] = (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
+        reply->values[at] = (uint16_t)(((uint32_t)pdu[2U + (at / 8U)] >> (at % 8U)) & 1U);
     }
+    reply->count = count;
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer: `pdu` starts at the function, which is that of the request, and has `size` bytes (at least 2). */
-static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbus_request *request,
+/* What was written comes back, or how many items were. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    const uint8_t function = request->function;
-    const uint16_t count = request->count;
-    if (fieldscribe_modbus_reads(function)) {
-        fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
-        const uint8_t bytes = pdu[1];
-        if (size == (2U + (size_t)bytes)) {
-            status = fieldscribe_modbus_reads_bits(function)
-                ? fieldscribe_modbus_take_bits(pdu + 2, bytes, count, reply)
-                : fieldscribe_modbus_take_words(pdu + 2, bytes, count, reply);
-        }
-        reply->count = (status == FIELDSCRIBE_MODBUS_OK) ? count : 0U;
-        return status;
-    }
+    const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
+    uint16_t number = request->count;
     if (size != 5U) {
         return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (fieldscribe_modbus_get(pdu + 1) != request->address) {
+    if (!several) {
+        if (request->given == 0U) {
+            return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+        }
+        number = fieldscribe_modbus_single(request);
+    }
+    if ((fieldscribe_modbus_get(pdu + 1) != request->address) || (fieldscribe_modbus_get(pdu + 3) != number)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if ((function == 0x0FU) || (function == 0x10U)) {
-        return (fieldscribe_modbus_get(pdu + 3) == count) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
-    }
-    if ((request->values == NULL) || (count == 0U) ||
-        (fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request))) {
-        return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
-    }
-    if (reply->room > 0U) {
+    if ((!several) && (reply->room > 0U)) {
         reply->values[0] = request->values[0];
         reply->count = 1U;
     }
     return FIELDSCRIBE_MODBUS_OK;
+}
+
+const fieldscribe_modbus_kind fieldscribe_modbus_words = {
+    &fieldscribe_modbus_put_reading, &fieldscribe_modbus_take_words};
+const fieldscribe_modbus_kind fieldscribe_modbus_bits = {
+    &fieldscribe_modbus_put_reading, &fieldscribe_modbus_take_bits};
+const fieldscribe_modbus_kind fieldscribe_modbus_written = {
+    &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
+
+/* Reads an answer from its function on. */
+static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
+{
+    return (request->kind == NULL) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION
+                                   : request->kind->take(request, pdu, size, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -571,7 +658,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
         reply->exception = bytes[2];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
-    return fieldscribe_modbus_take(request, bytes + 1, length - 3U, reply);
+    return fieldscribe_modbus_take_answer(request, bytes + 1, length - 3U, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
@@ -606,7 +693,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     if (bytes[7] != request->function) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    return fieldscribe_modbus_take(request, bytes + 7, length - 7U, reply);
+    return fieldscribe_modbus_take_answer(request, bytes + 7, length - 7U, reply);
 }
 
 /* The bytes of an answer, from the unit to the end of what it is about. */
@@ -633,16 +720,30 @@ uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profi
     return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
 }
 
-uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length)
+uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size, size_t length)
 {
-    const uint32_t around = fieldscribe_modbus_around(framing);
+    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U; /* the shortest answer */
     const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
-    uint32_t whole = around + 3U; /* of a refusal, which is the shortest answer */
-    if ((length >= whole) && ((bytes[code] & 0x80U) == 0U)) {
-        whole = around + fieldscribe_modbus_answer(request);
+    uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
+    if ((whole > refusal) && ((length < refusal) || ((buffer[code] & 0x80U) != 0U))) {
+        whole = refusal;
+    }
+    if (whole > size) {
+        whole = (uint32_t)size;
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
+}
+
+const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+    const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point)
+{
+    uint32_t before;
+    if ((point->function != block->function) || (point->address < block->address) || (point->count > reply->count)) {
+        return NULL;
+    }
+    before = (uint32_t)point->address - block->address;
+    return (before > ((uint32_t)reply->count - point->count)) ? NULL : &reply->values[before];
 }
 
 #ifdef __cplusplus

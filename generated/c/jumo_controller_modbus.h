@@ -8,11 +8,11 @@
  * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
  * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  */
+#include "jumo_controller.h"
+#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+
 #ifndef JUMO_CONTROLLER_MODBUS_H
 #define JUMO_CONTROLLER_MODBUS_H
-
-#include "jumo_controller.h"
-#include "fieldscribe_modbus.h"
 
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."

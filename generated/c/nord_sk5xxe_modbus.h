@@ -8,11 +8,11 @@
  * A point is what it is read with (`read`) and written with (`write`), by fieldscribe_modbus.h, which shows how. One
  * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  */
+#include "nord_sk5xxe.h"
+#include "fieldscribe_modbus.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+
 #ifndef NORD_SK5XXE_MODBUS_H
 #define NORD_SK5XXE_MODBUS_H
-
-#include "nord_sk5xxe.h"
-#include "fieldscribe_modbus.h"
 
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."

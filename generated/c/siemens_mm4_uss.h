@@ -9,13 +9,13 @@
  * by fieldscribe_uss.h, which shows how. One that cannot be written has no `write`. One that shares its word with other
  * points has `update`: read the word first. Words of process data are `heard` and `sent`.
  */
+#include "siemens_mm4.h"
+#include "fieldscribe_uss.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+
 #ifndef SIEMENS_MM4_USS_H
 #define SIEMENS_MM4_USS_H
 
-#include "siemens_mm4.h"
-#include "fieldscribe_uss.h"
-
-#if FIELDSCRIBE_USS_INTERFACE != 2
+#if FIELDSCRIBE_USS_INTERFACE != 3
 #error "fieldscribe_uss.h is of another version: take the one that was generated with this header."
 #endif
 
@@ -402,12 +402,12 @@ static const fieldscribe_uss_w siemens_mm4_uss_rs485_answer_source_index_3_eepro
  * Start with words that are all 0, so that reading parameters commands nothing: no constant bit is set yet.
  */
 
-static const fieldscribe_uss_s siemens_mm4_control_word_frame = {&siemens_mm4_layout_u16_fixed_0400_0400, {0U}};
-static const fieldscribe_uss_s siemens_mm4_main_setpoint_frame = {&siemens_mm4_layout_u16, {1U}};
-static const fieldscribe_uss_s siemens_mm4_second_control_word_frame = {&siemens_mm4_layout_u16, {3U}};
-static const fieldscribe_uss_h siemens_mm4_status_word_frame = {&siemens_mm4_layout_u16, {0U}};
-static const fieldscribe_uss_h siemens_mm4_main_actual_value_frame = {&siemens_mm4_layout_u16, {1U}};
-static const fieldscribe_uss_h siemens_mm4_second_status_word_frame = {&siemens_mm4_layout_u16, {3U}};
+static const fieldscribe_uss_s siemens_mm4_control_word_frame = {&siemens_mm4_layout_u16_fixed_0400_0400, {0U, 1U}};
+static const fieldscribe_uss_s siemens_mm4_main_setpoint_frame = {&siemens_mm4_layout_u16, {1U, 1U}};
+static const fieldscribe_uss_s siemens_mm4_second_control_word_frame = {&siemens_mm4_layout_u16, {3U, 1U}};
+static const fieldscribe_uss_h siemens_mm4_status_word_frame = {&siemens_mm4_layout_u16, {0U, 1U}};
+static const fieldscribe_uss_h siemens_mm4_main_actual_value_frame = {&siemens_mm4_layout_u16, {1U, 1U}};
+static const fieldscribe_uss_h siemens_mm4_second_status_word_frame = {&siemens_mm4_layout_u16, {3U, 1U}};
 
 #ifdef __cplusplus
 }

@@ -9,11 +9,11 @@
  * that cannot be written has no `write`. One that shares its word with other points has `update`: read the word first.
  * Frames of cyclic telegrams go to a receiver, which gives points their words (`heard`).
  */
+#include "woodward_mpu2s.h"
+#include "fieldscribe_can.h" /* each time, for FIELDSCRIBE_IMPLEMENTATION */
+
 #ifndef WOODWARD_MPU2S_CAN_H
 #define WOODWARD_MPU2S_CAN_H
-
-#include "woodward_mpu2s.h"
-#include "fieldscribe_can.h"
 
 #if FIELDSCRIBE_CAN_INTERFACE != 2
 #error "fieldscribe_can.h is of another version: take the one that was generated with this header."

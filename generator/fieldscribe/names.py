@@ -107,6 +107,17 @@ RUST_RESERVED = frozenset(
     }
 )
 
+RUST_CONSTANTS = frozenset(
+    {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
+    | {"decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
+    | {"telegram", "index", "addresses", "codes", "numbers", "fixed_bits", "fixed_mask", "floating"}
+    | {"is_grouped", "is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
+)
+"""Associated constants of the Rust point traits, which a name of the author would hide."""
+
+RUST_UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
+"""What a Rust enum calls numbers without a name: the first that no entry takes."""
+
 
 @lru_cache(maxsize=65536)
 def pascal(name: str) -> str:

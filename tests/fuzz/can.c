@@ -25,8 +25,8 @@ int main(void)
 {
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
     fieldscribe_can_slot slot[KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS];
-    fieldscribe_can_receiver measurements = fieldscribe_can_listen(&kitchen_can_telegram_measurements, UNIT, slots);
-    fieldscribe_can_receiver heartbeat = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, UNIT, slot);
+    fieldscribe_can_receiver measurements = fieldscribe_can_listen(&kitchen_can_telegram_measurements, UNIT, slots, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS);
+    fieldscribe_can_receiver heartbeat = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, UNIT, slot, KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS);
     for (;;) {
         const uint32_t message = take(1U);
         const uint8_t unit = (uint8_t)take(1U);

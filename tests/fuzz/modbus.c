@@ -40,6 +40,10 @@ int main(void)
             written[at] = value_of(&request, number, at);
         }
         request.values = request.function <= 0x04U ? NULL : written;
+        request.given = request.function <= 0x04U ? 0U : request.count;
+        request.kind = request.function > 0x04U ? &fieldscribe_modbus_written
+            : fieldscribe_modbus_reads_bits(request.function) ? &fieldscribe_modbus_bits
+                                                              : &fieldscribe_modbus_words;
         values = exactly(2U * (size_t)request.count);
         reply.values = values;
         reply.room = request.count;

@@ -39,7 +39,8 @@ static void hear(uint16_t words, uint8_t per_frame)
     telegram.words = words;
     telegram.per_frame = per_frame;
     receiver.telegram = &telegram;
-    receiver.slots = EXACTLY(fieldscribe_can_slots(&telegram), slots);
+    receiver.slot_count = fieldscribe_can_slots(&telegram);
+    receiver.slots = EXACTLY(receiver.slot_count, slots);
 }
 
 void prove_id(uint8_t unit)
@@ -132,15 +133,15 @@ void prove_read_answer(uint8_t unit)
 void prove_write(uint8_t unit)
 {
     talk(true);
-    (void)fieldscribe_can_write(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+    (void)fieldscribe_can_write(&dialogue, unit, &writing, word[0], &frame);
 }
 
 void prove_write_answer(uint8_t unit)
 {
     talk(true);
-    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, word[0], &frame);
     talk(false);
-    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, word[0], &frame);
 }
 
 void prove_word_to_read(uint16_t count, size_t at)
@@ -179,7 +180,19 @@ void prove_listen(uint16_t words, uint8_t per_frame)
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        receiver = fieldscribe_can_listen(&telegram, receiver.unit, receiver.slots);
+        receiver = fieldscribe_can_listen(&telegram, receiver.unit, receiver.slots, receiver.slot_count);
+    }
+}
+
+/* Of slots that are too few none is touched. */
+void prove_listen__too_few(size_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        hear(WORDS, 1U);
+        receiver = fieldscribe_can_listen(&telegram, receiver.unit, EXACTLY(count, slots), count);
+        (void)fieldscribe_can_take(&receiver, &frame);
+        (void)fieldscribe_can_heard_slot(&receiver, where.low);
     }
 }
 
@@ -219,7 +232,9 @@ void prove_received(uint16_t words, uint8_t per_frame)
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_received(&receiver, &where, word);
+        (void)fieldscribe_can_received(&receiver, &where, word, 2U);
+        (void)fieldscribe_can_received(&receiver, &where, EXACTLY(1U, word), 1U);
+        (void)fieldscribe_can_received(&receiver, &where, EXACTLY(0U, word), 0U);
     }
 }
 
@@ -241,12 +256,13 @@ static void hear_long(void)
     message.adds_unit = number % 2U != 0U;
     receiver.telegram = &telegram;
     receiver.slots = slots;
+    receiver.slot_count = SLOTS;
 }
 
 void prove_listen__long(uint8_t unit)
 {
     hear_long();
-    receiver = fieldscribe_can_listen(&telegram, unit, slots);
+    receiver = fieldscribe_can_listen(&telegram, unit, slots, SLOTS);
 }
 
 void prove_take__long(void)
@@ -264,7 +280,7 @@ void prove_word__long(uint16_t position)
 void prove_received__long(void)
 {
     hear_long();
-    (void)fieldscribe_can_received(&receiver, &where, word);
+    (void)fieldscribe_can_received(&receiver, &where, word, 2U);
 }
 
 /* With exactly the words of the text; those of the telegram are proven by `word`. */
@@ -275,6 +291,9 @@ void prove_received_text(uint16_t count)
         hear_long();
         text_where.positions = EXACTLY(count, positions);
         text_where.words = count;
-        (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count, text));
+        (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count, text), count);
+        if (count > 0U) {
+            (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count - 1U, text), count - 1U);
+        }
     }
 }

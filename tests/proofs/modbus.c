@@ -22,6 +22,8 @@ static fieldscribe_modbus_profile profile;
 static fieldscribe_modbus_request request;
 static fieldscribe_modbus_reply reply;
 static fieldscribe_modbus_reading reading;
+static fieldscribe_modbus_reading block;
+static uint16_t address;
 static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
 static volatile uint8_t number;
@@ -41,11 +43,21 @@ static void know(size_t count)
     profile.function_count = count;
 }
 
+/* A request of any kind, and of none. */
+static void of_any_kind(void)
+{
+    static const fieldscribe_modbus_kind *const kinds[] = {
+        &fieldscribe_modbus_words, &fieldscribe_modbus_bits, &fieldscribe_modbus_written, NULL};
+    request.kind = kinds[number % 4U];
+}
+
 /* A request of so many items, in an array that has no more. */
 static void ask(uint16_t count)
 {
     request.count = count;
     request.values = EXACTLY(count, items);
+    request.given = count;
+    of_any_kind();
 }
 
 /* A request of any number of items that fits into the memory of a small machine. */
@@ -55,6 +67,8 @@ static void ask_any(void)
         request.count = 0U;
     }
     request.values = many_items;
+    request.given = sizeof many_items / sizeof many_items[0];
+    of_any_kind();
 }
 
 /* A reply with room for so many items. */
@@ -71,7 +85,7 @@ void prove_read(uint8_t unit)
 
 void prove_write(uint8_t unit)
 {
-    request = fieldscribe_modbus_write(unit, &writing, items);
+    request = fieldscribe_modbus_write(unit, &writing, items, ITEMS);
 }
 
 void prove_send(uint8_t unit)
@@ -143,6 +157,8 @@ void prove_allows__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
+    request.given = 0U;
+    of_any_kind();
     if (request.function < 0x05U) {
         (void)fieldscribe_modbus_allows(&profile, &request);
     } else {
@@ -157,6 +173,15 @@ void prove_allows__values(uint16_t count)
         know(1U);
         ask(count);
         (void)fieldscribe_modbus_allows(&profile, &request);
+    }
+}
+
+void prove_allows_values(uint16_t count)
+{
+    if (count <= ITEMS) {
+        //@ split count;
+        ask(count);
+        (void)fieldscribe_modbus_allows_values(&request);
     }
 }
 
@@ -213,23 +238,56 @@ static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size
     }
 }
 
-/* Without what frames a request; data is proven by put_values, for all lengths. */
-void prove_put_request(size_t size)
+void prove_put_head(uint16_t count)
+{
+    fieldscribe_modbus_put_head(&request, count, EXACTLY(6U, frame));
+}
+
+void prove_put_reading(size_t size)
 {
     if (size <= SHORT) {
         size_t used;
         //@ split size;
         know(1U);
         ask_any();
-        if (request.function < 0x0FU) {
-            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
-        } else if (request.function == 0x0FU) {
-            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
-        } else if (request.function == 0x10U) {
-            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
-        } else {
-            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
-        }
+        (void)fieldscribe_modbus_put_reading(&profile, &request, EXACTLY(size, frame), size, &used);
+    }
+}
+
+/* By kind of function, so that Frama-C knows in each call what the frame consists of. */
+static void put_by_function(fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *,
+    const fieldscribe_modbus_request *, uint8_t *, size_t, size_t *), size_t size)
+{
+    size_t used;
+    if (request.function < 0x0FU) {
+        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+    } else if (request.function == 0x0FU) {
+        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+    } else if (request.function == 0x10U) {
+        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+    } else {
+        (void)put(&profile, &request, EXACTLY(size, frame), size, &used);
+    }
+}
+
+/* Without what frames a request; data is proven by put_values, for all lengths. */
+void prove_put_writing(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        put_by_function(&fieldscribe_modbus_put_writing, size);
+    }
+}
+
+void prove_put_request(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        put_by_function(&fieldscribe_modbus_put_request, size);
     }
 }
 
@@ -265,6 +323,8 @@ void prove_build__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
+    request.given = 0U;
+    of_any_kind();
     build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
     build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
 }
@@ -280,53 +340,75 @@ void prove_build__values(uint16_t count)
     }
 }
 
-void prove_take_words__data(uint8_t bytes, uint16_t count, size_t room)
-{
-    //@ split bytes;
-    into(many_items, room);
-    (void)fieldscribe_modbus_take_words(EXACTLY(bytes, frame), bytes, count, &reply);
-}
-
-void prove_take_words__values(uint8_t bytes, uint16_t count, size_t room)
-{
-    const size_t stored = room < WORDS ? room : WORDS;
-    //@ split stored;
-    into(EXACTLY(stored, items), stored);
-    (void)fieldscribe_modbus_take_words(frame, bytes, count, &reply);
-}
-
-void prove_take_bits__data(uint8_t bytes, uint16_t count, size_t room)
-{
-    //@ split bytes;
-    into(many_items, room);
-    (void)fieldscribe_modbus_take_bits(EXACTLY(bytes, frame), bytes, count, &reply);
-}
-
-void prove_take_bits__values(uint8_t bytes, uint16_t count, size_t room)
-{
-    const size_t stored = room < ITEMS ? room : ITEMS;
-    //@ split stored;
-    into(EXACTLY(stored, items), stored);
-    (void)fieldscribe_modbus_take_bits(frame, bytes, count, &reply);
-}
-
-void prove_take(size_t size, size_t room)
+void prove_take_words__data(size_t size, size_t room)
 {
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
         ask_any();
         into(many_items, room);
-        (void)fieldscribe_modbus_take(&request, EXACTLY(size, frame), size, &reply);
+        (void)fieldscribe_modbus_take_words(&request, EXACTLY(size, frame), size, &reply);
     }
 }
 
-void prove_take__request(uint16_t count, size_t size)
+void prove_take_words__values(size_t size, size_t room)
+{
+    const size_t stored = room < WORDS ? room : WORDS;
+    if (size >= 2U && size <= FRAMES) {
+        //@ split stored;
+        ask_any();
+        into(EXACTLY(stored, items), stored);
+        (void)fieldscribe_modbus_take_words(&request, frame, size, &reply);
+    }
+}
+
+void prove_take_bits__data(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        //@ split size;
+        ask_any();
+        into(many_items, room);
+        (void)fieldscribe_modbus_take_bits(&request, EXACTLY(size, frame), size, &reply);
+    }
+}
+
+void prove_take_bits__values(size_t size, size_t room)
+{
+    const size_t stored = room < ITEMS ? room : ITEMS;
+    if (size >= 2U && size <= FRAMES) {
+        //@ split stored;
+        ask_any();
+        into(EXACTLY(stored, items), stored);
+        (void)fieldscribe_modbus_take_bits(&request, frame, size, &reply);
+    }
+}
+
+void prove_take_echo(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        //@ split size;
+        ask_any();
+        into(many_items, room);
+        (void)fieldscribe_modbus_take_echo(&request, EXACTLY(size, frame), size, &reply);
+    }
+}
+
+void prove_take_echo__request(uint16_t count, size_t size)
 {
     if (count <= WORDS && size >= 2U && size <= FRAMES) {
         //@ split count;
         ask(count);
         into(many_items, LARGE / 2U);
-        (void)fieldscribe_modbus_take(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
+    }
+}
+
+void prove_take_answer(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        //@ split size;
+        ask_any();
+        into(many_items, room);
+        (void)fieldscribe_modbus_take_answer(&request, EXACTLY(size, frame), size, &reply);
     }
 }
 
@@ -355,6 +437,8 @@ void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, s
     if (length <= FRAMES) {
         //@ split length;
         request.values = NULL;
+        request.given = 0U;
+        of_any_kind();
         into(many_items, room);
         (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, &reply);
     }
@@ -395,19 +479,38 @@ void prove_reply_length(fieldscribe_modbus_framing framing)
     (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
 }
 
-void prove_left(size_t length)
+void prove_left(size_t size, size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), length);
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), size, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), size, length);
     }
 }
 
-void prove_left__long_frame(size_t length)
+void prove_left__long_frame(size_t size, size_t length)
 {
     if (length <= LARGE) {
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, long_frame, length);
-        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, long_frame, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_RTU, &request, long_frame, size, length);
+        (void)fieldscribe_modbus_left(&profile, FIELDSCRIBE_MODBUS_TCP, &request, long_frame, size, length);
+    }
+}
+
+/* What is found is read to its end: all of it was brought. */
+void prove_words_in(uint16_t count)
+{
+    if (count <= SHORT && reading.count <= SHORT) {
+        const uint16_t *found;
+        //@ split count;
+        //@ split reading.count;
+        into(EXACTLY(count, items), count);
+        reply.count = count;
+        block = reading;
+        block.address = address;
+        found = fieldscribe_modbus_words_in(&block, &reply, &reading);
+        if (found != NULL && reading.count > 0U) {
+            (void)found[0];
+            (void)found[reading.count - 1U];
+        }
     }
 }

@@ -32,6 +32,10 @@ void prove_jumo_controller(size_t length, size_t room)
     size_t used;
     if (length <= FRAMES) {
         request.values = items;
+        request.given = LARGE / 2U;
+        request.kind = request.function > 0x04U ? &fieldscribe_modbus_written
+            : request.function > 0x02U          ? &fieldscribe_modbus_words
+                                                : &fieldscribe_modbus_bits;
         reply.values = items;
         reply.room = room;
         if (request.count <= LARGE / 2U) {
@@ -63,18 +67,18 @@ void prove_woodward_mpu2s(uint8_t unit)
 {
     const fieldscribe_can_dialogue *const talk = &woodward_mpu2s_can_dialogue;
     fieldscribe_can_receiver receiver =
-        fieldscribe_can_listen(&woodward_mpu2s_telegram_visualisation, unit, slots);
+        fieldscribe_can_listen(&woodward_mpu2s_telegram_visualisation, unit, slots, FIELDSCRIBE_COUNT(slots));
     uint16_t words[2] = {0U, 0U};
     uint16_t raw = 0U;
     int heard;
-    (void)fieldscribe_can_read_answer(talk, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, words);
-    (void)fieldscribe_take_u16(woodward_mpu2s_password_level_2_frame.layout, words, &raw);
-    (void)fieldscribe_put_u16(woodward_mpu2s_password_level_2_frame.layout, raw, words);
-    (void)fieldscribe_can_write(talk, unit, &woodward_mpu2s_password_level_2_frame.write, words, &frame);
+    (void)fieldscribe_can_read_answer(talk, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, &words[0]);
+    (void)fieldscribe_take_u16(woodward_mpu2s_password_level_2_frame.layout, words, 1U, &raw);
+    (void)fieldscribe_put_u16(woodward_mpu2s_password_level_2_frame.layout, raw, words, 1U);
+    (void)fieldscribe_can_write(talk, unit, &woodward_mpu2s_password_level_2_frame.write, words[0], &frame);
     for (heard = 0; heard < 100; ++heard) {
         frame.data[1] = number;
         frame.data[2] = number;
         (void)fieldscribe_can_take(&receiver, &frame);
-        (void)fieldscribe_can_received(&receiver, &where, words);
+        (void)fieldscribe_can_received(&receiver, &where, words, 2U);
     }
 }

@@ -64,40 +64,47 @@ void prove_read(uint8_t unit)
     request = fieldscribe_uss_read(unit, &reading);
 }
 
-void prove_write(uint8_t unit)
-{
-    if (writing.width < 2U) {
-        request = fieldscribe_uss_write(unit, &writing, EXACTLY(1U, words));
-    } else {
-        request = fieldscribe_uss_write(unit, &writing, EXACTLY(2U, words));
-    }
-}
-
-void prove_words_of_reply(void)
-{
-    if (reply.width < 2U) {
-        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(1U, words));
-    } else {
-        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(2U, words));
-    }
-}
-
-void prove_words_heard(size_t count)
+void prove_write(uint8_t unit, size_t count)
 {
     if (count <= WORDS) {
         //@ split count;
-        if (heard.position < count) {
-            (void)fieldscribe_uss_words_heard(&heard, EXACTLY(count, words));
+        request = fieldscribe_uss_write(unit, &writing, EXACTLY(count, words), count);
+    }
+}
+
+void prove_words_of_reply(size_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(count, words), count);
+    }
+}
+
+/* What is found is read to its end. */
+void prove_words_heard(size_t count)
+{
+    if (count <= SHORT && heard.words <= 4U) {
+        const uint16_t *found;
+        //@ split heard.words;
+        //@ split count;
+        found = fieldscribe_uss_words_heard(&heard, EXACTLY(count, words), count);
+        if (found != NULL && heard.words > 0U) {
+            (void)found[0];
+            (void)found[heard.words - 1U];
         }
     }
 }
 
 void prove_words_sent(size_t count)
 {
-    if (count <= WORDS) {
+    if (count <= SHORT && sent.words <= 4U) {
+        uint16_t *found;
+        //@ split sent.words;
         //@ split count;
-        if (sent.position < count) {
-            (void)fieldscribe_uss_words_sent(&sent, EXACTLY(count, words));
+        found = fieldscribe_uss_words_sent(&sent, EXACTLY(count, words), count);
+        if (found != NULL && sent.words > 0U) {
+            found[0] = 0U;
+            found[sent.words - 1U] = 0U;
         }
     }
 }
@@ -107,11 +114,11 @@ void prove_reply_length(void)
     (void)fieldscribe_uss_reply_length(&link);
 }
 
-void prove_left(size_t length)
+void prove_left(size_t size, size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
-        (void)fieldscribe_uss_left(&link, EXACTLY(length, frame), length);
+        (void)fieldscribe_uss_left(&link, EXACTLY(length, frame), size, length);
     }
 }
 

@@ -32,6 +32,31 @@ static uint16_t *own(uint8_t count)
     return EXACTLY(count, words);
 }
 
+/* Words that are told to be fewer than the point has are not touched. */
+void prove_layout_fits(uint8_t type, size_t count)
+{
+    uint16_t raw;
+    if (count <= 4U) {
+        //@ split count;
+        lay(type, 1U);
+        (void)fieldscribe_layout_fits(&layout, own((uint8_t)count), count, FIELDSCRIBE_U16);
+        layout.mask = layout.mask & 0xFFFFU;
+        (void)fieldscribe_take_u16(&layout, own((uint8_t)count), count, &raw);
+        (void)fieldscribe_take_u16(&layout, NULL, count, &raw);
+    }
+}
+
+void prove_layout_fits__two(uint8_t type, size_t count, uint32_t raw)
+{
+    if (count <= 4U) {
+        //@ split count;
+        lay(type, 2U);
+        (void)fieldscribe_layout_fits(&layout, own((uint8_t)count), count, FIELDSCRIBE_U32);
+        (void)fieldscribe_put_u32(&layout, raw, own((uint8_t)count), count);
+        (void)fieldscribe_put_u32(&layout, raw, NULL, count);
+    }
+}
+
 void prove_layout_place(uint8_t significance)
 {
     lay(layout.type, 4U);
@@ -116,15 +141,15 @@ void prove_take_bit(uint8_t type)
 {
     bool raw;
     lay(type, 1U);
-    (void)fieldscribe_take_bit(&layout, own(1U), &raw);
+    (void)fieldscribe_take_bit(&layout, own(1U), 1U, &raw);
 }
 
 void prove_put_bit(void)
 {
     lay((uint8_t)FIELDSCRIBE_BIT, 1U);
-    (void)fieldscribe_put_bit(&layout, number % 2U != 0U, own(1U));
+    (void)fieldscribe_put_bit(&layout, number % 2U != 0U, own(1U), 1U);
     lay((uint8_t)(FIELDSCRIBE_BIT + 1U), 1U);
-    (void)fieldscribe_put_bit(&layout, number % 2U != 0U, own(1U));
+    (void)fieldscribe_put_bit(&layout, number % 2U != 0U, own(1U), 1U);
 }
 
 void prove_take_u8(uint8_t type, uint8_t shift)
@@ -135,16 +160,16 @@ void prove_take_u8(uint8_t type, uint8_t shift)
         lay(type, 1U);
         layout.shift = shift;
         layout.mask = (layout.mask & 0xFFU) << shift;
-        (void)fieldscribe_take_u8(&layout, own(1U), &raw);
+        (void)fieldscribe_take_u8(&layout, own(1U), 1U, &raw);
     }
 }
 
 void prove_put_u8(uint8_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_U8, 1U);
-    (void)fieldscribe_put_u8(&layout, raw, own(1U));
+    (void)fieldscribe_put_u8(&layout, raw, own(1U), 1U);
     lay((uint8_t)(FIELDSCRIBE_U8 + 1U), 1U);
-    (void)fieldscribe_put_u8(&layout, raw, own(1U));
+    (void)fieldscribe_put_u8(&layout, raw, own(1U), 1U);
 }
 
 void prove_take_s8(uint8_t type, uint8_t shift)
@@ -155,16 +180,16 @@ void prove_take_s8(uint8_t type, uint8_t shift)
         lay(type, 1U);
         layout.shift = shift;
         layout.mask = (layout.mask & 0xFFU) << shift;
-        (void)fieldscribe_take_s8(&layout, own(1U), &raw);
+        (void)fieldscribe_take_s8(&layout, own(1U), 1U, &raw);
     }
 }
 
 void prove_put_s8(int8_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_S8, 1U);
-    (void)fieldscribe_put_s8(&layout, raw, own(1U));
+    (void)fieldscribe_put_s8(&layout, raw, own(1U), 1U);
     lay((uint8_t)(FIELDSCRIBE_S8 + 1U), 1U);
-    (void)fieldscribe_put_s8(&layout, raw, own(1U));
+    (void)fieldscribe_put_s8(&layout, raw, own(1U), 1U);
 }
 
 void prove_take_u16(uint8_t type)
@@ -172,15 +197,15 @@ void prove_take_u16(uint8_t type)
     uint16_t raw;
     lay(type, 1U);
     layout.mask = layout.mask & 0xFFFFU;
-    (void)fieldscribe_take_u16(&layout, own(1U), &raw);
+    (void)fieldscribe_take_u16(&layout, own(1U), 1U, &raw);
 }
 
 void prove_put_u16(uint16_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_U16, 1U);
-    (void)fieldscribe_put_u16(&layout, raw, own(1U));
+    (void)fieldscribe_put_u16(&layout, raw, own(1U), 1U);
     lay((uint8_t)(FIELDSCRIBE_U16 + 1U), 1U);
-    (void)fieldscribe_put_u16(&layout, raw, own(1U));
+    (void)fieldscribe_put_u16(&layout, raw, own(1U), 1U);
 }
 
 void prove_take_s16(uint8_t type)
@@ -188,15 +213,15 @@ void prove_take_s16(uint8_t type)
     int16_t raw;
     lay(type, 1U);
     layout.mask = layout.mask & 0xFFFFU;
-    (void)fieldscribe_take_s16(&layout, own(1U), &raw);
+    (void)fieldscribe_take_s16(&layout, own(1U), 1U, &raw);
 }
 
 void prove_put_s16(int16_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_S16, 1U);
-    (void)fieldscribe_put_s16(&layout, raw, own(1U));
+    (void)fieldscribe_put_s16(&layout, raw, own(1U), 1U);
     lay((uint8_t)(FIELDSCRIBE_S16 + 1U), 1U);
-    (void)fieldscribe_put_s16(&layout, raw, own(1U));
+    (void)fieldscribe_put_s16(&layout, raw, own(1U), 1U);
 }
 
 void prove_take_u32(uint8_t type)
@@ -204,15 +229,15 @@ void prove_take_u32(uint8_t type)
     uint32_t raw;
     lay(type, 2U);
     layout.mask = layout.mask & 0xFFFFFFFFU;
-    (void)fieldscribe_take_u32(&layout, own(2U), &raw);
+    (void)fieldscribe_take_u32(&layout, own(2U), 2U, &raw);
 }
 
 void prove_put_u32(uint32_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_U32, 2U);
-    (void)fieldscribe_put_u32(&layout, raw, own(2U));
+    (void)fieldscribe_put_u32(&layout, raw, own(2U), 2U);
     lay((uint8_t)(FIELDSCRIBE_U32 + 1U), 2U);
-    (void)fieldscribe_put_u32(&layout, raw, own(2U));
+    (void)fieldscribe_put_u32(&layout, raw, own(2U), 2U);
 }
 
 void prove_take_s32(uint8_t type)
@@ -220,45 +245,45 @@ void prove_take_s32(uint8_t type)
     int32_t raw;
     lay(type, 2U);
     layout.mask = layout.mask & 0xFFFFFFFFU;
-    (void)fieldscribe_take_s32(&layout, own(2U), &raw);
+    (void)fieldscribe_take_s32(&layout, own(2U), 2U, &raw);
 }
 
 void prove_put_s32(int32_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_S32, 2U);
-    (void)fieldscribe_put_s32(&layout, raw, own(2U));
+    (void)fieldscribe_put_s32(&layout, raw, own(2U), 2U);
     lay((uint8_t)(FIELDSCRIBE_S32 + 1U), 2U);
-    (void)fieldscribe_put_s32(&layout, raw, own(2U));
+    (void)fieldscribe_put_s32(&layout, raw, own(2U), 2U);
 }
 
 void prove_take_u64(uint8_t type)
 {
     uint64_t raw;
     lay(type, 4U);
-    (void)fieldscribe_take_u64(&layout, own(4U), &raw);
+    (void)fieldscribe_take_u64(&layout, own(4U), 4U, &raw);
 }
 
 void prove_put_u64(uint64_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_U64, 4U);
-    (void)fieldscribe_put_u64(&layout, raw, own(4U));
+    (void)fieldscribe_put_u64(&layout, raw, own(4U), 4U);
     lay((uint8_t)(FIELDSCRIBE_U64 + 1U), 4U);
-    (void)fieldscribe_put_u64(&layout, raw, own(4U));
+    (void)fieldscribe_put_u64(&layout, raw, own(4U), 4U);
 }
 
 void prove_take_s64(uint8_t type)
 {
     int64_t raw;
     lay(type, 4U);
-    (void)fieldscribe_take_s64(&layout, own(4U), &raw);
+    (void)fieldscribe_take_s64(&layout, own(4U), 4U, &raw);
 }
 
 void prove_put_s64(int64_t raw)
 {
     lay((uint8_t)FIELDSCRIBE_S64, 4U);
-    (void)fieldscribe_put_s64(&layout, raw, own(4U));
+    (void)fieldscribe_put_s64(&layout, raw, own(4U), 4U);
     lay((uint8_t)(FIELDSCRIBE_S64 + 1U), 4U);
-    (void)fieldscribe_put_s64(&layout, raw, own(4U));
+    (void)fieldscribe_put_s64(&layout, raw, own(4U), 4U);
 }
 
 /* The words of a text lie anywhere among them. */
@@ -279,7 +304,9 @@ void prove_take_text(uint16_t count)
     if (count > 0U && count <= TEXT) {
         //@ split count;
         write_text(count);
-        fieldscribe_take_text(&text, EXACTLY(count, addressed), EXACTLY(count, reading));
+        (void)fieldscribe_take_text(&text, EXACTLY(count, addressed), count, EXACTLY(count, reading), count);
+        (void)fieldscribe_take_text(&text, EXACTLY(count - 1U, addressed), count - 1U, reading, TEXT);
+        (void)fieldscribe_take_text(&text, addressed, TEXT, EXACTLY(count - 1U, reading), count - 1U);
     }
 }
 
@@ -288,6 +315,8 @@ void prove_put_text(uint16_t count)
     if (count > 0U && count <= TEXT) {
         //@ split count;
         write_text(count);
-        fieldscribe_put_text(&text, EXACTLY(count, reading), EXACTLY(count, addressed));
+        (void)fieldscribe_put_text(&text, EXACTLY(count, reading), count, EXACTLY(count, addressed), count);
+        (void)fieldscribe_put_text(&text, EXACTLY(count - 1U, reading), count - 1U, addressed, TEXT);
+        (void)fieldscribe_put_text(&text, reading, TEXT, EXACTLY(count - 1U, addressed), count - 1U);
     }
 }

@@ -1,14 +1,16 @@
 //! CAN clients over a bus of canned frames: what is sent, what comes out, what receivers make of the frames between.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::future::Future;
 use std::pin::pin;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, ParseError, ReceiveError, Receiver,
-    Transport,
+    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, LocalClient, LocalTransport, ParseError,
+    ReceiveError, Receiver, Transport,
 };
 use fieldscribe_runtime::Text;
 use odd_can::{enums, flags, messages, points, telegrams, with, Error, PROFILE};
@@ -152,7 +154,7 @@ fn parameters_are_read_and_written() {
     assert_eq!((read.as_str(), read.to_string().as_str()), (Some("Genset 1"), "Genset 1"));
     assert_eq!(format!("{read:?}"), "\"Genset 1\"");
     let umlaut = client.write::<points::Name>(Text::new("Gerät").unwrap());
-    assert_eq!(umlaut, Err(ClientError::Point(Error::BadText)));
+    assert_eq!(umlaut, Err(ClientError::Point(Error::BadText(Some("name")))));
     assert_eq!(client.write::<points::Password>(1234), Ok(()));
     assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came")));
     let bus = client.into_transport();
@@ -266,6 +268,36 @@ fn waits_without_blocking() {
     assert_eq!(client.into_transport().0.memory[&507], 300);
 }
 
+/// A bus that cannot leave its thread.
+struct Shared(Rc<RefCell<Bus>>);
+
+impl LocalTransport for Shared {
+    type Error = &'static str;
+
+    async fn send(&mut self, frame: &Frame) -> Result<(), Self::Error> {
+        self.0.borrow_mut().answer(frame);
+        Ok(())
+    }
+
+    async fn receive(&mut self) -> Result<Frame, Self::Error> {
+        self.0.borrow_mut().next()
+    }
+
+    async fn pending(&mut self) -> Result<Option<Frame>, Self::Error> {
+        Ok(self.0.borrow_mut().waiting.pop_front())
+    }
+}
+
+fn a_transport_may_stay_on_its_thread() {
+    let bus = Rc::new(RefCell::new(Bus::new(&[(507, 200)], vec![])));
+    let mut shared = Shared(Rc::clone(&bus));
+    let mut client = LocalClient::new(&mut shared, &PROFILE, 5);
+    assert_eq!(finish(client.read_count::<points::Ratio>()), Ok(200));
+    assert_eq!(finish(client.write_raw::<points::Ratio>(300)), Ok(()));
+    assert_eq!(finish(LocalClient::new(shared, &PROFILE, 5).read::<points::Ratio>()), Ok(300));
+    assert_eq!(bus.borrow().sent.len(), 3);
+}
+
 fn a_late_answer_is_not_taken_for_the_next() {
     let late = messages::READ_ANSWER.build(&PROFILE, 5, 407, 1).unwrap();
     let mut bus = Bus::new(&[(407, 2)], vec![]);
@@ -299,4 +331,5 @@ fn main() {
     units_are_checked();
     wrong_bytes_are_of_no_telegram();
     waits_without_blocking();
+    a_transport_may_stay_on_its_thread();
 }

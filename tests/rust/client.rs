@@ -1,14 +1,16 @@
 //! The clients over a transport of canned replies: what is sent, and what comes out.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::future::Future;
 use std::pin::pin;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::client::{AsyncClient, AsyncTransport, Client, ClientError, Transport};
-use fieldscribe_runtime::modbus::{crc, reply_length, Framing, ReplyError, Request};
-use sample_drive::{blocks, commands, enums, points, with, Error, Readable, PROFILE};
+use fieldscribe_runtime::client::{AsyncClient, AsyncTransport, Client, ClientError, LocalClient, LocalTransport, Transport};
+use fieldscribe_runtime::modbus::{crc, reply_length, BuildError, Framing, Profile, ReplyError, Request};
+use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, Error, PointInfo, Readable, POINTS, PROFILE};
 
 /// Requests that came, and replies to give, as hexadecimal PDUs behind the unit.
 struct Line {
@@ -94,7 +96,7 @@ fn finish<T>(future: impl Future<Output = T>) -> T {
 }
 
 fn reads_and_writes(framing: Framing) {
-    let replies = ["01030201f4", "0106102801f4", "01030201f4", "01030203e7", "0103023fff", "01062012ffff", "018302", "01030404d20001"];
+    let replies = ["01030201f4", "0106102801f4", "01030201f4", "01030203e7", "0103023fff", "01062012ffff", "018321", "01030404d20001"];
     let mut client = Client::new(Line::new(framing, &replies), &PROFILE, framing, 1);
     assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
     assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
@@ -102,20 +104,74 @@ fn reads_and_writes(framing: Framing) {
     assert_eq!(client.read_with::<points::VoltageSetpoint>(ratio), Ok(500.0));
     assert_eq!(client.read::<points::FrequencySource>(), Ok(enums::FrequencySource::Unknown(999)));
     assert_eq!(client.update::<points::DelayClass>(3), Ok(()));
-    let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
-    assert_eq!(client.read::<points::BaseFrequency>(), refused);
+    let refused = client.read::<points::BaseFrequency>().unwrap_err();
+    let (code, name) = (exceptions::VALUE_OUT_OF_RANGE, Some("value_out_of_range"));
+    assert_eq!(refused, ClientError::Reply(ReplyError::Exception { code, name }));
+    assert_eq!(refused.to_string(), "the device refused with exception 21h (value_out_of_range)");
     let far = client.write::<points::BaseFrequency>(401.0).unwrap_err();
-    assert_eq!(far.to_string(), "base_frequency: 401 is outside 0 to 400");
+    assert_eq!(far.to_string(), "base_frequency: 401 Hz is outside 0 to 400 Hz (raw 0 to 4000)");
     let block = blocks::MAIN.iter().find(|block| block.brings::<points::AccelerationTime>()).unwrap();
     let reply = client.exchange(Request::block(1, block)).unwrap().unwrap();
     let raw = reply.raw::<points::AccelerationTime>().unwrap();
     assert_eq!(points::AccelerationTime::decode(raw), 808_714.25);
-    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength));
+    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength(Some("base_frequency"))));
     assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came")));
     let sent = client.into_transport().sent;
     assert_eq!(sent[1..3], ["0106102801f4", "010320080001"]);
     assert_eq!(sent[4..6], ["010320120001", "01062012ffff"]);
     assert_eq!(sent.len(), 9);
+}
+
+/// A line that cannot leave its thread.
+struct Shared(Rc<RefCell<Line>>);
+
+impl LocalTransport for Shared {
+    type Error = &'static str;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        self.0.borrow_mut().answer(request, reply)
+    }
+}
+
+fn a_transport_may_stay_on_its_thread() {
+    let line = Rc::new(RefCell::new(Line::new(Framing::Rtu, &["01030201f4", "0106102801f4", "01030201f4"])));
+    let mut shared = Shared(Rc::clone(&line));
+    let mut client = LocalClient::new(&mut shared, &PROFILE, Framing::Rtu, 1);
+    assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
+    assert_eq!(finish(client.write_count::<points::BaseFrequency>(500)), Ok(()));
+    let mut client = LocalClient::new(shared, &PROFILE, Framing::Rtu, 1);
+    assert_eq!(finish(client.read_count::<points::BaseFrequency>()), Ok(500));
+    assert_eq!(line.borrow().sent[1], "0106102801f4");
+}
+
+/// A gateway speaks TCP to us where the device knows RTU alone.
+fn a_gateway_speaks_another_framing() {
+    static RTU: Profile = PROFILE.with_framings(&[Framing::Rtu]);
+    static BEHIND_GATEWAY: Profile = RTU.with_framings(&[Framing::Tcp]);
+    let line = || Line::new(Framing::Tcp, &["01030201f4"]);
+    let mut client = Client::new(line(), &RTU, Framing::Tcp, 1);
+    let refused = Err(ClientError::Build(BuildError::BadFraming));
+    assert_eq!(client.read::<points::BaseFrequency>(), refused);
+    let mut client = Client::new(line(), &BEHIND_GATEWAY, Framing::Tcp, 1);
+    assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
+}
+
+fn points_are_found_by_name_and_code() {
+    let found = PointInfo::find(POINTS, "base_frequency").unwrap();
+    assert_eq!((found.address, found.unit, found.decimals), (0x1028, "Hz", 1));
+    assert_eq!(found.access, Access::ReadWrite);
+    assert_eq!(found.code.and_then(|code| PointInfo::find(POINTS, code)), Some(found));
+    assert_eq!(PointInfo::find(POINTS, "base frequency"), None);
+}
+
+/// What an error says, and what its sources say: nothing twice.
+fn errors_say_all_once_and_name_the_point() {
+    let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 1);
+    let error = client.write::<points::BaseFrequency>(f64::NAN).unwrap_err();
+    assert_eq!(error.to_string(), "base_frequency: the value is not a number");
+    let error: ClientError<std::io::Error> = Error::Special("level").into();
+    assert_eq!(error.to_string(), "level: the raw number is a special code and no quantity");
+    assert!(std::error::Error::source(&error).is_none());
 }
 
 fn all_units_get_a_write_and_none_answers() {
@@ -138,7 +194,7 @@ fn a_reply_of_another_space_is_no_point() {
     let mut client = Client::new(Line::new(Framing::Rtu, &replies), &PROFILE, Framing::Rtu, 1);
     let mut raw = |request| client.exchange(request).unwrap().unwrap().raw::<points::BaseFrequency>();
     assert_eq!(raw(Request::new(1, 3, 0x1028, 1)), Ok(1));
-    assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace));
+    assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace(Some("base_frequency"))));
     assert_eq!(raw(Request::write_values(1, 6, 0x1028, &[500])), Ok(500));
 }
 
@@ -171,4 +227,8 @@ fn main() {
     reads_and_writes(Framing::Tcp);
     all_units_get_a_write_and_none_answers();
     waits_without_blocking();
+    a_transport_may_stay_on_its_thread();
+    a_gateway_speaks_another_framing();
+    points_are_found_by_name_and_code();
+    errors_say_all_once_and_name_the_point();
 }

@@ -167,7 +167,8 @@ fn runs_and_stops() {
     // A refused task tells of the fault that came with it.
     drive.lock().unwrap().faulty = true;
     let refused = client.read::<points::UserAccessLevel>().unwrap_err();
-    assert_eq!(refused, ClientError::Reply(ParseError::Refused(exceptions::PARAMETER_NUMBER_NOT_ALLOWED)));
+    let (error, name) = (exceptions::PARAMETER_NUMBER_NOT_ALLOWED, Some("parameter_number_not_allowed"));
+    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }));
     assert!(client.heard::<points::StatusWord>().unwrap().fault());
     assert!(drive.lock().unwrap().control & 1 == 1);
 }
@@ -213,10 +214,10 @@ fn parameters_are_changed() {
     assert_eq!(client.write::<points::MaximumFrequency>(40.0), Ok(()));
     assert_eq!(client.store::<points::MaximumFrequency>(33.3), Ok(()));
     let nan = client.write::<points::MaximumFrequency>(f64::NAN);
-    assert_eq!(nan, Err(ClientError::Point(Error::NotANumber)));
+    assert_eq!(nan, Err(ClientError::Point(Error::NotANumber("maximum_frequency"))));
     client.send::<points::ControlWord>(RUN).unwrap();
     let running = client.write::<points::MaximumFrequency>(50.0).unwrap_err();
-    assert_eq!(running.to_string(), "the drive refused with error 17");
+    assert_eq!(running.to_string(), "the drive refused with error 17 (not_in_this_operating_state)");
     // P1120 has no point, as nobody says its scale; its address is at the head of the points.
     let ramp = client.exchange(Request::new(3, 1, 1120, 0)).unwrap().value();
     assert_eq!(ramp, Value::Double(10_f32.to_bits()));

@@ -60,12 +60,12 @@ fn main() {
     let raw = points::Note::encode(Text::from_bytes(b"aabbcc").unwrap()).unwrap();
     assert_eq!(points::Note::to_words(raw), [0x6161, 0x6363, 0x6262]);
     assert_eq!(points::Note::from_received([0x6161, 0x6363, 0x6262].into_iter()), Ok(raw));
-    assert_eq!(points::Note::from_received([0x6161, 0x6363].into_iter()), Err(Error::WrongLength));
+    assert_eq!(points::Note::from_received([0x6161, 0x6363].into_iter()), Err(Error::WrongLength(Some("note"))));
 
     let blanks = Text::<4>::from_bytes(b"a  ").unwrap();
     assert_eq!((blanks.as_bytes(), blanks), (&b"a"[..], Text::new("a").unwrap()));
-    assert_eq!(Text::<4>::from_bytes(b"a    "), Err(Error::BadText));
-    assert_eq!(Text::<4>::new("\u{100}"), Err(Error::BadText));
+    assert_eq!(Text::<4>::from_bytes(b"a    "), Err(Error::BadText(None)));
+    assert_eq!(Text::<4>::new("\u{100}"), Err(Error::BadText(None)));
     let high = Text::<4>::from_bytes(b"\xe4\0").unwrap();
     assert_eq!((high.as_str(), high.to_string().as_str()), (None, "ä\0"));
     assert_eq!((Text::<4>::EMPTY.as_str(), Text::<4>::default().to_string().len()), (Some(""), 0));

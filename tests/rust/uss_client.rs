@@ -1,14 +1,16 @@
 //! USS clients over a line of a made-up drive: what is sent, and what comes out.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::future::{ready, Future};
 use std::pin::pin;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::client::{AsyncTransport, Transport};
+use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
 use fieldscribe_runtime::uss::{
-    check_byte, AsyncClient, BuildError, Client, ClientError, Link, ParseError, Request, Value,
+    check_byte, AsyncClient, BuildError, Client, ClientError, Link, LocalClient, ParseError, Request, Value,
 };
 use odd_uss::{exceptions, flags, points, tasks, with, Error, PROFILE};
 
@@ -157,9 +159,9 @@ fn parameters_are_read_and_written() {
 
 fn refusals_and_wrong_answers_are_told() {
     let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), &PROFILE, LINK, 3);
-    let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
     assert_eq!(client.read::<points::Source>(), Err(refused));
-    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength)));
+    assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(Some("reference")))));
     let mut drive = client.into_transport();
     drive.longer = true;
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(3, 4), 3);
@@ -177,18 +179,18 @@ fn refusals_and_wrong_answers_are_told() {
 fn process_data_go_both_ways() {
     let fifty = 0x4248_0000;
     let mut client = Client::new(drive(), &PROFILE, LINK, 3);
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(Some("status_word"))));
     assert_eq!(client.cycle(), Ok(()));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(0x0331)));
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
     assert_eq!(client.set::<points::ControlWord>(flags::ControlWord(0x047F)), Ok(()));
     assert_eq!(client.set_bits::<points::Jog>(2), Ok(()));
-    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength));
-    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength));
+    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(Some("position"))));
+    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(Some("far_word"))));
     let setpoint = with::MainSetpoint { reference: fifty };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     let none = with::MainSetpoint { reference: 0x7F80_0000 };
-    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor));
+    assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor(Some("main_setpoint"))));
     let limit = with::LimitedSetpoint { reference: 0x4270_0000 };
     let far = client.set_with::<points::LimitedSetpoint>(16385, limit).unwrap_err();
     assert_eq!(far.to_string(), "limited_setpoint: raw 16385 is outside 0 to 16384");
@@ -245,7 +247,7 @@ fn words_that_the_drive_has_are_repeated() {
     let mut client = started(&mut line);
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(Some("status_word"))));
     client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
     client.transport().lost = 1;
     assert!(client.cycle().is_err());
@@ -257,7 +259,7 @@ fn a_refused_task_brings_process_data() {
     line.memory.clear();
     let mut client = started(&mut line);
     client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
-    let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
     client.transport().actual[0] = 0x0008;
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(8)));
@@ -270,9 +272,9 @@ fn constant_bits_come_with_their_own_word() {
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(1)), Ok(()));
     assert_eq!(client.set_word(3, 7), Ok(()));
-    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength));
+    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength(None)));
     assert_eq!(client.cycle(), Ok(()));
-    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength)));
+    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength(None))));
     let sent = client.into_transport().sent;
     assert_eq!(data(&sent[0]), [0, 0x2000, 0, 0]);
     assert_eq!(data(&sent[2]), [0x0401, 0x2000, 0, 7]);
@@ -326,6 +328,26 @@ fn waits_without_blocking() {
     assert_eq!(client.into_transport().kept, [14]);
 }
 
+/// A line that cannot leave its thread.
+struct Shared(Rc<RefCell<Drive>>);
+
+impl LocalTransport for Shared {
+    type Error = &'static str;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        self.0.borrow_mut().answer(request, reply)
+    }
+}
+
+fn a_transport_may_stay_on_its_thread() {
+    let line = Rc::new(RefCell::new(drive()));
+    let mut client = LocalClient::new(Shared(Rc::clone(&line)), &PROFILE, LINK, 3);
+    assert_eq!(finish(client.read_count::<points::Source>()), Ok(2));
+    assert_eq!(finish(client.store_raw::<points::Source>(1)), Ok(()));
+    assert_eq!(finish(client.read::<points::Source>()), Ok(1));
+    assert_eq!((line.borrow().sent.len(), line.borrow().kept.len()), (3, 1));
+}
+
 /// A drive whose answers nobody waits for.
 struct Silent(Drive, bool);
 
@@ -371,4 +393,5 @@ fn main() {
     all_units_are_sent_valid_words();
     a_dropped_exchange_is_a_failed_one();
     waits_without_blocking();
+    a_transport_may_stay_on_its_thread();
 }

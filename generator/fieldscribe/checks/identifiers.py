@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.names import pascal
+from fieldscribe.names import RUST_CONSTANTS, RUST_UNKNOWN, pascal
 from fieldscribe.resolve.drafts import Draft, groups
 
 if TYPE_CHECKING:
@@ -15,17 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Entry, Enum, Point
     from fieldscribe.resolve.points import Resolved
-
-RUST_CONSTANTS = frozenset(
-    {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
-    | {"decimals", "read_function", "write_function", "write_address"}
-    | {"telegram", "index", "addresses", "codes", "numbers", "fixed_bits", "fixed_mask", "floating"}
-    | {"is_grouped", "is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
-)
-"""Associated constants of the Rust point traits, which a special code of the same name would hide."""
-
-RUST_UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
-"""What the Rust enum calls numbers without a name: the first that no entry takes."""
 
 
 class Claim(NamedTuple):

@@ -20,39 +20,13 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
 
 HEADER = frozenset(
-    {
-        "ok",
-        "may_fuse",
-        "out_of_range",
-        "not_a_number",
-        "unknown_value",
-        "zero_factor",
-        "no_case",
-        "overflow",
-        "special",
-        "h",
-    }
-    | {"modbus_h", "description_version", "description_digest", "status", "real", "rule", "signed", "signed32"}
-    | {
-        "signed64",
-        "divide",
-        "divide_wide",
-        "magnitude",
-        "multiply",
-        "add",
-        "times_ten_to",
-        "ratio",
-        "apply_rule",
-        "quotient",
-    }
-    | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
-    | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw", "value_from_wide"}
-    | {"f32_order", "f64_order"}
-    | {"modbus_functions", "modbus_profile", "can_h", "can_bitrate", "can_profile", "uss_h", "uss_profile"}
-    | {"can_dialogue", "uss_tasks", "uss_pkw"}
-    | {"split_f32", "twice_ratio", "shifted_ratio", "apply_shifted", "two_to"}
+    {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special"}
+    | {"status", "real", "h", "description_version", "description_digest"}
+    | {"modbus_h", "modbus_functions", "modbus_profile"}
+    | {"can_h", "can_bitrate", "can_profile", "can_dialogue"}
+    | {"uss_h", "uss_tasks", "uss_pkw", "uss_profile"}
 )
-"""What the header defines behind the device's name."""
+"""What headers define behind the device's name, whatever the description says."""
 
 _ALWAYS = frozenset({"space", "address", "words", "code", "raw_min", "raw_max", "decimals"})
 _FUNCTIONS = frozenset(

@@ -11,13 +11,14 @@
  *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
  *     send(&frame);
  *     (frames come; each is offered, and one with another status than OK is none of this answer)
- *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, words);
- *     fits = fieldscribe_take_u16(point->layout, words, &raw);
+ *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, &word);
+ *     fits = fieldscribe_take_u16(point->layout, &word, 1U, &raw);
  *
- * Writing one: fieldscribe_put_u16(point->layout, raw, words), then fieldscribe_can_write(&dialogue, unit,
- * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
- * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
- * long one is, and fieldscribe_can_id which identifier a filter has to let through.
+ * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(point->layout, raw, &word, 1U)
+ * puts any that fits into the word, then fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame). A point
+ * that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back. Where
+ * answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is, and fieldscribe_can_id which
+ * identifier a filter has to let through.
  */
 #include "fieldscribe.h"
 
@@ -51,7 +52,8 @@ typedef enum fieldscribe_can_status {
     FIELDSCRIBE_CAN_ECHO_MISMATCH, /* the device answers a write with another word than the one that was written */
     /* telegrams */
     FIELDSCRIBE_CAN_MISSING, /* the frame that carries a word has not come yet */
-    FIELDSCRIBE_CAN_TORN     /* two words of one number may be of different times: wait for more frames */
+    FIELDSCRIBE_CAN_TORN,    /* two words of one number may be of different times: wait for more frames */
+    FIELDSCRIBE_CAN_BUFFER_TOO_SMALL /* the caller's words do not hold the result */
 } fieldscribe_can_status;
 
 /* A data frame; of `length` bytes (which a stranger may make larger than 8) the first eight are in `data`. */
@@ -211,6 +213,7 @@ typedef struct fieldscribe_can_slot {
 typedef struct fieldscribe_can_receiver {
     const fieldscribe_can_telegram *telegram;
     fieldscribe_can_slot *slots;
+    size_t slot_count;
     uint64_t clock;
     uint8_t unit;
 } fieldscribe_can_receiver;
@@ -235,15 +238,15 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read(const fieldscrib
 
 /* The word that a frame answers with; nothing is stored unless the result is OK. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_read_answer(const fieldscribe_can_dialogue *dialogue,
-    uint8_t unit, const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *words);
+    uint8_t unit, const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *word);
 
 /* The frame that writes a word. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
-    const fieldscribe_can_writing *what, const uint16_t *words, fieldscribe_can_frame *frame);
+    const fieldscribe_can_writing *what, uint16_t word, fieldscribe_can_frame *frame);
 
 /* Whether a frame confirms that the device took what was written: it tells the word that stands there now. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialogue *dialogue,
-    uint8_t unit, const fieldscribe_can_writing *what, const uint16_t *words, const fieldscribe_can_frame *frame);
+    uint8_t unit, const fieldscribe_can_writing *what, uint16_t word, const fieldscribe_can_frame *frame);
 
 /* Word `at` of a text, to be read, or written, as a parameter; BAD_ADDRESS when the text has no such word. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_read(
@@ -254,9 +257,12 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word_to_write(
 /* How many frames, and so slots, a telegram consists of. */
 FIELDSCRIBE_CHECKED size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram);
 
-/* A receiver for the telegram of one unit that has not heard anything yet; the slots stay with it. */
+/*
+ * A receiver for the telegram of one unit that has not heard anything yet; the slots stay with it. With fewer of them
+ * (`count`) than the telegram has frames it never takes one.
+ */
 FIELDSCRIBE_CHECKED fieldscribe_can_receiver fieldscribe_can_listen(
-    const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots);
+    const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots, size_t count);
 
 /* Takes a frame, if it is one of the telegram. To a unit that the device cannot have nothing belongs. */
 bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame);
@@ -266,15 +272,19 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word(
     const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word);
 
 /*
- * The words of a point, the high one first; nothing is stored unless the result is OK. Where two words of one number
- * come in different frames, they are believed only when the same high word came before and after the low one.
+ * The words of a point, the high one first, where `count` are room enough; nothing is stored unless the result is OK.
+ * Where two words of one number come in different frames, they are believed only when the same high word came before
+ * and after the low one.
  */
-FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received(
-    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint16_t *words);
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *receiver,
+    const fieldscribe_can_heard *what, uint16_t *words, size_t count);
 
-/* The words of a text in the order of reading; those that came are stored, up to the first that has not. */
-FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(
-    const fieldscribe_can_receiver *receiver, const fieldscribe_can_text_heard *what, uint16_t *words);
+/*
+ * The words of a text in the order of reading; those that came are stored, up to the first that has not, and none if
+ * the text has more than `count`.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,
+    const fieldscribe_can_text_heard *what, uint16_t *words, size_t count);
 
 #ifdef __cplusplus
 }
@@ -466,29 +476,29 @@ fieldscribe_can_status fieldscribe_can_read(const fieldscribe_can_dialogue *dial
 }
 
 fieldscribe_can_status fieldscribe_can_read_answer(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
-    const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *words)
+    const fieldscribe_can_reading *what, const fieldscribe_can_frame *frame, uint16_t *word)
 {
     fieldscribe_can_content content = {unit, what->address, 0U};
     const fieldscribe_can_status status = fieldscribe_can_answer(dialogue->read_answer, frame, &content);
     if (status == FIELDSCRIBE_CAN_OK) {
-        words[0] = (uint16_t)(content.raw & 0xFFFFU);
+        *word = (uint16_t)(content.raw & 0xFFFFU);
     }
     return status;
 }
 
 fieldscribe_can_status fieldscribe_can_write(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
-    const fieldscribe_can_writing *what, const uint16_t *words, fieldscribe_can_frame *frame)
+    const fieldscribe_can_writing *what, uint16_t word, fieldscribe_can_frame *frame)
 {
-    const fieldscribe_can_content content = {unit, what->address, words[0]};
+    const fieldscribe_can_content content = {unit, what->address, word};
     return fieldscribe_can_build(dialogue->profile, dialogue->write, &content, frame);
 }
 
 fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialogue *dialogue, uint8_t unit,
-    const fieldscribe_can_writing *what, const uint16_t *words, const fieldscribe_can_frame *frame)
+    const fieldscribe_can_writing *what, uint16_t word, const fieldscribe_can_frame *frame)
 {
     fieldscribe_can_content content = {unit, what->address, 0U};
     const fieldscribe_can_status status = fieldscribe_can_answer(dialogue->write_answer, frame, &content);
-    if ((status == FIELDSCRIBE_CAN_OK) && (content.raw != words[0]) &&
+    if ((status == FIELDSCRIBE_CAN_OK) && (content.raw != word) &&
         fieldscribe_can_carries(dialogue->write_answer, FIELDSCRIBE_CAN_RAW)) {
         return FIELDSCRIBE_CAN_ECHO_MISMATCH;
     }
@@ -533,12 +543,14 @@ size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
 }
 
 fieldscribe_can_receiver fieldscribe_can_listen(
-    const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots)
+    const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots, size_t count)
 {
     static const fieldscribe_can_slot silent = {0U, 0U, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
+    const size_t frames = fieldscribe_can_slots(telegram);
     fieldscribe_can_receiver receiver;
     size_t at;
-    for (at = 0U; at < fieldscribe_can_slots(telegram); ++at) {
+    receiver.slot_count = (count < frames) ? 0U : frames;
+    for (at = 0U; at < receiver.slot_count; ++at) {
         slots[at] = silent;
     }
     receiver.telegram = telegram;
@@ -566,7 +578,7 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
             multiplexer = frame->data[at];
         }
     }
-    if (multiplexer >= fieldscribe_can_slots(receiver->telegram)) {
+    if (multiplexer >= receiver->slot_count) {
         return false;
     }
     slot = &receiver->slots[multiplexer];
@@ -591,12 +603,11 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
 static const fieldscribe_can_slot *fieldscribe_can_heard_slot(
     const fieldscribe_can_receiver *receiver, uint16_t position)
 {
-    const fieldscribe_can_slot *slot;
-    if (position >= receiver->telegram->words) {
+    const size_t frame = (size_t)position / fieldscribe_can_per_frame(receiver->telegram);
+    if ((position >= receiver->telegram->words) || (frame >= receiver->slot_count)) {
         return NULL;
     }
-    slot = &receiver->slots[position / fieldscribe_can_per_frame(receiver->telegram)];
-    return (slot->now == 0U) ? NULL : slot;
+    return (receiver->slots[frame].now == 0U) ? NULL : &receiver->slots[frame];
 }
 
 fieldscribe_can_status fieldscribe_can_word(
@@ -621,14 +632,18 @@ static bool fieldscribe_can_around(
                                   : ((low->before >= high->before) && (low->before <= high->now));
 }
 
-fieldscribe_can_status fieldscribe_can_received(
-    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint16_t *words)
+fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *receiver,
+    const fieldscribe_can_heard *what, uint16_t *words, size_t count)
 {
     const uint8_t per_frame = fieldscribe_can_per_frame(receiver->telegram);
+    const size_t needed = (what->high != what->low) ? 2U : 1U;
     const uint8_t high_place = (uint8_t)(what->high % per_frame);
     const uint8_t low_place = (uint8_t)(what->low % per_frame);
     const fieldscribe_can_slot *const high = fieldscribe_can_heard_slot(receiver, what->high);
     const fieldscribe_can_slot *const low = fieldscribe_can_heard_slot(receiver, what->low);
+    if (count < needed) {
+        return FIELDSCRIBE_CAN_BUFFER_TOO_SMALL;
+    }
     if ((high == NULL) || (low == NULL)) {
         return FIELDSCRIBE_CAN_MISSING;
     }
@@ -636,17 +651,17 @@ fieldscribe_can_status fieldscribe_can_received(
         return FIELDSCRIBE_CAN_TORN;
     }
     words[0] = high->words_now[high_place];
-    if (what->high != what->low) {
+    if (needed > 1U) {
         words[1] = ((high != low) && (high->now < low->now)) ? low->words_before[low_place]
                                                              : low->words_now[low_place];
     }
     return FIELDSCRIBE_CAN_OK;
 }
 
-fieldscribe_can_status fieldscribe_can_received_text(
-    const fieldscribe_can_receiver *receiver, const fieldscribe_can_text_heard *what, uint16_t *words)
+fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,
+    const fieldscribe_can_text_heard *what, uint16_t *words, size_t count)
 {
-    fieldscribe_can_status status = FIELDSCRIBE_CAN_OK;
+    fieldscribe_can_status status = (count < what->words) ? FIELDSCRIBE_CAN_BUFFER_TOO_SMALL : FIELDSCRIBE_CAN_OK;
     size_t at;
     for (at = 0U; (at < what->words) && (status == FIELDSCRIBE_CAN_OK); ++at) {
         status = fieldscribe_can_word(receiver, what->positions[at], &words[at]);

@@ -40,6 +40,23 @@ static inline fieldscribe_modbus_framing fieldscribe_framing(fieldscribe_vector 
     return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
 }
 
+/* A point is found in a block that reaches beyond it, and in none that ends or begins within it, or has other items. */
+static inline bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
+{
+    uint16_t values[FIELDSCRIBE_ROOM];
+    const uint16_t before = (uint16_t)(point->address == 0U ? 0U : 1U);
+    const uint16_t count = (uint16_t)(before + point->count);
+    const fieldscribe_modbus_reading block = {point->function, (uint16_t)(point->address - before), count};
+    const fieldscribe_modbus_reading late = {point->function, (uint16_t)(point->address + 1U), count};
+    const fieldscribe_modbus_reading other = {(uint8_t)(point->function ^ 1U), block.address, count};
+    const fieldscribe_modbus_reply whole = {values, FIELDSCRIBE_ROOM, count, 0U};
+    const fieldscribe_modbus_reply cut = {values, FIELDSCRIBE_ROOM, (uint16_t)(count - 1U), 0U};
+    return fieldscribe_modbus_words_in(&block, &whole, point) == values + before &&
+        fieldscribe_modbus_words_in(&block, &cut, point) == NULL &&
+        fieldscribe_modbus_words_in(&late, &whole, point) == NULL &&
+        fieldscribe_modbus_words_in(&other, &whole, point) == NULL;
+}
+
 /* Memory for a reply of that room. */
 static inline fieldscribe_modbus_reply fieldscribe_reply_into(uint16_t *values, size_t room)
 {
@@ -50,15 +67,24 @@ static inline fieldscribe_modbus_reply fieldscribe_reply_into(uint16_t *values, 
     return reply;
 }
 
-/* A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. */
+/*
+ * A receiver that asks before each byte how many are left knows at the last one, and not before, that it is. It is
+ * never told more than fit, and nothing where nobody answers.
+ */
 static inline void fieldscribe_receives(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
 {
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
     const size_t shortest = framing == FIELDSCRIBE_MODBUS_TCP ? 9U : 5U;
+    const bool silent = request->unit == profile->broadcast;
     size_t got;
     for (got = 0U; got <= length; ++got) {
-        const uint32_t left = fieldscribe_modbus_left(framing, request, bytes, got);
-        fieldscribe_agree(v, left == (got < shortest ? shortest : length) - got);
+        const size_t left = (got < shortest && shortest < length ? shortest : length) - got;
+        fieldscribe_agree(v,
+            fieldscribe_modbus_left(profile, framing, request, bytes, length, got) == (silent ? 0U : left) &&
+                fieldscribe_modbus_left(profile, framing, request, bytes, got, got) == 0U);
+        fieldscribe_agree(v, silent || left == 0U ||
+            fieldscribe_modbus_left(profile, framing, request, bytes, got + left - 1U, got) == left - 1U);
     }
 }
 
@@ -122,6 +148,7 @@ static inline bool fieldscribe_exchange(
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, words)                             \
+            fieldscribe_agree(v, fieldscribe_is_in_blocks(&(frame).read));                       \
         }                                                                                        \
     }
 
@@ -142,8 +169,8 @@ static inline bool fieldscribe_exchange(
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
-        const fieldscribe_modbus_request request =                                               \
-            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words); \
+        const fieldscribe_modbus_request request = fieldscribe_modbus_write(                     \
+            (uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words, (frame).write.count);   \
         fieldscribe_fill(words, sizeof words);                                                   \
         FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                               \
         fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
@@ -157,14 +184,17 @@ static inline bool fieldscribe_exchange(
         uint16_t reading[total] = {0U};                                                          \
         uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
         const fieldscribe_modbus_request request =                                               \
-            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words); \
+            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words, total); \
         size_t at;                                                                               \
         fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, total) == (total));          \
         for (at = 0U; at < (total); ++at) {                                                      \
             reading[at] = given[fieldscribe_rank((frame).text.addresses, total, at)];            \
         }                                                                                        \
         fieldscribe_fill(words, sizeof words);                                                   \
-        fieldscribe_put_text(&(frame).text, reading, words);                                     \
+        fieldscribe_agree(v, !fieldscribe_put_text(&(frame).text, reading, (total) - 1U, words, total) && \
+            !fieldscribe_put_text(&(frame).text, reading, total, words, (total) - 1U));          \
+        fieldscribe_untouched(v, words, sizeof words);                                           \
+        fieldscribe_agree(v, fieldscribe_put_text(&(frame).text, reading, total, words, total)); \
         fieldscribe_untouched(v, words + (total), sizeof words - (total) * sizeof words[0]);     \
         (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
     }
@@ -178,7 +208,7 @@ static inline bool fieldscribe_exchange(
         fieldscribe_modbus_request request = fieldscribe_modbus_read(unit, &(frame).read);       \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                           \
-            request = fieldscribe_modbus_write(unit, &(frame).update, words);                    \
+            request = fieldscribe_modbus_write(unit, &(frame).update, words, 1U);                \
             (void)fieldscribe_exchange(v, 1U, &request, echoed);                                 \
         }                                                                                        \
     }
@@ -188,7 +218,11 @@ static inline bool fieldscribe_reads_text(const fieldscribe_text *text, const ui
 {
     uint16_t reading[FIELDSCRIBE_ROOM];
     size_t at = 0U;
-    fieldscribe_take_text(text, words, reading);
+    if (fieldscribe_take_text(text, words, text->words - 1U, reading, FIELDSCRIBE_ROOM) ||
+        fieldscribe_take_text(text, words, text->words, reading, text->words - 1U) ||
+        !fieldscribe_take_text(text, words, text->words, reading, text->words)) {
+        return false;
+    }
     while (at < text->words && reading[at] == words[fieldscribe_rank(text->addresses, text->words, at)]) {
         ++at;
     }
@@ -200,13 +234,14 @@ static inline bool fieldscribe_reads_text(const fieldscribe_text *text, const ui
 static fieldscribe_modbus_framing fieldscribe_read_request(
     fieldscribe_vector *v, uint16_t *values, fieldscribe_modbus_request *request)
 {
-    const size_t count = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
+    const size_t given = fieldscribe_numbers(v, "values", values, FIELDSCRIBE_VALUES_MOST);
+    const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");
+    const fieldscribe_modbus_reading read = {(uint8_t)fieldscribe_bits(v, "function"),
+        (uint16_t)fieldscribe_bits(v, "address"), (uint16_t)fieldscribe_bits(v, "count")};
+    const fieldscribe_modbus_writing write = {read.function, read.address, read.count};
+    *request = fieldscribe_modbus_reads(read.function) ? fieldscribe_modbus_read(unit, &read)
+                                                       : fieldscribe_modbus_write(unit, &write, values, given);
     request->transaction = (uint16_t)fieldscribe_bits(v, "transaction");
-    request->unit = (uint8_t)fieldscribe_bits(v, "unit");
-    request->function = (uint8_t)fieldscribe_bits(v, "function");
-    request->address = (uint16_t)fieldscribe_bits(v, "address");
-    request->count = (uint16_t)fieldscribe_bits(v, "count");
-    request->values = count != 0U ? values : NULL;
     return fieldscribe_framing(v);
 }
 
@@ -226,7 +261,7 @@ static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framin
     fieldscribe_agree(v,
         fieldscribe_modbus_build(profile, framing, request, built, length, &again) == FIELDSCRIBE_MODBUS_OK &&
             again == length && memcmp(built, expected, length) == 0);
-    empty.values = NULL;
+    empty.given = request->given == 0U ? 0U : (size_t)request->count - 1U;
     fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
         (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
 }
@@ -276,11 +311,7 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
         fieldscribe_modbus_parse(framing, request, bytes, length, &reply) == FIELDSCRIBE_MODBUS_OK &&
             reply.count == (several ? 0U : room));
     if (!reads && !several) {
-        empty.values = NULL;
-        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==
-            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
-        empty = *request;
-        empty.count = 0U;
+        empty.given = 0U;
         fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==
             FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
     }

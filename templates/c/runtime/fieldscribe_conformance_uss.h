@@ -56,7 +56,9 @@ static inline void fieldscribe_receives(
     fieldscribe_agree(v, varies ? shortest == 10U + 2U * link->pzd : shortest == length);
     for (got = 0U; got <= length; ++got) {
         const size_t known = got < 2U ? shortest : length;
-        fieldscribe_agree(v, fieldscribe_uss_left(link, bytes, got) == known - got);
+        fieldscribe_agree(v, fieldscribe_uss_left(link, bytes, length, got) == known - got);
+        fieldscribe_agree(v, fieldscribe_uss_left(link, bytes, got, got) == 0U);
+        fieldscribe_agree(v, got == known || fieldscribe_uss_left(link, bytes, known - 1U, got) == known - 1U - got);
     }
 }
 
@@ -92,13 +94,15 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
     fieldscribe_uss_reply other = *reply;
     uint16_t untouched[3];
     fieldscribe_fill(untouched, sizeof untouched);
-    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, words) == FIELDSCRIBE_USS_OK);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, words, what->width) == FIELDSCRIBE_USS_OK);
     other.width = (uint8_t)(3U - reply->width);
-    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched) == FIELDSCRIBE_USS_WRONG_RESPONSE);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched, 3U) == FIELDSCRIBE_USS_WRONG_RESPONSE);
     other.width = 0U;
-    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched) == FIELDSCRIBE_USS_WRONG_RESPONSE);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(&other, what, untouched, 3U) == FIELDSCRIBE_USS_WRONG_RESPONSE);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, untouched, what->width - 1U) ==
+        FIELDSCRIBE_USS_BUFFER_TOO_SMALL);
     fieldscribe_untouched(v, untouched, sizeof untouched);
-    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, untouched) == FIELDSCRIBE_USS_OK);
+    fieldscribe_agree(v, fieldscribe_uss_words_of_reply(reply, what, untouched, what->width) == FIELDSCRIBE_USS_OK);
     fieldscribe_untouched(v, untouched + what->width, sizeof untouched - what->width * sizeof untouched[0]);
 }
 
@@ -122,7 +126,11 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         fieldscribe_uss_reply reply;                                                             \
         fieldscribe_uss_request request;                                                         \
         FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                               \
-        request = fieldscribe_uss_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, value); \
+        request = fieldscribe_uss_write(                                                         \
+            (uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, value, (frame).write.width - 1U); \
+        fieldscribe_agree(v, request.width == FIELDSCRIBE_USS_TOO_FEW_WORDS);                    \
+        request = fieldscribe_uss_write(                                                         \
+            (uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, value, (frame).write.width);   \
         fieldscribe_agree(v, request.width == (frame).layout->words);                            \
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
@@ -138,7 +146,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
             fieldscribe_is_value(v, &reply, &(reading), value);                                  \
             FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                           \
-            request = fieldscribe_uss_write(unit, &(frame).update, value);                       \
+            request = fieldscribe_uss_write(unit, &(frame).update, value, 1U);                   \
             (void)fieldscribe_exchange(v, 1U, &request, words, &reply);                          \
         }                                                                                        \
     }
@@ -149,7 +157,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \
         const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
-        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, fieldscribe_uss_words_sent(&(frame).sent, words)) \
+        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, fieldscribe_uss_words_sent(&(frame).sent, words, 256U)) \
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
@@ -158,7 +166,10 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
         const bool part = fieldscribe_asks(v, "bits");                                           \
         uint16_t words[count];                                                                   \
-        uint16_t *const own = fieldscribe_uss_words_sent(&(frame).sent, words);                  \
+        uint16_t *const own =                                                                    \
+            fieldscribe_uss_words_sent(&(frame).sent, words, macro##_ADDRESS + (frame).layout->words); \
+        fieldscribe_agree(v, (frame).sent.words == (frame).layout->words && fieldscribe_uss_words_sent( \
+            &(frame).sent, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);        \
         fieldscribe_fill(words, sizeof words);                                                   \
         own[0] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;                              \
         FIELDSCRIBE_PUT_FIELD((frame).layout, kind, raw_type, part ? "replaced" : "raw", own)    \
@@ -180,7 +191,10 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         } else {                                                                                 \
             (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, (frame).layout->words);       \
         }                                                                                        \
-        FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words)) \
+        fieldscribe_agree(v, (frame).heard.words == (frame).layout->words && fieldscribe_uss_words_heard( \
+            &(frame).heard, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);       \
+        FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type,                                        \
+            fieldscribe_uss_words_heard(&(frame).heard, words, macro##_ADDRESS + (frame).layout->words)) \
     }
 
 #define FIELDSCRIBE_HEAR(frame, kind, raw_type)                                                  \
@@ -189,7 +203,8 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         fieldscribe_uss_reply reply;                                                             \
         const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
-            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words)) \
+            FIELDSCRIBE_TAKEN(                                                                   \
+                (frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words, 256U)) \
         }                                                                                        \
     }
 

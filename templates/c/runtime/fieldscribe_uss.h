@@ -14,15 +14,20 @@
  *     status = fieldscribe_uss_build(&profile, &link, &request, &process, frame, sizeof frame, &length);
  *     send(frame, length);
  *     got = 0U;
- *     while ((left = fieldscribe_uss_left(&link, frame, got)) > 0U) {
+ *     while ((left = fieldscribe_uss_left(&link, frame, sizeof frame, got)) > 0U) {
  *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
  *     status = fieldscribe_uss_parse(&profile, &link, &request, frame, got, &reply);
- *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_maximum_frequency_frame.read, words);
- *     fits = fieldscribe_take_u32(siemens_mm4_maximum_frequency_frame.layout, words, &raw);
+ *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_maximum_frequency_frame.read, words, count);
+ *     fits = fieldscribe_take_u32(siemens_mm4_maximum_frequency_frame.layout, words, count, &raw);
  *
- * Writing one: fieldscribe_put_u32(frame.layout, raw, words), then fieldscribe_uss_write(unit, &frame.write, words).
+ * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u32(frame.layout, raw, words, count)
+ * puts any that fits into the words, then fieldscribe_uss_write(unit, &frame.write, words, count).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
+ *
+ * A point of the process data: point = fieldscribe_uss_words_heard(&frame.heard, heard, link.pzd), then
+ * fieldscribe_take_s16(frame.layout, point, frame.heard.words, &raw), which is false where it was NULL; the same with
+ * `sent` and put.
  */
 #include "fieldscribe.h"
 
@@ -34,7 +39,7 @@ extern "C" {
 #endif
 
 /* What the headers of devices rely on: it grows when they have to be generated anew. */
-#define FIELDSCRIBE_USS_INTERFACE 2
+#define FIELDSCRIBE_USS_INTERFACE 3
 
 /* The longest telegram there is. */
 #define FIELDSCRIBE_USS_MOST 256U
@@ -56,7 +61,7 @@ typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_BAD_TASK,         /* the device does not know the task, or the link has no parameter part for it */
     FIELDSCRIBE_USS_BAD_PARAMETER,    /* beyond 31999 */
     FIELDSCRIBE_USS_BAD_INDEX,        /* beyond 255 */
-    FIELDSCRIBE_USS_BAD_VALUE,        /* the value does not fit into the words for it */
+    FIELDSCRIBE_USS_BAD_VALUE,        /* the value does not fit into the words for it, or has fewer */
     FIELDSCRIBE_USS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
     /* parsing */
     FIELDSCRIBE_USS_WRONG_START,
@@ -112,13 +117,15 @@ typedef struct fieldscribe_uss_writing {
     uint8_t width;
 } fieldscribe_uss_writing;
 
-/* Where a point stands in the words of process data that are heard, and in those that are sent. */
+/* Where a point stands in the words of process data that are heard, and in those that are sent, and how many it has. */
 typedef struct fieldscribe_uss_heard {
     uint16_t position;
+    uint8_t words;
 } fieldscribe_uss_heard;
 
 typedef struct fieldscribe_uss_sent {
     uint16_t position;
+    uint8_t words;
 } fieldscribe_uss_sent;
 
 /*
@@ -168,6 +175,9 @@ typedef struct fieldscribe_uss_hs {
     fieldscribe_uss_sent sent;
 } fieldscribe_uss_hs;
 
+/* A width that no value has: fewer words were given than were to be written. */
+#define FIELDSCRIBE_USS_TOO_FEW_WORDS 0xFFU
+
 /* What is asked of a parameter. `width` is how many words the value has: 0 for none, 1 or 2. */
 typedef struct fieldscribe_uss_request {
     uint8_t unit;
@@ -203,9 +213,9 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t uni
 /* The request that reads a parameter. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, const fieldscribe_uss_reading *what);
 
-/* The request that writes one: as many `words` as its value has, the high one first. */
+/* The request that writes one: of `count` words as many as its value has, the high one first; fewer are BAD_VALUE. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_request fieldscribe_uss_write(
-    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words);
+    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words, size_t count);
 
 /* The telegram of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
@@ -223,9 +233,12 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_build_broadcast(const
 /* The bytes of an answer over the link; the fewest, where the parameter part is as long as its content needs. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_link *link);
 
-/* How many bytes of the answer are still to be waited for when `length` of them have come; 0 when it is whole. */
+/*
+ * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
+ * never more than fit; 0 when it is whole. Nobody answers a broadcast: do not wait.
+ */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
-    const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length);
+    const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length);
 
 /*
  * Reads the answer to `request`. The words of process data, as many as the link has, come with every good telegram,
@@ -236,14 +249,31 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscri
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
     fieldscribe_uss_reply *reply);
 
-/* The words of the value that an answer brings, the high one first; WRONG_RESPONSE when it has another width. */
+/*
+ * The words of the value that an answer brings, the high one first, where `count` are room enough; WRONG_RESPONSE when
+ * it has another width.
+ */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_words_of_reply(
-    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words);
+    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words, size_t count);
 
-/* The words of one point among those of process data. */
-FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_uss_words_heard(
-    const fieldscribe_uss_heard *where, const uint16_t *process);
-FIELDSCRIBE_CHECKED uint16_t *fieldscribe_uss_words_sent(const fieldscribe_uss_sent *where, uint16_t *process);
+/* The words of one point among the `count` of process data; NULL when those do not hold all of them. */
+FIELDSCRIBE_CHECKED static inline const uint16_t *fieldscribe_uss_words_heard(
+    const fieldscribe_uss_heard *where, const uint16_t *process, size_t count)
+{
+    if ((where->words > count) || (where->position > (count - where->words))) {
+        return NULL;
+    }
+    return &process[where->position];
+}
+
+FIELDSCRIBE_CHECKED static inline uint16_t *fieldscribe_uss_words_sent(
+    const fieldscribe_uss_sent *where, uint16_t *process, size_t count)
+{
+    if ((where->words > count) || (where->position > (count - where->words))) {
+        return NULL;
+    }
+    return &process[where->position];
+}
 
 /* The last byte of a telegram: all before it, combined by exclusive or. */
 FIELDSCRIBE_CHECKED uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length);
@@ -276,11 +306,16 @@ fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, const fieldscribe_uss
 }
 
 fieldscribe_uss_request fieldscribe_uss_write(
-    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words)
+    uint8_t unit, const fieldscribe_uss_writing *what, const uint16_t *words, size_t count)
 {
-    fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, what->width, words[0]};
-    if (what->width == 2U) {
-        request.value = (request.value << 16) | words[1];
+    fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, what->width, 0U};
+    size_t at;
+    if (count < what->width) {
+        request.width = FIELDSCRIBE_USS_TOO_FEW_WORDS;
+        return request;
+    }
+    for (at = 0U; at < what->width; ++at) {
+        request.value = (request.value << 16) | words[at];
     }
     return request;
 }
@@ -322,8 +357,7 @@ static const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_pr
 static uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
 {
     const uint32_t page = parameter / 2000U;
-    return (uint16_t)(index | ((page & 1U) << 15) | (((page >> 1) & 1U) << 12) | (((page >> 2) & 1U) << 13) |
-        (((page >> 3) & 1U) << 14));
+    return (uint16_t)(index | ((page & 1U) << 15) | (((page >> 1) & 7U) << 12));
 }
 
 /* Whether a single word stands in the second of the two words for the value. */
@@ -369,7 +403,7 @@ static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profi
         return FIELDSCRIBE_USS_BAD_INDEX;
     }
     if ((request->width > 2U) || ((request->width == 2U) && (link->pkw == 3U)) ||
-        ((request->width == 1U) && (request->value > 0xFFFFU)) || ((request->width == 0U) && (request->value != 0U))) {
+        ((request->width < 2U) && ((request->value >> (16U * request->width)) != 0U))) {
         return FIELDSCRIBE_USS_BAD_VALUE;
     }
     return FIELDSCRIBE_USS_OK;
@@ -551,38 +585,35 @@ uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_link *link)
     return 4U + (2U * (part + link->pzd));
 }
 
-uint32_t fieldscribe_uss_left(const fieldscribe_uss_link *link, const uint8_t *bytes, size_t length)
+uint32_t fieldscribe_uss_left(
+    const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length)
 {
     uint32_t whole = fieldscribe_uss_reply_length(link);
     if ((length >= 2U) && (link->pkw == FIELDSCRIBE_USS_VARIABLE)) {
-        whole = 2U + (uint32_t)bytes[1];
+        whole = 2U + (uint32_t)buffer[1];
+    }
+    if (whole > size) {
+        whole = (uint32_t)size;
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
 fieldscribe_uss_status fieldscribe_uss_words_of_reply(
-    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words)
+    const fieldscribe_uss_reply *reply, const fieldscribe_uss_reading *what, uint16_t *words, size_t count)
 {
+    uint32_t left = reply->value;
+    uint8_t at;
     if (reply->width != what->width) {
         return FIELDSCRIBE_USS_WRONG_RESPONSE;
     }
-    if (reply->width == 2U) {
-        words[0] = (uint16_t)(reply->value >> 16);
-        words[1] = (uint16_t)(reply->value & 0xFFFFU);
-    } else {
-        words[0] = (uint16_t)(reply->value & 0xFFFFU);
+    if (count < reply->width) {
+        return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
+    }
+    for (at = reply->width; at > 0U; --at) {
+        words[at - 1U] = (uint16_t)(left & 0xFFFFU);
+        left >>= 16;
     }
     return FIELDSCRIBE_USS_OK;
-}
-
-const uint16_t *fieldscribe_uss_words_heard(const fieldscribe_uss_heard *where, const uint16_t *process)
-{
-    return &process[where->position];
-}
-
-uint16_t *fieldscribe_uss_words_sent(const fieldscribe_uss_sent *where, uint16_t *process)
-{
-    return &process[where->position];
 }
 
 #ifdef __cplusplus

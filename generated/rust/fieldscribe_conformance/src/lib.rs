@@ -30,7 +30,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Flags, Point, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
+    Flags, Point, PointInfo, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -282,19 +282,17 @@ impl<'a> Vector<'a> {
         same(self.number(key), found.ok().map(Number::to_number))
     }
 
-    /// Whether an error tells the point, what was given, and limits beyond which that is, if there are no gaps in them.
+    /// Whether an error tells the point, what was given, and limits beyond which that is, if there are no gaps in them;
+    /// the words of a text have no point yet when they are none.
     fn refuses(&self, error: Option<Error>, gaps: bool) -> Outcome {
         let refused = match error {
             Some(Error::OutOfRange(refused)) => refused,
-            Some(error) => {
-                let point = error.refused().map(|refused| refused.point().to_owned());
-                return same(point.as_ref().map(|_| self.text("point")), point);
-            }
+            Some(error) => return same(Some(self.text("point").as_str()), error.point()),
             None => return Ok(()),
         };
         same(self.text("point").as_str(), refused.point())?;
         let (ordered, beyond) = match refused {
-            Refused::Value(outside) => {
+            Refused::Value { outside, .. } => {
                 let asked = self.field("value").map(|_| self.float());
                 same(asked.unwrap_or(outside.given), outside.given)?;
                 ends(outside.given, outside.low, outside.high)
@@ -711,8 +709,9 @@ where
     let more = [words.as_slice(), &[0]].concat();
     let received = |words: &[u16]| P::from_received(words.iter().copied());
     same(Ok(raw), received(&words))?;
-    same(Err(Error::WrongLength), received(&words[1..]))?;
-    same(Err(Error::WrongLength), received(&more))
+    let wrong = Err(Error::WrongLength(Some(P::NAME)));
+    same(wrong, received(&words[1..]))?;
+    same(wrong, received(&more))
 }
 
 /// The words by address are those in reading order.
@@ -746,6 +745,20 @@ fn ascending(lowest: u16, addresses: &[u16], words: u16, space: Space) -> Outcom
     let is_one_for_all = space == Space::Parameter && addresses.len() == 1;
     let words = if is_one_for_all { 1 } else { words };
     same(found, (lowest..).take(words.into()).collect())
+}
+
+/// What came out, and that the table of all points has the point, once and there.
+pub fn listed(vector: &Vector, points: &[PointInfo], outcome: Option<Outcome>) -> Option<Outcome> {
+    outcome.map(|found| found.and_then(|()| is_listed(vector, points)))
+}
+
+fn is_listed(vector: &Vector, points: &[PointInfo]) -> Outcome {
+    let name = vector.text("point");
+    let named = |point: &&PointInfo| point.name == name;
+    same(1, points.iter().filter(named).count())?;
+    let found = PointInfo::find(points, &name).map(|point| (point.space.name(), point.address));
+    let space = vector.text("space");
+    same(Some((space.as_str(), vector.raw("address"))), found)
 }
 
 /// The same but for the limits, which a text has not.
@@ -980,7 +993,18 @@ pub fn main(
     check: impl Fn(),
 ) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) => {
+            let [name, ..] = device;
+            eprintln!("cannot read the vectors {path}: {error}");
+            eprintln!("set FIELDSCRIBE_VECTORS to the absolute path of {name}.txt, which");
+            eprintln!(
+                "`fieldscribe generate {name} --target vectors` writes into generated/vectors"
+            );
+            return ExitCode::FAILURE;
+        }
+    };
     let (mut kinds, mut sets): (Vec<Shape>, Vec<Shape>) = (Vec::new(), Vec::new());
     let mut held: Vec<Vec<(&str, &str)>> = Vec::new();
     for line in text.lines() {

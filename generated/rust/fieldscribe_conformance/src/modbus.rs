@@ -73,12 +73,22 @@ pub fn reply(vector: &Vector) -> Outcome {
     let bytes = vector.bytes("bytes");
     let (status, items, exception) = match request.parse(&bytes) {
         Ok(reply) => ("ok", reply.items().collect::<Vec<_>>(), 0),
-        Err(ReplyError::Exception(code)) => ("exception", Vec::new(), code),
+        Err(ReplyError::Exception { code, name: None }) => ("exception", Vec::new(), code),
         Err(error) => (error.name(), Vec::new(), 0),
     };
     same(vector.text("status").as_str(), status)?;
     same(vector.numbers("values_out"), items)?;
     same(vector.count("exception"), exception)
+}
+
+/// That the profile names an exception code as the device does.
+pub fn named(vector: &Vector, profile: &Profile) -> Outcome {
+    let (code, name) = (vector.raw("number"), None);
+    let found = match profile.named(ReplyError::Exception { code, name }) {
+        ReplyError::Exception { name, .. } => name,
+        _ => None,
+    };
+    same(vector.said("name").as_deref(), found)
 }
 
 fn framing(vector: &Vector) -> Framing {
@@ -172,12 +182,7 @@ where
 
 /// A command.
 pub fn command(vector: &Vector, profile: &'static Profile, command: Command) -> Outcome {
-    let unit = vector.raw("unit");
-    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
-    let found = client
-        .exchange(Request::command(unit, &command))
-        .map(|_| ());
-    exchanged(vector, found, name, &client.into_transport())?;
+    both!(vector, profile, |client| client.command(&command));
     same(vector.raw("value"), command.value.unwrap_or(1))
 }
 

@@ -3,16 +3,14 @@
 
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
-use std::error::Error as _;
-
 use fieldscribe_runtime::modbus::{
     crc, read_function, reply_length, write_function, AsyncClient, Block, BuildError, Client,
-    ClientError, Command, Framing, Function, Profile, ReplyError, Request,
+    ClientError, Command, Framing, Function, LocalClient, Profile, ReplyError, Request,
 };
 use fieldscribe_runtime::{BitGroup, Error, Space, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Line, Lost, REFUSED};
+use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
 
 made_up!(Word u16, Holding 0x10, &[0x10], 1);
 made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
@@ -39,8 +37,15 @@ const FUNCTIONS: &[Function] = &[
     Function::new(20, 1),
 ];
 const BOTH: &[Framing] = &[Framing::Rtu, Framing::Tcp];
-static PROFILE: Profile = Profile::new(FUNCTIONS, BOTH, (1, 9), Some(0));
+static PROFILE: Profile = Profile::new(FUNCTIONS, BOTH, (1, 9), Some(0)).naming(named);
+static RTU: Profile = PROFILE.with_framings(&[Framing::Rtu]);
+static BEHIND_GATEWAY: Profile = RTU.with_framings(&[Framing::Tcp]);
 static PADDED: Profile = Profile::new(FUNCTIONS, &[Framing::Tcp], (1, 9), None).padding_coils();
+
+/// What the device calls its one exception code.
+fn named(code: u8) -> Option<&'static str> {
+    (code == 2).then_some("no_such_address")
+}
 
 /// Panics where the runtime is not as it should be.
 pub fn check() {
@@ -52,6 +57,11 @@ pub fn check() {
     now_over_tcp();
     at_once_over_rtu();
     now_over_rtu();
+    staying_over_tcp();
+    staying_over_rtu();
+    more_at_once();
+    more_now();
+    more_staying();
 }
 
 fn errors() {
@@ -127,9 +137,20 @@ fn errors() {
                 "the reply is to another function",
             ),
             (
-                ReplyError::Exception(2),
+                ReplyError::Exception {
+                    code: 0x21,
+                    name: Some("value_out_of_range"),
+                },
                 "exception",
-                "the device refused with exception 2",
+                "the device refused with exception 21h (value_out_of_range)",
+            ),
+            (
+                ReplyError::Exception {
+                    code: 2,
+                    name: None,
+                },
+                "exception",
+                "the device refused with exception 02h",
             ),
             (
                 ReplyError::BadByteCount,
@@ -144,7 +165,10 @@ fn errors() {
         ],
     );
     let errors: [(ClientError<Lost>, &str); 4] = [
-        (Error::Overflow.into(), "the result does not fit its type"),
+        (
+            Error::Overflow(None).into(),
+            "the result does not fit its type",
+        ),
         (
             BuildError::BadUnit.into(),
             "the device has no such unit number",
@@ -153,12 +177,9 @@ fn errors() {
         (ClientError::Transport(Lost), "nothing came"),
     ];
     for (error, shown) in errors {
-        assert_eq!(error.to_string(), shown);
-        assert_eq!(
-            error.source().map(ToString::to_string).as_deref(),
-            Some(shown)
-        );
+        assert_eq!(chain(&error), [shown]);
     }
+    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
 }
 
 fn functions() {
@@ -195,6 +216,17 @@ fn functions() {
             .collect::<Vec<_>>(),
         [false, true]
     );
+    for (profile, speaks) in [(RTU, [true, false]), (BEHIND_GATEWAY, [false, true])] {
+        assert_eq!([0, 1].map(|place| profile.speaks(BOTH[place])), speaks);
+        assert_eq!((profile.knows(6), profile.is_broadcast(0)), (true, true));
+    }
+    let exceptions = [2, 3].map(|code| RTU.named(refused(code)).to_string());
+    let shown = ["02h (no_such_address)", "03h"];
+    assert_eq!(
+        exceptions,
+        shown.map(|code| format!("the device refused with exception {code}"))
+    );
+    assert_eq!(PROFILE.named(ReplyError::BadCrc), ReplyError::BadCrc);
     assert_eq!([0, 1].map(|unit| PROFILE.is_broadcast(unit)), [true, false]);
     assert_eq!([0, 1].map(|unit| PADDED.is_broadcast(unit)), [false, false]);
     let brings = |address, count| Block::new(Space::Holding, 3, address, count).brings::<Long>();
@@ -353,7 +385,13 @@ fn rtu(body: &str) -> Vec<u8> {
     [bytes.as_slice(), &sum].concat()
 }
 
+/// An exception that nobody has named yet.
+const fn refused(code: u8) -> ReplyError {
+    ReplyError::Exception { code, name: None }
+}
+
 fn replies() {
+    let wrong = |point| Error::WrongLength(Some(point));
     let read = Request::new(5, 3, 0x1F, 3);
     let received = rtu("050306000100020003");
     let reply = read.parse(&received).expect("a reply");
@@ -367,20 +405,20 @@ fn replies() {
     );
     assert_eq!(
         (reply.raw::<Long>(), reply.raw::<Relay>()),
-        (Ok(0x0002_0003), Err(Error::WrongSpace))
+        (Ok(0x0002_0003), Err(Error::WrongSpace(Some("Relay"))))
     );
     assert_eq!(
         (reply.raw::<Word>(), reply.raw::<Group>()),
-        (Err(Error::WrongLength), Err(Error::WrongLength))
+        (Err(wrong("Word")), Err(wrong("Group")))
     );
-    assert_eq!(reply.raw::<Beyond>(), Err(Error::WrongLength));
+    assert_eq!(reply.raw::<Beyond>(), Err(wrong("Beyond")));
     let received = rtu("050600100009");
     let reply = Request::write::<Word>(5, 9)
         .parse(&received)
         .expect("an echo");
     assert_eq!(
         (reply.count(), reply.raw::<Word>(), reply.raw::<Relay>()),
-        (1, Ok(9), Err(Error::WrongSpace))
+        (1, Ok(9), Err(Error::WrongSpace(Some("Relay"))))
     );
     let received = rtu("05050040ff00");
     let relay = Request::write_values(5, 5, 0x40, &[1]);
@@ -414,7 +452,7 @@ fn replies() {
         ),
         (read, rtu("040306000100020003"), ReplyError::WrongUnit),
         (read, rtu("050406000100020003"), ReplyError::WrongFunction),
-        (read, rtu("058302"), ReplyError::Exception(2)),
+        (read, rtu("058302"), refused(2)),
         (read, rtu("05830200"), ReplyError::LongFrame),
         (bits, rtu("05010101"), ReplyError::BadByteCount),
         (long, rtu("051000200003"), ReplyError::EchoMismatch),
@@ -436,7 +474,7 @@ fn replies() {
             ReplyError::WrongTransaction,
         ),
         ("000700000009060306000100020003", ReplyError::WrongUnit),
-        ("000700000003058304", ReplyError::Exception(4)),
+        ("000700000003058304", refused(4)),
         ("00070000000405830400", ReplyError::LongFrame),
     ] {
         assert_eq!(
@@ -466,7 +504,7 @@ fn replies() {
 
 /// The same conversation with the client that blocks and the one that does not.
 macro_rules! conversations {
-    ($tcp:ident $rtu:ident $client:ident $wait:ident) => {
+    ($tcp:ident $rtu:ident $more:ident $client:ident $wait:ident) => {
         fn $tcp() {
             let step = |sent: &str, came: &str| (super::bytes(sent), came.to_owned());
             let mut client = $client::new(
@@ -484,6 +522,49 @@ macro_rules! conversations {
                 $wait(client.read::<Word>()),
                 Err(ClientError::Point(REFUSED))
             );
+            client.into_transport().done();
+        }
+
+        fn $more() {
+            let step = |sent: &str, came: &str| (rtu(sent), super::hex(&rtu(came)));
+            let line = Line::new(&[
+                step("050300200002", "05030400010002"),
+                step("050300200002", "05030400010002"),
+                step("050300100001", "050302ffff"),
+                step("0510002000020400010003", "051000200002"),
+                step("050600100007", "050600100007"),
+                step("0510002000020400010004", "051000200002"),
+                step("050600100008", "050600100008"),
+                step("050600100009", "050600100009"),
+                step("05050040ff00", "05050040ff00"),
+                step("0503001f0003", "050306000100020003"),
+                step("0503001f0003", "058302"),
+            ]);
+            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
+            assert_eq!($wait(client.read_count::<Long>()), Ok([0x0001_0002]));
+            assert_eq!($wait(client.read_count_with::<Long>(())), Ok([0x0001_0002]));
+            let wrong = ClientError::Point(REFUSED);
+            assert_eq!($wait(client.read_count::<Word>()), Err(wrong));
+            assert_eq!($wait(client.write_count::<Long>([0x0001_0003])), Ok(()));
+            assert_eq!($wait(client.write_count_with::<Word>([7], ())), Ok(()));
+            assert_eq!($wait(client.write_raw::<Long>(0x0001_0004)), Ok(()));
+            assert_eq!($wait(client.write_raw_with::<Word>(8, ())), Ok(()));
+            for refused in [
+                $wait(client.write_count::<Word>([0xFFFF])),
+                $wait(client.write_raw::<Word>(0xFFFF)),
+            ] {
+                assert_eq!(refused, Err(wrong));
+            }
+            let command = |function, address, value| Command::new(function, address, value);
+            assert_eq!($wait(client.command(&command(6, 0x10, Some(9)))), Ok(()));
+            assert_eq!($wait(client.command(&command(5, 0x40, None))), Ok(()));
+            let block = Block::new(Space::Holding, 3, 0x1F, 3);
+            let reply = $wait(client.read_block(&block)).map(|reply| reply.raw::<Long>());
+            assert_eq!(reply, Ok(Ok(0x0002_0003)));
+            let (code, name) = (2, Some("no_such_address"));
+            let refused = ClientError::Reply(ReplyError::Exception { code, name });
+            let reply = $wait(client.read_block(&block)).map(|_| ());
+            assert_eq!(reply, Err(refused));
             client.into_transport().done();
         }
 
@@ -507,7 +588,8 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost);
             let long = Err(ClientError::Reply(ReplyError::LongFrame));
             assert_eq!($wait(client.write_with::<Word>(7, ())), long);
-            let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
+            let (code, name) = (2, Some("no_such_address"));
+            let refused = Err(ClientError::Reply(ReplyError::Exception { code, name }));
             assert_eq!($wait(client.write::<Word>(8)), refused);
             let wrong = Err(ClientError::Point(REFUSED));
             assert_eq!($wait(client.write::<Word>(0xFFFF)), wrong);
@@ -515,10 +597,14 @@ macro_rules! conversations {
             assert_eq!($wait(client.update::<Group>(7)), lost);
             assert_eq!($wait(client.update::<Group>(7)), lost);
             client.into_transport().done();
-            let line = Line::new(&[step("0010002000020400010003", "")]);
+            let line = Line::new(&[
+                step("0010002000020400010003", ""),
+                step("001000200001020001", ""),
+            ]);
             let mut client = $client::new(line, &PROFILE, Framing::Rtu, 0);
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), Ok(()));
             assert_eq!(client.transport().space, 0);
+            assert_eq!($wait(client.command(&Command::new(16, 0x20, None))), Ok(()));
             let none = Err(ClientError::Build(BuildError::BadUnit));
             assert_eq!($wait(client.read::<Long>()), none);
             client.into_transport().done();
@@ -526,5 +612,6 @@ macro_rules! conversations {
     };
 }
 
-conversations!(at_once_over_tcp at_once_over_rtu Client at_once);
-conversations!(now_over_tcp now_over_rtu AsyncClient now);
+conversations!(at_once_over_tcp at_once_over_rtu more_at_once Client at_once);
+conversations!(now_over_tcp now_over_rtu more_now AsyncClient now);
+conversations!(staying_over_tcp staying_over_rtu more_staying LocalClient now);

@@ -7,12 +7,13 @@ use std::collections::VecDeque;
 use std::fmt;
 
 use fieldscribe_runtime::arithmetic;
-use fieldscribe_runtime::client::{AsyncTransport, Transport};
+use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
 use fieldscribe_runtime::flags::{show, Flag, Flags};
 use fieldscribe_runtime::form::floating::Pattern;
 use fieldscribe_runtime::{
-    digits, in_address_order, in_reading_order, quantity, text, written, Code, Coded, Digits,
-    Error, Outside, Raw, Reading, Refused, Rule, Space, Special, Text, Whole,
+    digits, in_address_order, in_reading_order, point_table, quantity, text, written, Code, Coded,
+    CountWritable, Digits, Encodable, Error, Outside, PointInfo, Raw, Reading, Refused, Rule,
+    Space, Special, Text, Whole,
 };
 
 /// A point that is a plain number; the greatest of its type may not be.
@@ -55,6 +56,28 @@ macro_rules! made_up {
         impl fieldscribe_runtime::Encodable for $name {
             fn encode_with(value: $raw, (): ()) -> Result<$raw, fieldscribe_runtime::Error> {
                 <Self as fieldscribe_runtime::Writable>::check(value).map(|()| value)
+            }
+        }
+
+        impl fieldscribe_runtime::CountReadable for $name {
+            type Count = [$raw; 1];
+
+            fn decode_count_with(
+                raw: $raw,
+                (): (),
+            ) -> Result<[$raw; 1], fieldscribe_runtime::Error> {
+                <Self as fieldscribe_runtime::Readable>::decode_with(raw, ()).map(|raw| [raw])
+            }
+        }
+
+        impl fieldscribe_runtime::CountWritable for $name {
+            type Count = [$raw; 1];
+
+            fn encode_count_with(
+                [count]: [$raw; 1],
+                (): (),
+            ) -> Result<$raw, fieldscribe_runtime::Error> {
+                <Self as fieldscribe_runtime::Encodable>::encode_with(count, ())
             }
         }
     };
@@ -133,6 +156,47 @@ impl AsyncTransport for Line {
     }
 }
 
+impl LocalTransport for Line {
+    type Error = Lost;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Lost> {
+        self.answered(request, reply)
+    }
+}
+
+/// What a transport says that fails for a reason.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Failed(Lost);
+
+impl fmt::Display for Failed {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("the line is down")
+    }
+}
+
+impl std::error::Error for Failed {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.0)
+    }
+}
+
+/// An error, all that it and what caused it say, in this order; nothing of it is said twice.
+pub fn chain<E: std::error::Error>(error: &E) -> Vec<String> {
+    let mut texts = vec![error.to_string()];
+    let mut source = error.source();
+    while let Some(cause) = source {
+        texts.push(cause.to_string());
+        source = cause.source();
+    }
+    texts
+}
+
+/// What a client of that family says of a transport that fails.
+pub const FAILED: Failed = Failed(Lost);
+
+/// What a transport that fails for a reason is told as.
+pub const FAILURE: [&str; 2] = ["the line is down", "nothing came"];
+
 /// The result of a client that blocks.
 pub fn at_once<T>(result: T) -> T {
     result
@@ -159,6 +223,7 @@ pub fn check() {
     words_of_flags();
     codes();
     texts();
+    tables();
 }
 
 const COUNT: Outside<i64> = Outside {
@@ -168,14 +233,46 @@ const COUNT: Outside<i64> = Outside {
     high: 9,
 };
 
+const LEVEL: Outside<f64> = Outside {
+    point: "level",
+    given: 7.5,
+    low: -1.0,
+    high: 2.5,
+};
+
 fn errors() {
     assert_eq!(
         (
             REFUSED.refused().map(Refused::point),
-            Error::NoCase.refused()
+            Error::NoCase(None).refused()
         ),
         (Some("made_up"), None)
     );
+    assert_eq!(chain(&FAILED), FAILURE);
+    let nameless = [
+        Error::BadText,
+        Error::ZeroFactor,
+        Error::NoCase,
+        Error::Overflow,
+        Error::WrongLength,
+        Error::WrongSpace,
+        Error::NotHeard,
+    ];
+    for error in nameless {
+        assert_eq!((error(None).point(), error(None).refused()), (None, None));
+        assert_eq!(error(None).of::<Number>(), error(Some("Number")));
+        assert_eq!(error(Some("level")).of::<Number>(), error(Some("level")));
+        let shown = format!("level: {}", error(None));
+        assert_eq!(error(Some("level")).to_string(), shown);
+    }
+    for error in [
+        REFUSED,
+        Error::NotANumber("made_up"),
+        Error::Special("made_up"),
+    ] {
+        assert_eq!(error.point(), Some("made_up"));
+        assert_eq!(error.of::<Number>(), error);
+    }
     tells(
         Error::name,
         &[
@@ -186,14 +283,22 @@ fn errors() {
                 "speed: count -5 is outside 1 to 9",
             ),
             (
-                Error::OutOfRange(Refused::Value(Outside {
-                    point: "level",
-                    given: 7.5,
-                    low: -1.0,
-                    high: 2.5,
-                })),
+                Error::OutOfRange(Refused::Value {
+                    outside: LEVEL,
+                    unit: "",
+                    raw: None,
+                }),
                 "out_of_range",
                 "level: 7.5 is outside -1 to 2.5",
+            ),
+            (
+                Error::OutOfRange(Refused::Value {
+                    outside: LEVEL,
+                    unit: "kPa",
+                    raw: Some((-100, 250)),
+                }),
+                "out_of_range",
+                "level: 7.5 kPa is outside -1 to 2.5 kPa (raw -100 to 250)",
             ),
             (
                 Error::UnknownValue(Refused::Raw(COUNT)),
@@ -201,44 +306,44 @@ fn errors() {
                 "speed: nothing has the number -5",
             ),
             (
-                Error::BadText,
+                Error::BadText(None),
                 "out_of_range",
                 "the text is too long, or has a character that is none of its encoding",
             ),
             (
-                Error::NotANumber,
+                Error::NotANumber("level"),
                 "not_a_number",
-                "the value is not a number",
+                "level: the value is not a number",
             ),
             (
                 Error::UnknownValue(Refused::Count(COUNT)),
                 "unknown_value",
-                "the enum has no such number",
+                "speed: the enum has no such number",
             ),
-            (Error::ZeroFactor, "zero_factor", "a factor is zero"),
-            (Error::NoCase, "no_case", "no case of the scale holds"),
+            (Error::ZeroFactor(None), "zero_factor", "a factor is zero"),
+            (Error::NoCase(None), "no_case", "no case of the scale holds"),
             (
-                Error::Overflow,
+                Error::Overflow(None),
                 "overflow",
                 "the result does not fit its type",
             ),
             (
-                Error::Special,
+                Error::Special("level"),
                 "special",
-                "the raw number is a special code and no quantity",
+                "level: the raw number is a special code and no quantity",
             ),
             (
-                Error::WrongLength,
+                Error::WrongLength(None),
                 "wrong_length",
                 "the point has another number of words",
             ),
             (
-                Error::WrongSpace,
+                Error::WrongSpace(None),
                 "wrong_space",
                 "the reply is of another space than the point's",
             ),
             (
-                Error::NotHeard,
+                Error::NotHeard(None),
                 "not_heard",
                 "the last telegram was not answered",
             ),
@@ -331,11 +436,16 @@ fn bits() {
     let exponents = [-3_i16, -2, 4, 5].map(|raw| arithmetic::exponent(raw, -2, 4));
     assert_eq!(
         exponents,
-        [Err(Error::Overflow), Ok(-2), Ok(4), Err(Error::Overflow)]
+        [
+            Err(Error::Overflow(None)),
+            Ok(-2),
+            Ok(4),
+            Err(Error::Overflow(None))
+        ]
     );
     assert_eq!(arithmetic::line(5_u16, -3, 7), Ok(-8));
-    assert_eq!(arithmetic::line(i64::MAX, 2, 0), Err(Error::Overflow));
-    assert_eq!(arithmetic::line(i64::MAX, 1, 1), Err(Error::Overflow));
+    assert_eq!(arithmetic::line(i64::MAX, 2, 0), Err(Error::Overflow(None)));
+    assert_eq!(arithmetic::line(i64::MAX, 1, 1), Err(Error::Overflow(None)));
     assert_eq!(arithmetic::extract(0xABCD, 4, 0x0FF0), 0xBC);
     assert_eq!(arithmetic::extract(0xABCD, 16, 0xFFFF), 0);
     assert_eq!(arithmetic::extract_signed(0x0B00, 8, 0x0F00), 0xFFFB);
@@ -493,17 +603,17 @@ fn rules_at_their_ends() {
         one.times_ten_to(i64::MIN),
         one.over_ten_to(i64::MIN),
     ] {
-        assert_eq!(wrong, Err(Error::Overflow));
+        assert_eq!(wrong, Err(Error::Overflow(None)));
     }
     let odd = 0x4B7F_FFFF;
     let twice = one.times_f32(odd).and_then(|rule| rule.times_f32(odd));
     assert_eq!(
         twice.and_then(|rule| rule.times_f32(odd)),
-        Err(Error::Overflow)
+        Err(Error::Overflow(None))
     );
     for none in [0, 0x8000_0000, 0x7F80_0000, 0xFF80_0000, 0x7FC0_0000] {
-        assert_eq!(one.times_f32(none), Err(Error::ZeroFactor));
-        assert_eq!(one.over_f32(none), Err(Error::ZeroFactor));
+        assert_eq!(one.times_f32(none), Err(Error::ZeroFactor(None)));
+        assert_eq!(one.over_f32(none), Err(Error::ZeroFactor(None)));
         assert_eq!(
             one.plus(5, 1).limited_by_f32(none).and_then(Rule::limit),
             Ok(5)
@@ -511,18 +621,18 @@ fn rules_at_their_ends() {
     }
     assert_eq!(
         (one.times(0), one.over(0)),
-        (Err(Error::ZeroFactor), Err(Error::ZeroFactor))
+        (Err(Error::ZeroFactor(None)), Err(Error::ZeroFactor(None)))
     );
     let nothing = one.limited_by(0).expect("a limit");
     assert_eq!(
         (nothing.limit(), nothing.decode(1)),
-        (Ok(0), Err(Error::ZeroFactor))
+        (Ok(0), Err(Error::ZeroFactor(None)))
     );
-    assert_eq!(nothing.decode_count(1, 1), Err(Error::ZeroFactor));
+    assert_eq!(nothing.decode_count(1, 1), Err(Error::ZeroFactor(None)));
     let nothing = nothing.times_f32(power(0)).expect("a limit");
     assert_eq!(
         (nothing.limit(), nothing.decode_count(1, 1)),
-        (Ok(0), Err(Error::ZeroFactor))
+        (Ok(0), Err(Error::ZeroFactor(None)))
     );
     for end in [i64::MIN, -1, i64::MAX] {
         assert_eq!(
@@ -537,21 +647,21 @@ fn rules_at_their_ends() {
     }
     assert_eq!(most.encode_count(2, 1), None);
     assert_eq!(most.plus(1, 1).encode_count(1, 1), None);
-    assert_eq!(most.plus(1, 1).limit(), Err(Error::Overflow));
+    assert_eq!(most.plus(1, 1).limit(), Err(Error::Overflow(None)));
     assert_eq!(
         Rule::new(1, 2).decode_count(i64::MAX, 1),
-        Err(Error::Overflow)
+        Err(Error::Overflow(None))
     );
-    assert_eq!(Rule::new(1, 2).decode(i64::MAX), Err(Error::Overflow));
-    assert_eq!(one.plus(-1, 1).decode(i64::MAX), Err(Error::Overflow));
+    assert_eq!(Rule::new(1, 2).decode(i64::MAX), Err(Error::Overflow(None)));
+    assert_eq!(one.plus(-1, 1).decode(i64::MAX), Err(Error::Overflow(None)));
     assert_eq!(
         Rule::new(-1, 1).decode_count(i64::MIN, 1),
-        Err(Error::Overflow)
+        Err(Error::Overflow(None))
     );
     let large = one.times_f32(power(63)).expect("a factor");
     assert_eq!(
         (large.encode_count(1, 1), large.limit()),
-        (None, Err(Error::Overflow))
+        (None, Err(Error::Overflow(None)))
     );
     assert_eq!(
         (large.encode_count(-1, 1), large.encode_count(0, 1)),
@@ -569,7 +679,7 @@ fn rules_at_their_ends() {
     let divided = one.over_f32(power(63)).expect("a divisor");
     assert_eq!(
         (divided.decode_count(-1, 1), divided.decode_count(1, 1)),
-        (Ok(i64::MIN), Err(Error::Overflow))
+        (Ok(i64::MIN), Err(Error::Overflow(None)))
     );
     for (count, offset, found) in [
         (1, 0, 0),
@@ -735,13 +845,13 @@ fn codes() {
         (Number::CODES[0].ends(), Number::CODES[1].ends()),
         ((7, 7), (10, 12))
     );
-    let band = Special::writable("band", 11);
-    assert_eq!((written::<Number>(band), band.checked()), (Ok(11), Ok(())));
-    assert_eq!(Special::new("odd", 7).checked(), Err(Error::Special));
+    let (band, special) = (Special::writable("band", 11), Error::Special("Number"));
     assert_eq!(
-        written::<Number>(Special::new("odd", 7)),
-        Err(Error::Special)
+        (written::<Number>(band), band.checked::<Number>()),
+        (Ok(11), Ok(()))
     );
+    assert_eq!(Special::new("odd", 7).checked::<Number>(), Err(special));
+    assert_eq!(written::<Number>(Special::new("odd", 7)), Err(special));
     let wrong = [("odd", 11), ("band", 13)]
         .map(|(name, raw)| written::<Number>(Special::writable(name, raw)));
     assert_eq!(
@@ -750,12 +860,12 @@ fn codes() {
     );
     assert_eq!(
         (quantity::<Number>(7), quantity::<Number>(8)),
-        (Err(Error::Special), Ok(8))
+        (Err(special), Ok(8))
     );
     let rule = Rule::new(1, 1);
     assert_eq!(
         (rule.unless(false), rule.unless(true)),
-        (Ok(rule), Err(Error::ZeroFactor))
+        (Ok(rule), Err(Error::ZeroFactor(None)))
     );
     let (value, code): (Reading<u16, u16>, _) =
         (Reading::from(5), Reading::Special::<u16, u16>(band));
@@ -787,9 +897,9 @@ fn texts() {
     );
     assert_eq!(
         (Text::<2>::new("abc"), Text::<2>::new("€")),
-        (Err(Error::BadText), Err(Error::BadText))
+        (Err(Error::BadText(None)), Err(Error::BadText(None)))
     );
-    assert_eq!(Text::<2>::from_bytes(b"abc"), Err(Error::BadText));
+    assert_eq!(Text::<2>::from_bytes(b"abc"), Err(Error::BadText(None)));
     assert_eq!(
         (Text::<2>::default(), Text::<2>::EMPTY.as_bytes()),
         (Text::EMPTY, &b""[..])
@@ -813,4 +923,104 @@ fn texts() {
             (ascii, latin)
         );
     }
+}
+
+/// Points with every fact that a table tells, made by the macro that generated crates use.
+mod told {
+    use fieldscribe_runtime::point;
+
+    point! {
+        /// A group of bits that is read.
+        Bits: u8 = "bits", "b1";
+        at Telegram 7;
+        telegram "status";
+        bits 4 0x00F0 group;
+        => value u8 as plain();
+        read { count i32; }
+    }
+
+    point! {
+        /// A value of two words that is written.
+        Level: u32 = "level", "bits";
+        at Holding 0x10;
+        addresses [0x11, 0x10];
+        words 2;
+        index 3;
+        unit "kPa";
+        decimals 1;
+        raw 5..=600;
+        => value f64 as scaled(10, 1);
+        write { count i32; }
+    }
+
+    point! {
+        /// A number in its unit, which is read and written.
+        Plain: u16 = "plain";
+        at Holding 0x12;
+        unit "Hz";
+        raw 30..=400;
+        => value u16 as plain();
+        read { count i32; }
+        write { count i32; }
+    }
+
+    point! {
+        /// A word that nobody asks for by itself.
+        Neither: u16 = "neither";
+        at Coil 1;
+        => value u16 as plain();
+    }
+}
+
+fn tables() {
+    const POINTS: &[PointInfo] = point_table! { told: Bits Level Plain Neither };
+    let places: Vec<_> = POINTS.iter().map(|one| (one.space, one.address)).collect();
+    assert_eq!(
+        places,
+        [
+            (Space::Telegram, 7),
+            (Space::Holding, 0x10),
+            (Space::Holding, 0x12),
+            (Space::Coil, 1)
+        ]
+    );
+    let beside = |name| {
+        let found = PointInfo::find(POINTS, name)?;
+        Some((
+            found.name,
+            found.words,
+            found.group,
+            found.index,
+            found.telegram,
+        ))
+    };
+    // A name goes before the same code of another point.
+    assert_eq!(
+        beside("bits"),
+        Some(("bits", 1, Some(0xF0), None, Some("status")))
+    );
+    assert_eq!(beside("b1"), beside("bits"));
+    assert_eq!(beside("level"), Some(("level", 2, None, Some(3), None)));
+    assert_eq!((beside("b"), PointInfo::find(&[], "bits")), (None, None));
+    let meant = POINTS.iter().map(|one| (one.code, one.unit, one.decimals));
+    let plain = [(None, "Hz", 0), (None, "", 0)];
+    let coded = [(Some("b1"), "", 0), (Some("bits"), "kPa", 1)];
+    assert_eq!(meant.collect::<Vec<_>>(), [coded, plain].concat());
+    let access = POINTS
+        .iter()
+        .map(|one| (one.access.reads(), one.access.writes()));
+    let expected = [(true, false), (false, true), (true, true), (false, false)];
+    assert_eq!(access.collect::<Vec<_>>(), expected);
+    let told = |error: Result<u16, Error>| error.map_err(|error| error.to_string());
+    let shown = "plain: 500 Hz is outside 30 to 400 Hz";
+    assert_eq!(told(told::Plain::encode(500)), Err(shown.to_owned()));
+    let shown = "plain: raw 500 is outside 30 to 400";
+    assert_eq!(told(told::Plain::encode_count(500)), Err(shown.to_owned()));
+    let level = |value| told::Level::encode(value).map_err(|error| error.to_string());
+    let shown = "level: 0.4 kPa is outside 0.5 to 60 kPa (raw 5 to 600)";
+    assert_eq!(level(0.4), Err(shown.to_owned()));
+    let shown = "level: 1000000000 kPa is outside 0.5 to 60 kPa (raw 5 to 600)";
+    assert_eq!(level(1e9), Err(shown.to_owned()));
+    let shown = "level: the value is not a number";
+    assert_eq!(level(f64::NAN), Err(shown.to_owned()));
 }

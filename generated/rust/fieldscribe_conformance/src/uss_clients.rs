@@ -3,16 +3,14 @@
 
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
-use std::error::Error as _;
-
 use fieldscribe_runtime::uss::{
     broadcast, check_byte, AsyncClient, BuildError, Client, ClientError, FixedBits, Link,
-    Parameter, ParseError, Profile, Received, Request, Sent, Task, Value,
+    LocalClient, Parameter, ParseError, Profile, Received, Request, Sent, Task, Value,
 };
 use fieldscribe_runtime::{BitGroup, Error, Point, Space, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Line, Lost, REFUSED};
+use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
 
 made_up!(Word u16, Parameter 700, &[700], 1);
 made_up!(Long u32, Parameter 2001, &[2001], 2);
@@ -102,8 +100,20 @@ const TASKS: &[Task] = &[
 ];
 const FIXED: &[FixedBits] = &[FixedBits::of::<Control>()];
 const LENGTHS: &[u8] = &[0, 3, 4, 127];
-static PROFILE: Profile = Profile::new(TASKS, (1, 30), LENGTHS, (0, 20), Some(32), FIXED);
+static PROFILE: Profile =
+    Profile::new(TASKS, (1, 30), LENGTHS, (0, 20), Some(32), FIXED).naming(named);
 static FEW: Profile = Profile::new(TASKS, (0, 31), &[4], (2, 2), None, &[]);
+
+/// What the drive says that cannot do it now.
+const NOT_NOW: ParseError = ParseError::Refused {
+    error: 17,
+    name: Some("not_now"),
+};
+
+/// What the drive calls its one error value.
+fn named(error: u16) -> Option<&'static str> {
+    (error == 17).then_some("not_now")
+}
 
 /// Panics where the runtime is not as it should be.
 pub fn check() {
@@ -116,6 +126,8 @@ pub fn check() {
     parameters_now();
     process_at_once();
     process_now();
+    parameters_staying();
+    process_staying();
 }
 
 fn errors() {
@@ -190,9 +202,17 @@ fn errors() {
                 "the drive did not answer the task",
             ),
             (
-                ParseError::Refused(17),
+                NOT_NOW,
                 "refused",
-                "the drive refused with error 17",
+                "the drive refused with error 17 (not_now)",
+            ),
+            (
+                ParseError::Refused {
+                    error: 3,
+                    name: None,
+                },
+                "refused",
+                "the drive refused with error 3",
             ),
             (
                 ParseError::NoRights,
@@ -207,7 +227,10 @@ fn errors() {
         ],
     );
     let errors: [(ClientError<Lost>, &str); 4] = [
-        (Error::Overflow.into(), "the result does not fit its type"),
+        (
+            Error::Overflow(None).into(),
+            "the result does not fit its type",
+        ),
         (
             BuildError::BadUnit.into(),
             "the device has no such unit number",
@@ -219,12 +242,9 @@ fn errors() {
         (ClientError::Transport(Lost), "nothing came"),
     ];
     for (error, shown) in errors {
-        assert_eq!(error.to_string(), shown);
-        assert_eq!(
-            error.source().map(ToString::to_string).as_deref(),
-            Some(shown)
-        );
+        assert_eq!(chain(&error), [shown]);
     }
+    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
     for (value, shown) in [
         (Value::Nothing, "the drive answered nothing to a write"),
         (Value::Word(7), "the drive answered 7 to a write"),
@@ -234,8 +254,7 @@ fn errors() {
         ),
     ] {
         let error = ClientError::<Lost>::EchoMismatch(value);
-        assert_eq!(error.to_string(), shown);
-        assert!(error.source().is_none());
+        assert_eq!(chain(&error), [shown]);
     }
 }
 
@@ -431,7 +450,7 @@ fn answers() {
     assert_eq!(reply.words().collect::<Vec<_>>(), [0xA1B2, 3]);
     assert_eq!(
         (reply.raw::<Word>(), reply.raw::<Long>()),
-        (Ok(7), Err(Error::WrongLength))
+        (Ok(7), Err(Error::WrongLength(Some("Long"))))
     );
     let first = request.parse(&PROFILE, link.single_first(), &received);
     assert_eq!(first.map(|reply| reply.value()), Ok(Value::Word(0)));
@@ -439,18 +458,18 @@ fn answers() {
     let reply = request.parse(&PROFILE, link, &double).expect("an answer");
     assert_eq!(
         (reply.value(), reply.word()),
-        (Value::Double(0x0001_0203), Err(Error::WrongLength))
+        (Value::Double(0x0001_0203), Err(Error::WrongLength(None)))
     );
     assert_eq!(
         (reply.raw::<Long>(), reply.raw::<Word>()),
-        (Ok(0x0001_0203), Err(Error::WrongLength))
+        (Ok(0x0001_0203), Err(Error::WrongLength(Some("Word"))))
     );
     let cyclic = Request::cyclic(3)
         .parse(&PROFILE, link, &received)
         .expect("an answer");
     assert_eq!(
         (cyclic.response(), cyclic.value(), cyclic.word()),
-        (1, Value::Nothing, Err(Error::WrongLength))
+        (1, Value::Nothing, Err(Error::WrongLength(None)))
     );
     let none = telegram("a1b2 0003");
     let reply = Request::cyclic(3)
@@ -459,7 +478,7 @@ fn answers() {
     assert_eq!((reply.response(), reply.words().count()), (0, 2));
     for (words, error) in [
         ("02bc 0000 0000 0007 a1b2 0003", ParseError::NoAnswer),
-        ("72bc 0000 0011 0007 a1b2 0003", ParseError::Refused(17)),
+        ("72bc 0000 0011 0007 a1b2 0003", NOT_NOW),
         ("82bc 0000 0000 0007 a1b2 0003", ParseError::NoRights),
         ("32bc 0000 0000 0007 a1b2 0003", ParseError::WrongResponse),
         ("12bd 0000 0000 0007 a1b2 0003", ParseError::WrongParameter),
@@ -550,7 +569,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
             let mismatch = ClientError::EchoMismatch(Value::Word(8));
             assert_eq!($wait(client.store::<Word>(9)), Err(mismatch));
-            let refused = ClientError::Reply(ParseError::Refused(17));
+            let refused = ClientError::Reply(NOT_NOW);
             assert_eq!(
                 $wait(client.write_with::<Long>(0x0001_0203, ())),
                 Err(refused)
@@ -568,12 +587,34 @@ macro_rules! conversations {
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
             let mismatch = ClientError::EchoMismatch(Value::Word(0xAB7D));
             assert_eq!($wait(client.store_update::<Group>(6)), Err(mismatch));
-            let long = ClientError::Point(Error::WrongLength);
+            let long = ClientError::Point(Error::WrongLength(Some("Group")));
             assert_eq!($wait(client.update::<Group>(7)), Err(long));
             let long = ClientError::Reply(ParseError::WrongLength);
             assert_eq!($wait(client.read_raw::<Word>()), Err(long));
             let other = $wait(client.exchange(Request::cyclic(4))).map(|_| ());
             assert_eq!(other, Err(ClientError::Build(BuildError::BadUnit)));
+            client.into_transport().done();
+            let line = Line::new(&[
+                step("1001 8000 0000 0000 0000", "2001 8000 0001 0002 00f0"),
+                step("22bc 0000 0007 0000 0000", "12bc 0000 0007 00f0"),
+                step("22bc 0000 0008 0000 0000", "12bc 0000 0008 00f0"),
+                step("e2bc 0000 0009 0000 0000", "12bc 0000 0009 00f0"),
+                step("e2bc 0000 000a 0000 0000", "12bc 0000 000a 00f0"),
+            ]);
+            let mut client = $client::new(line, &PROFILE, Link::new(127, 1), 3);
+            assert_eq!($wait(client.read_count::<Long>()), Ok([0x0001_0002]));
+            assert_eq!($wait(client.write_count::<Word>([7])), Ok(()));
+            assert_eq!($wait(client.write_raw::<Word>(8)), Ok(()));
+            assert_eq!($wait(client.store_count::<Word>([9])), Ok(()));
+            assert_eq!($wait(client.store_raw::<Word>(10)), Ok(()));
+            for found in [
+                $wait(client.write_count::<Word>([0xFFFF])),
+                $wait(client.write_raw::<Word>(0xFFFF)),
+                $wait(client.store_count::<Word>([0xFFFF])),
+                $wait(client.store_raw::<Word>(0xFFFF)),
+            ] {
+                assert_eq!(found, Err(wrong));
+            }
             client.into_transport().done();
         }
 
@@ -594,30 +635,36 @@ macro_rules! conversations {
                 step("0000 0000 0000", "00a1 00b2 00c3"),
             ]);
             let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
-            assert_eq!(client.heard_word(0), Err(Error::NotHeard));
-            assert_eq!(client.heard::<Speed>(), Err(Error::NotHeard));
+            let far = Error::WrongLength(Some("Far"));
+            assert_eq!(client.heard_word(0), Err(Error::NotHeard(None)));
+            assert_eq!(client.heard::<Speed>(), Err(Error::NotHeard(Some("Speed"))));
             assert_eq!($wait(client.cycle()), Ok(()));
             assert_eq!(
                 [0, 2, 3].map(|one| client.heard_word(one)),
-                [Ok(0xA1), Ok(0xC3), Err(Error::WrongLength)]
+                [Ok(0xA1), Ok(0xC3), Err(Error::WrongLength(None))]
             );
             assert_eq!(
                 (client.heard::<Speed>(), client.heard_with::<Position>(())),
                 (Ok(0xB2), Ok(0x00C3_00B2))
             );
-            assert_eq!(client.heard::<Far>(), Err(Error::WrongLength));
+            assert_eq!(client.heard::<Far>(), Err(far));
             assert_eq!(client.set::<Speed>(0xFFFF), Err(REFUSED));
             assert_eq!(client.set_bits::<Jog>(0xFFFF), Err(REFUSED));
-            assert_eq!(client.set::<Far>(1), Err(Error::WrongLength));
-            assert_eq!(client.set_word(3, 1), Err(Error::WrongLength));
+            assert_eq!(client.set::<Far>(1), Err(far));
+            assert_eq!(client.set_word(3, 1), Err(Error::WrongLength(None)));
             assert_eq!(client.words(), [0, 0, 0]);
+            assert_eq!(client.set_count::<Speed>([0xFFFF]), Err(REFUSED));
+            assert_eq!(client.set_count::<Speed>([4]), Ok(()));
+            assert_eq!(client.words(), [0, 4, 0]);
+            assert_eq!(client.heard_count::<Position>(), Ok([0x00C3_00B2]));
+            assert_eq!(client.set_count::<Speed>([0]), Ok(()));
             assert_eq!($wait(client.send::<Speed>(5)), Ok(()));
             assert_eq!(client.words(), [0, 5, 0]);
             let lost = ClientError::Transport(Lost);
             assert_eq!($wait(client.send_bits::<Jog>(3)), Err(lost));
             assert_eq!(
                 (client.words(), client.heard_word(0)),
-                (&[0; 3][..], Err(Error::NotHeard))
+                (&[0; 3][..], Err(Error::NotHeard(None)))
             );
             assert_eq!($wait(client.receive::<Speed>()), Ok(0xB2));
             assert_eq!($wait(client.send_with::<Position>(0x0008_0009, ())), Ok(()));
@@ -630,7 +677,7 @@ macro_rules! conversations {
             let short = ClientError::Reply(ParseError::WrongLength);
             assert_eq!($wait(client.cycle()), Err(short));
             assert_eq!(client.words(), [0; 3]);
-            let long = ClientError::Point(Error::WrongLength);
+            let long = ClientError::Point(far);
             assert_eq!($wait(client.send::<Far>(1)), Err(long));
             assert_eq!($wait(client.receive::<Far>()), Err(long));
             client.into_transport().done();
@@ -647,7 +694,7 @@ macro_rules! conversations {
             let mut client = $client::new(line, &PROFILE, Link::new(127, 2), 3);
             assert_eq!(client.set_bits::<Jog>(2), Ok(()));
             for (speed, error) in [
-                (7, ParseError::Refused(17)),
+                (7, NOT_NOW),
                 (6, ParseError::NoRights),
                 (5, ParseError::NoAnswer),
             ] {
@@ -666,7 +713,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Word>(8)), Err(other));
             assert_eq!(
                 (client.words(), client.heard_word(1)),
-                (&[0, 0][..], Err(Error::NotHeard))
+                (&[0, 0][..], Err(Error::NotHeard(None)))
             );
             let bad = Err(ClientError::Build(BuildError::BadMask));
             assert_eq!($wait(client.broadcast([2, 0xFFFF, 0, 0])), bad);
@@ -697,7 +744,7 @@ macro_rules! conversations {
             );
             assert_eq!(
                 (client.set_word(0, 1), client.words().len()),
-                (Err(Error::WrongLength), 16)
+                (Err(Error::WrongLength(None)), 16)
             );
         }
     };
@@ -714,3 +761,4 @@ fn all(words: &str) -> Vec<u8> {
 
 conversations!(parameters_at_once process_at_once Client at_once);
 conversations!(parameters_now process_now AsyncClient now);
+conversations!(parameters_staying process_staying LocalClient now);

@@ -19,6 +19,7 @@ pub mod digits;
 mod error;
 pub mod flags;
 pub mod form;
+mod info;
 mod macros;
 pub mod modbus;
 mod path;
@@ -31,10 +32,11 @@ mod special;
 pub mod text;
 pub mod uss;
 
-pub use client::{AsyncTransport, Transport};
+pub use client::{AsyncTransport, LocalTransport, Transport};
 pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;
+pub use info::{Access, PointInfo};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
     CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, Point, Readable,

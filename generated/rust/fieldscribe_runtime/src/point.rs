@@ -2,6 +2,7 @@
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
 use crate::arithmetic::{extract, extract_signed, insert};
+use crate::info::{Access, PointInfo};
 use crate::scale::Scale;
 use crate::{Error, Raw, Rule};
 
@@ -105,8 +106,26 @@ pub trait Point {
     /// The greatest raw number that the manual allows.
     const RAW_MAX: Self::Raw = <Self::Raw as Raw>::MAX;
 
+    /// The bits of the point in a word which it shares with others; none if it has its words for itself.
+    const GROUP: Option<u16> = None;
     /// Whether the point is a group of bits in a word which it shares with others.
-    const IS_GROUPED: bool = false;
+    const IS_GROUPED: bool = Self::GROUP.is_some();
+    /// Whether the device answers with the point, and whether it takes it.
+    const ACCESS: Access = Access::None;
+    /// What a table says of the point.
+    const INFO: PointInfo = PointInfo {
+        name: Self::NAME,
+        code: Self::CODE,
+        space: Self::SPACE,
+        address: Self::ADDRESS,
+        words: Self::WORDS,
+        group: Self::GROUP,
+        index: Self::INDEX,
+        telegram: Self::TELEGRAM,
+        unit: Self::UNIT,
+        decimals: Self::DECIMALS,
+        access: Self::ACCESS,
+    };
 
     /// The raw number from the point's words, in the order of their addresses.
     #[inline]
@@ -121,10 +140,12 @@ pub trait Point {
     fn from_received(mut received: impl Iterator<Item = u16>) -> Result<Self::Raw, Error> {
         let mut words = Self::Raw::MIN.into_words();
         for word in words.as_mut() {
-            *word = received.next().ok_or(Error::WrongLength)?;
+            *word = received
+                .next()
+                .ok_or(Error::WrongLength(Some(Self::NAME)))?;
         }
         match received.next() {
-            Some(_) => Err(Error::WrongLength),
+            Some(_) => Err(Error::WrongLength(Some(Self::NAME))),
             None => Ok(Self::from_words(words)),
         }
     }
@@ -315,7 +336,7 @@ pub trait Encodable: Writable {
 /// Decoding in integers: the value as a count of the point's smallest decimal step, or the plain raw number.
 pub trait CountReadable: Readable {
     /// The integer that holds a count.
-    type Count;
+    type Count: Send;
 
     /// The count nearest to the value, halves away from zero.
     fn decode_count_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Count>;
@@ -332,7 +353,7 @@ pub trait CountReadable: Readable {
 /// Encoding in integers: from a count of the point's smallest decimal step, or from the plain raw number.
 pub trait CountWritable: Writable {
     /// The integer that holds a count; wider than what is allowed.
-    type Count;
+    type Count: Send;
 
     /// The raw number of a count: nearest, halves away from zero, then checked.
     ///

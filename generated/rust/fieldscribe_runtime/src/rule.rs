@@ -52,7 +52,7 @@ impl Rule {
     #[inline]
     pub const fn unless(self, coded: bool) -> Result<Self, Error> {
         if coded {
-            Err(Error::ZeroFactor)
+            Err(Error::ZeroFactor(None))
         } else {
             Ok(self)
         }
@@ -66,7 +66,7 @@ impl Rule {
     pub fn times(self, factor: impl Raw) -> Result<Self, Error> {
         let factor = factor.to_i64();
         if factor == 0 {
-            return Err(Error::ZeroFactor);
+            return Err(Error::ZeroFactor(None));
         }
         self.limited_by(factor)
     }
@@ -80,7 +80,7 @@ impl Rule {
         let num = self
             .num
             .checked_mul(factor.to_i64())
-            .ok_or(Error::Overflow)?;
+            .ok_or(Error::Overflow(None))?;
         Ok(Self { num, ..self })
     }
 
@@ -92,9 +92,9 @@ impl Rule {
     pub fn over(self, divisor: impl Raw) -> Result<Self, Error> {
         let divisor = divisor.to_i64();
         if divisor == 0 {
-            return Err(Error::ZeroFactor);
+            return Err(Error::ZeroFactor(None));
         }
-        let den = self.den.checked_mul(divisor).ok_or(Error::Overflow)?;
+        let den = self.den.checked_mul(divisor).ok_or(Error::Overflow(None))?;
         Ok(Self { den, ..self })
     }
 
@@ -104,8 +104,8 @@ impl Rule {
     /// [`Error::ZeroFactor`] if it is zero, infinite or not a number; [`Error::Overflow`].
     #[inline]
     pub fn times_f32(self, bits: u32) -> Result<Self, Error> {
-        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor)?;
-        let times = self.times.times(magnitude).ok_or(Error::Overflow)?;
+        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor(None))?;
+        let times = self.times.times(magnitude).ok_or(Error::Overflow(None))?;
         Ok(Self {
             num: signed(negative, self.num)?,
             whole: false,
@@ -121,7 +121,7 @@ impl Rule {
     #[inline]
     pub fn limited_by_f32(self, bits: u32) -> Result<Self, Error> {
         match self.times_f32(bits) {
-            Err(Error::ZeroFactor) => Ok(Self { num: 0, ..self }),
+            Err(Error::ZeroFactor(None)) => Ok(Self { num: 0, ..self }),
             other => other,
         }
     }
@@ -132,8 +132,8 @@ impl Rule {
     /// [`Error::ZeroFactor`] if it is zero, infinite or not a number; [`Error::Overflow`].
     #[inline]
     pub fn over_f32(self, bits: u32) -> Result<Self, Error> {
-        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor)?;
-        let over = self.over.times(magnitude).ok_or(Error::Overflow)?;
+        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor(None))?;
+        let over = self.over.times(magnitude).ok_or(Error::Overflow(None))?;
         Ok(Self {
             den: signed(negative, self.den)?,
             whole: false,
@@ -148,8 +148,8 @@ impl Rule {
     /// [`Error::Overflow`].
     #[inline]
     pub fn times_ten_to(self, exponent: i64) -> Result<Self, Error> {
-        let digits = u32::try_from(exponent.unsigned_abs()).map_err(|_| Error::Overflow)?;
-        let power = 10_i64.checked_pow(digits).ok_or(Error::Overflow)?;
+        let digits = u32::try_from(exponent.unsigned_abs()).map_err(|_| Error::Overflow(None))?;
+        let power = 10_i64.checked_pow(digits).ok_or(Error::Overflow(None))?;
         if exponent < 0 {
             self.over(power)
         } else {
@@ -163,7 +163,7 @@ impl Rule {
     /// [`Error::Overflow`].
     #[inline]
     pub fn over_ten_to(self, exponent: i64) -> Result<Self, Error> {
-        self.times_ten_to(exponent.checked_neg().ok_or(Error::Overflow)?)
+        self.times_ten_to(exponent.checked_neg().ok_or(Error::Overflow(None))?)
     }
 
     /// The raw number before rounding; each step is rounded to binary64.
@@ -191,7 +191,7 @@ impl Rule {
     /// [`Error::Overflow`]; [`Error::ZeroFactor`].
     #[inline]
     pub fn decode_wide(self, raw: i128) -> Result<f64, Error> {
-        let (value, exponent) = self.wide(raw).ok_or(Error::Overflow)?;
+        let (value, exponent) = self.wide(raw).ok_or(Error::Overflow(None))?;
         let power = Magnitude {
             mantissa: 1,
             exponent,
@@ -239,7 +239,7 @@ impl Rule {
             return self.count_of(raw, per_unit);
         }
         let (num, den) = self.turned(raw, per_unit)?;
-        divide(num, den).ok_or(Error::Overflow)
+        divide(num, den).ok_or(Error::Overflow(None))
     }
 
     /// The rule applied to 1, rounded: a limit.
@@ -249,7 +249,7 @@ impl Rule {
     #[inline]
     pub fn limit(self) -> Result<i64, Error> {
         if !self.whole {
-            return self.raw_of(1, 1).ok_or(Error::Overflow);
+            return self.raw_of(1, 1).ok_or(Error::Overflow(None));
         }
         let den = product([self.den, self.offset_den, 1]);
         let scaled = product([self.num, self.offset_den, 1]);
@@ -259,7 +259,7 @@ impl Rule {
             .and_then(|(scaled, offset)| scaled.checked_add(offset));
         sum.zip(den)
             .and_then(|(sum, den)| divide(sum, den))
-            .ok_or(Error::Overflow)
+            .ok_or(Error::Overflow(None))
     }
 
     /// The raw number of a count, with factors of any size.
@@ -278,11 +278,11 @@ impl Rule {
     /// The count of a raw number, with factors of any size.
     fn count_of(self, raw: i64, per_unit: i64) -> Result<i64, Error> {
         if self.num == 0 {
-            return Err(Error::ZeroFactor);
+            return Err(Error::ZeroFactor(None));
         }
         let shifted =
             product([raw, self.offset_den, 1]).and_then(|raw| raw.checked_sub(self.offset_num));
-        let dividend = [shifted.ok_or(Error::Overflow)?, self.den, per_unit];
+        let dividend = [shifted.ok_or(Error::Overflow(None))?, self.den, per_unit];
         let divisor = [self.num, self.offset_den, 1];
         let quotient = || {
             let value = Quotient {
@@ -293,23 +293,23 @@ impl Rule {
             };
             value.plus_over(0, 1)
         };
-        quotient().ok_or(Error::Overflow)
+        quotient().ok_or(Error::Overflow(None))
     }
 
     /// `(raw - offset) * den * times / num` as a fraction with a positive denominator.
     #[inline]
     fn turned(self, raw: i64, times: i64) -> Result<(i64, i64), Error> {
         if self.num == 0 {
-            return Err(Error::ZeroFactor);
+            return Err(Error::ZeroFactor(None));
         }
         let shifted =
             product([raw, self.offset_den, 1]).and_then(|raw| raw.checked_sub(self.offset_num));
-        let num =
-            product([shifted.ok_or(Error::Overflow)?, self.den, times]).ok_or(Error::Overflow)?;
-        let den = product([self.num, self.offset_den, 1]).ok_or(Error::Overflow)?;
+        let num = product([shifted.ok_or(Error::Overflow(None))?, self.den, times])
+            .ok_or(Error::Overflow(None))?;
+        let den = product([self.num, self.offset_den, 1]).ok_or(Error::Overflow(None))?;
         if den < 0 {
-            let num = num.checked_neg().ok_or(Error::Overflow)?;
-            Ok((num, den.checked_neg().ok_or(Error::Overflow)?))
+            let num = num.checked_neg().ok_or(Error::Overflow(None))?;
+            Ok((num, den.checked_neg().ok_or(Error::Overflow(None))?))
         } else {
             Ok((num, den))
         }
@@ -338,7 +338,7 @@ fn divide(dividend: i64, divisor: i64) -> Option<i64> {
 #[inline]
 fn signed(negative: bool, number: i64) -> Result<i64, Error> {
     if negative {
-        number.checked_neg().ok_or(Error::Overflow)
+        number.checked_neg().ok_or(Error::Overflow(None))
     } else {
         Ok(number)
     }

@@ -78,15 +78,15 @@ impl<R: Copy> Special<R> {
         self.writable
     }
 
-    /// What a check of a raw number says that is this code.
+    /// What a check of a raw number of that point says that is this code.
     ///
     /// # Errors
     /// [`Error::Special`] if it may not be written.
-    pub const fn checked(&self) -> Result<(), Error> {
+    pub const fn checked<P: Point>(&self) -> Result<(), Error> {
         if self.writable {
             Ok(())
         } else {
-            Err(Error::Special)
+            Err(Error::Special(P::NAME))
         }
     }
 }
@@ -191,7 +191,7 @@ pub trait Coded: Point {
 /// [`Error::Special`] if it may not; [`Error::UnknownValue`] if it is a code of another point.
 pub fn written<P: Coded>(special: Special<P::Raw>) -> Result<P::Raw, Error> {
     match P::special(special.raw) {
-        Some(own) if own.name == special.name => own.checked().map(|()| special.raw),
+        Some(own) if own.name == special.name => own.checked::<P>().map(|()| special.raw),
         _ => Err(unknown::<P>(special.raw.to_i64())),
     }
 }
@@ -241,7 +241,7 @@ pub fn encoded<P: Coded, V>(
 /// [`Error::Special`] if it is one.
 pub fn quantity<P: Coded>(raw: P::Raw) -> Result<P::Raw, Error> {
     match P::special(raw) {
-        Some(_) => Err(Error::Special),
+        Some(_) => Err(Error::Special(P::NAME)),
         None => Ok(raw),
     }
 }

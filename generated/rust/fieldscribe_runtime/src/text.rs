@@ -12,7 +12,7 @@ use crate::Error;
 ///
 /// let text: Text<16> = "Generator 1".try_into()?;
 /// assert_eq!(text.as_str(), Some("Generator 1"));
-/// assert_eq!(Text::<4>::new("too long"), Err(Error::BadText));
+/// assert_eq!(Text::<4>::new("too long"), Err(Error::BadText(None)));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -36,8 +36,8 @@ impl<const N: usize> Text<N> {
         let mut found = Self::EMPTY;
         let mut places = found.bytes.iter_mut();
         for character in text.chars() {
-            let place = places.next().ok_or(Error::BadText)?;
-            *place = u8::try_from(character).map_err(|_| Error::BadText)?;
+            let place = places.next().ok_or(Error::BadText(None))?;
+            *place = u8::try_from(character).map_err(|_| Error::BadText(None))?;
         }
         Ok(found.measured())
     }
@@ -49,7 +49,7 @@ impl<const N: usize> Text<N> {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let mut found = Self::EMPTY;
         let places = found.bytes.get_mut(..bytes.len());
-        places.ok_or(Error::BadText)?.copy_from_slice(bytes);
+        places.ok_or(Error::BadText(None))?.copy_from_slice(bytes);
         Ok(found.measured())
     }
 

@@ -5,7 +5,8 @@
 //! `Hitachi L200`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
+//! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
+//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! ```
@@ -37,10 +38,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError};
-pub use fieldscribe_runtime::{AsyncTransport, Transport};
-pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
-pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
+pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
 
@@ -53,8 +55,64 @@ pub const VERSION: &str = "1.0.0";
 /// What the description says, as a digest.
 pub const DIGEST: &str = "d7dee7502d831b9caaad3bf1721b4672465012ec3535ce188a82395063ccac23";
 
-/// What the frames need to know of the device.
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0)).padding_coils();
+/// All points, to list them or to find one at run time: [`PointInfo::find`].
+pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+    RunCommand DirectionCommand ExternalTrip TripReset DigitalInput1 DigitalInput2 DigitalInput3
+    DigitalInput4 DigitalInput5 Running DirectionStatus Ready Alarm PidDeviation Overload
+    FrequencyArrivalInAcceleration FrequencyArrivalAtConstantSpeed RunMode DataWrite CrcError
+    OverrunError FramingError ParityError ChecksumError NetworkFrequencySetpoint InverterStatus
+    NetworkProcessValue OutputFrequency MotorCurrent RotationDirection ScaledProcessValue DigitalInputs
+    DigitalOutputs OutputVoltage RunTime PowerOnTime TripCount Trip1Error Trip1OutputFrequency
+    Trip1MotorCurrent Trip1DcBusVoltage Trip1RunTime Trip1PowerOnTime Trip2Error Trip2OutputFrequency
+    Trip2MotorCurrent Trip2DcBusVoltage Trip2RunTime Trip2PowerOnTime Trip3Error Trip3OutputFrequency
+    Trip3MotorCurrent Trip3DcBusVoltage Trip3RunTime Trip3PowerOnTime AccelerationTime
+    AccelerationTimeSet2 DecelerationTime DecelerationTimeSet2 MotorDirection FrequencySource
+    FrequencySourceSet2 RunSource RunSourceSet2 MotorRatedFrequency MotorRatedFrequencySet2
+    MaximumFrequency MaximumFrequencySet2 AtTerminalSelection InputOMinimumFrequency
+    InputOMaximumFrequency InputOMinimumSetpoint InputOMaximumSetpoint InputOStartCondition
+    AnalogInputFilter BaseFrequency BaseFrequencySet2 FixedFrequency1 FixedFrequency2 FixedFrequency3
+    FixedFrequency4 FixedFrequency5 FixedFrequency6 FixedFrequency7 FixedFrequency8 FixedFrequency9
+    FixedFrequency10 FixedFrequency11 FixedFrequency12 FixedFrequency13 FixedFrequency14
+    FixedFrequency15 JogFrequency JogStopMode BoostMode BoostModeSet2 ManualBoost ManualBoostSet2
+    ManualBoostFrequency ManualBoostFrequencySet2 VfCharacteristic VfCharacteristicSet2
+    OutputVoltageSetting OutputVoltageSettingSet2 DcBrakeEnable DcBrakeFrequency DcBrakeDelay
+    DcBrakeTorque DcBrakeTime DcBrakeTrigger UpperFrequencyLimit UpperFrequencyLimitSet2
+    LowerFrequencyLimit LowerFrequencyLimitSet2 JumpFrequency1 JumpFrequency1Width JumpFrequency2
+    JumpFrequency2Width JumpFrequency3 JumpFrequency3Width PidEnable PidProportionalGain PidIntegralTime
+    PidDerivativeTime PidDisplayFactor PidProcessValueSource PidInversion PidOutputLimit AvrMode
+    MotorVoltage AccelerationTime2 DecelerationTime2 DecelerationTime2Set2 Ramp2Selection
+    Ramp2SelectionSet2 AccelerationChangeFrequency AccelerationChangeFrequencySet2
+    DecelerationChangeFrequency DecelerationChangeFrequencySet2 AccelerationCurve DecelerationCurve
+    InputOiMinimumFrequency InputOiMaximumFrequency InputOiMinimumSetpoint InputOiMaximumSetpoint
+    InputOiStartCondition CalculationInputA CalculationInputB CalculationOperator FrequencyOffset
+    FrequencyOffsetSign PotentiometerMinimumFrequency PotentiometerMaximumFrequency
+    PotentiometerMinimumSetpoint PotentiometerMaximumSetpoint PotentiometerStartCondition RestartMode
+    AllowedPowerFailureTime RestartDelay PowerFailureTripAtStandstill PowerFailureRestarts
+    MotorProtectionLevel MotorProtectionLevelSet2 MotorProtectionCharacteristic
+    MotorProtectionCharacteristicSet2 CurrentLimitMode CurrentLimitModeSet2 CurrentLimitLevel
+    CurrentLimitLevelSet2 CurrentLimitTime CurrentLimitTimeSet2 CurrentLimitSource
+    CurrentLimitSourceSet2 ParameterLock AnalogOutputGain StartFrequency CarrierFrequency
+    InitializationMode FrequencyDisplayFactor StopKeyLock CoastRestartMode NetworkDisplay StopMode
+    OvervoltageDecelerationEnable OvervoltageDecelerationLevel200v OvervoltageDecelerationLevel400v
+    DigitalInput1Function DigitalInput1FunctionSet2 DigitalInput2Function DigitalInput2FunctionSet2
+    DigitalInput3Function DigitalInput3FunctionSet2 DigitalInput4Function DigitalInput4FunctionSet2
+    DigitalInput5Function DigitalInput5FunctionSet2 DigitalInput1Contact DigitalInput2Contact
+    DigitalInput3Contact DigitalInput4Contact DigitalInput5Contact DigitalOutput11Function
+    DigitalOutput12Function RelayOutputFunction AnalogOutputSource DigitalOutput11Contact
+    DigitalOutput12Contact RelayOutputContact OverloadAlarmLevel OverloadAlarmLevelSet2
+    ArrivalFrequencyAcceleration ArrivalFrequencyDeceleration PidDeviationLevel
+    PidProcessValueUpperLimit PidProcessValueLowerLimit InputOCalibration InputOiCalibration
+    ThermistorInputCalibration AnalogOutputOffset MotorPotentiometerMemory ResetMode LogicInputA
+    LogicInputB LogicOperator DigitalOutput11OnDelay DigitalOutput11OffDelay DigitalOutput12OnDelay
+    DigitalOutput12OffDelay RelayOutputOnDelay RelayOutputOffDelay MotorPower MotorPowerSet2 MotorPoles
+    MotorPolesSet2 StabilizationConstant StabilizationConstantSet2
+};
+
+/// What the frames need to know of the device. Behind a gateway that speaks another framing:
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
+pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0))
+    .padding_coils()
+    .naming(exceptions::name);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 
@@ -68,24 +126,36 @@ const FUNCTIONS: &[Function] = &[
     Function::new(16, 4).without_broadcast(),
 ];
 
-/// Exception codes, with what the manual says of them.
+/// Exception codes: why the device refuses a request, as [`runtime::modbus::ReplyError::Exception`] has them.
+///
+/// ```
+/// use hitachi_l200::runtime::modbus::ReplyError;
+/// use hitachi_l200::{exceptions, ClientError};
+///
+/// fn is_refused<E>(error: &ClientError<E>) -> bool {
+///     use exceptions::FUNCTION_NOT_SUPPORTED as REFUSED;
+///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }))
+/// }
+/// # let (code, name) = (exceptions::FUNCTION_NOT_SUPPORTED, None);
+/// # assert!(is_refused::<()>(&ReplyError::Exception { code, name }.into()));
+/// ```
 pub mod exceptions {
-    /// Function not supported.
+    /// Function not supported: exception 01h.
     pub const FUNCTION_NOT_SUPPORTED: u8 = 0x01;
 
-    /// Address not found.
+    /// Address not found: exception 02h.
     pub const ADDRESS_NOT_FOUND: u8 = 0x02;
 
-    /// Data format wrong.
+    /// Data format wrong: exception 03h.
     pub const DATA_FORMAT_WRONG: u8 = 0x03;
 
-    /// Value out of range.
+    /// Value out of range: exception 21h.
     pub const VALUE_OUT_OF_RANGE: u8 = 0x21;
 
-    /// Not available.
+    /// Not available: exception 22h.
     pub const NOT_AVAILABLE: u8 = 0x22;
 
-    /// The name of a code in the description, if it has one.
+    /// The name of a code in the description, if it has one; the clients' errors show it.
     #[must_use]
     pub const fn name(code: u8) -> Option<&'static str> {
         match code {

@@ -1877,13 +1877,15 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "flag_name" => flag_name(vector),
         "bits" => bits(vector),
         "words" => words(vector),
-        "address" => address(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "symbol" => symbol(vector),
-        "code" => code(vector),
         "command" => command(vector),
         "documented" => documented(vector),
         "read" => read_by_read(vector),
         "write" => write_by_write(vector),
+        "code" => {
+            code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
+        }
         "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
         "reply" | "printed_reply" => Some(frames::reply(vector)),
         "block" => Some(frames::block(vector, device::BLOCKS)),

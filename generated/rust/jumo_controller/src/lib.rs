@@ -5,7 +5,8 @@
 //! `JUMO Controller with MOD-Bus`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
+//! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
+//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! ```
@@ -37,10 +38,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError};
-pub use fieldscribe_runtime::{AsyncTransport, Transport};
-pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
-pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
+pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
 
@@ -53,8 +55,18 @@ pub const VERSION: &str = "1.0.0";
 /// What the description says, as a digest.
 pub const DIGEST: &str = "3b9f56ab1b754052f0f96b7b6ab6349343b89d929f850566a45510809d27b6a0";
 
-/// What the frames need to know of the device.
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 254), Some(0));
+/// All points, to list them or to find one at run time: [`PointInfo::find`].
+pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+    ProgramStatus ControllerStatus BinaryOutputs BinaryInputs ControlContacts BinarySignals
+    BinaryOutputControl ProgramRunTime ProgramRemainingTime SectionRunTime SectionRemainingTime
+    Timer1RunTime Timer2RunTime Timer3RunTime Timer4RunTime Setpoint1 Setpoint2 ProportionalBand1Set2
+    Value0077 Value00ce ProgramControllerCommands ControllerCommands OperationCommands TimerCommands
+};
+
+/// What the frames need to know of the device. Behind a gateway that speaks another framing:
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
+pub static PROFILE: Profile =
+    Profile::new(FUNCTIONS, FRAMINGS, (1, 254), Some(0)).naming(exceptions::name);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 
@@ -65,18 +77,30 @@ const FUNCTIONS: &[Function] = &[
     Function::new(16, 32),
 ];
 
-/// Exception codes, with what the manual says of them.
+/// Exception codes: why the device refuses a request, as [`runtime::modbus::ReplyError::Exception`] has them.
+///
+/// ```
+/// use jumo_controller::runtime::modbus::ReplyError;
+/// use jumo_controller::{exceptions, ClientError};
+///
+/// fn is_refused<E>(error: &ClientError<E>) -> bool {
+///     use exceptions::INVALID_FUNCTION as REFUSED;
+///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }))
+/// }
+/// # let (code, name) = (exceptions::INVALID_FUNCTION, None);
+/// # assert!(is_refused::<()>(&ReplyError::Exception { code, name }.into()));
+/// ```
 pub mod exceptions {
-    /// Invalid function.
+    /// Invalid function: exception 01h.
     pub const INVALID_FUNCTION: u8 = 0x01;
 
-    /// Invalid parameter address.
+    /// Invalid parameter address: exception 02h.
     pub const INVALID_PARAMETER_ADDRESS: u8 = 0x02;
 
-    /// Write refused.
+    /// Write refused: exception 08h.
     pub const WRITE_REFUSED: u8 = 0x08;
 
-    /// The name of a code in the description, if it has one.
+    /// The name of a code in the description, if it has one; the clients' errors show it.
     #[must_use]
     pub const fn name(code: u8) -> Option<&'static str> {
         match code {

@@ -5,7 +5,8 @@
 //! `NORD SK 5xxE`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
+//! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
+//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! ```
@@ -37,10 +38,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError};
-pub use fieldscribe_runtime::{AsyncTransport, Transport};
-pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
-pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
+pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
 
@@ -53,7 +55,14 @@ pub const VERSION: &str = "1.0.0";
 /// What the description says, as a digest.
 pub const DIGEST: &str = "bbf787107a204e16bf428a8253db7af82f9097f05718d07a4c0c7c88667510e0";
 
-/// What the frames need to know of the device.
+/// All points, to list them or to find one at run time: [`PointInfo::find`].
+pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+    ControlWord Setpoint1 Setpoint2 Setpoint3 Setpoint4 Setpoint5 StatusWord ActualValue1 ActualValue2
+    ActualValue3 ActualValue4 ActualValue5
+};
+
+/// What the frames need to know of the device. Behind a gateway that speaks another framing:
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
 pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 247), None);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
@@ -67,7 +76,7 @@ const FUNCTIONS: &[Function] = &[
     Function::new(16, 123),
 ];
 
-/// Exception codes, with what the manual says of them.
+/// Exception codes: why the device refuses a request, as [`runtime::modbus::ReplyError::Exception`] has them.
 pub mod exceptions {}
 
 /// Reads that bring all readable points of a group, as the device allows them.

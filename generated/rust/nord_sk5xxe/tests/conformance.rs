@@ -247,7 +247,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "flag_name" => flag_name(vector),
         "bits" => bits(vector),
         "words" => words(vector),
-        "address" => address(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "symbol" => symbol(vector),
         "place" => place(vector),
         "command" => command(vector),

@@ -5,7 +5,8 @@
 //! `Siemens MICROMASTER 4`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
+//! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
+//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! ```
@@ -37,10 +38,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::uss::{AsyncClient, Client, ClientError};
-pub use fieldscribe_runtime::{AsyncTransport, Transport};
-pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
-pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
+pub use fieldscribe_runtime::uss::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
+pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::uss::{FixedBits, Profile, Task};
 
@@ -53,8 +55,23 @@ pub const VERSION: &str = "1.0.0";
 /// What the description says, as a digest.
 pub const DIGEST: &str = "e868ce1973a8fb7641b972f10e6f64f46c50b0085bd5d7c0ceb89aab25211a81";
 
+/// All points, to list them or to find one at run time: [`PointInfo::find`].
+pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+    UserAccessLevel InverterStatusWord CommandSource P0731Source MainSetpointSource MaximumFrequency
+    JogTimeSelectionSource DcBrakingSource OutputPhaseSequence ReferenceFrequency UssNormalisationRs485
+    UssNormalisationRs232 UssBaudRateIndex0 UssBaudRateIndex1 UssSlaveAddressIndex0
+    UssSlaveAddressIndex1 UssPzdLengthIndex0Mm410 UssPzdLengthIndex0Mm420 UssPzdLengthIndex0Mm430
+    UssPzdLengthIndex0Mm440 UssPzdLengthIndex1Mm410 UssPzdLengthIndex1Mm420 UssPzdLengthIndex1Mm430
+    UssPzdLengthIndex1Mm440 UssPkwLengthIndex0 UssPkwLengthIndex1 UssTelegramOffTimeIndex0
+    UssTelegramOffTimeIndex1 UssRs232AnswerSourceIndex0 UssRs232AnswerSourceIndex1
+    UssRs232AnswerSourceIndex2 UssRs232AnswerSourceIndex3 UssRs485AnswerSourceIndex0
+    UssRs485AnswerSourceIndex1 UssRs485AnswerSourceIndex2 UssRs485AnswerSourceIndex3 ControlWord
+    MainSetpoint SecondControlWord StatusWord MainActualValue SecondStatusWord
+};
+
 /// What the telegrams need to know of the device.
-pub static PROFILE: Profile = Profile::new(TASKS, (0, 31), PKW, (0, 8), Some(32), FIXED);
+pub static PROFILE: Profile =
+    Profile::new(TASKS, (0, 31), PKW, (0, 8), Some(32), FIXED).naming(exceptions::name);
 
 const TASKS: &[Task] = &[
     Task::new(0, &[0]),
@@ -179,57 +196,57 @@ pub mod responses {
     pub const TEXT_ANSWER: u8 = 15;
 }
 
-/// Error values of a refusal.
+/// Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.
 pub mod exceptions {
-    /// Parameter number not allowed.
+    /// Parameter number not allowed: error 0.
     pub const PARAMETER_NUMBER_NOT_ALLOWED: u16 = 0;
 
-    /// Parameter not changeable.
+    /// Parameter not changeable: error 1.
     pub const PARAMETER_NOT_CHANGEABLE: u16 = 1;
 
-    /// Limit exceeded.
+    /// Limit exceeded: error 2.
     pub const LIMIT_EXCEEDED: u16 = 2;
 
-    /// Wrong index.
+    /// Wrong index: error 3.
     pub const WRONG_INDEX: u16 = 3;
 
-    /// No array.
+    /// No array: error 4.
     pub const NO_ARRAY: u16 = 4;
 
-    /// Wrong data type.
+    /// Wrong data type: error 5.
     pub const WRONG_DATA_TYPE: u16 = 5;
 
-    /// Only zero allowed.
+    /// Only zero allowed: error 6.
     pub const ONLY_ZERO_ALLOWED: u16 = 6;
 
-    /// Not in this operating state.
+    /// Not in this operating state: error 17.
     pub const NOT_IN_THIS_OPERATING_STATE: u16 = 17;
 
-    /// Parameter deactivated.
+    /// Parameter deactivated: error 101.
     pub const PARAMETER_DEACTIVATED: u16 = 101;
 
-    /// Answer too long.
+    /// Answer too long: error 102.
     pub const ANSWER_TOO_LONG: u16 = 102;
 
-    /// Value not allowed.
+    /// Value not allowed: error 104.
     pub const VALUE_NOT_ALLOWED: u16 = 104;
 
-    /// Task not implemented.
+    /// Task not implemented: error 106.
     pub const TASK_NOT_IMPLEMENTED: u16 = 106;
 
-    /// No lower limit.
+    /// No lower limit: error 200.
     pub const NO_LOWER_LIMIT: u16 = 200;
 
-    /// No upper limit.
+    /// No upper limit: error 201.
     pub const NO_UPPER_LIMIT: u16 = 201;
 
-    /// Not shown on panel.
+    /// Not shown on panel: error 203.
     pub const NOT_SHOWN_ON_PANEL: u16 = 203;
 
-    /// Access level too low.
+    /// Access level too low: error 204.
     pub const ACCESS_LEVEL_TOO_LOW: u16 = 204;
 
-    /// The name of a code in the description, if it has one.
+    /// The name of a code in the description, if it has one; the clients' errors show it.
     #[must_use]
     pub const fn name(code: u16) -> Option<&'static str> {
         match code {

@@ -669,7 +669,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 1) => {
                 Ok(runtime::Rule::new(100, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     write { count i64; with with::MainSetpoint; }
     impl runtime::uss::Sent {}
@@ -724,7 +724,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 1) => {
                 Ok(runtime::Rule::new(100, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     read { count i64; with with::MainActualValue; }
     impl runtime::uss::Received {}

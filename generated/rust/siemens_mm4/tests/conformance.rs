@@ -635,16 +635,18 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "flag_name" => flag_name(vector),
         "bits" => bits(vector),
         "words" => words(vector),
-        "address" => address(vector),
+        "address" => runner::listed(vector, device::POINTS, address(vector)),
         "symbol" => symbol(vector),
         "place" => place(vector),
         "fixed" => fixed(vector),
-        "code" => code(vector),
         "constant" => constant(vector),
         "documented" => documented(vector),
         "read" => read_by_read(vector).or_else(|| read_by_receive(vector)),
         "write" => write_by_write(vector).or_else(|| write_by_send_only(vector)),
         "store" => store_by_store(vector),
+        "code" => {
+            code(vector).map(|found| found.and_then(|()| frames::named(vector, &device::PROFILE)))
+        }
         "uss_build" | "uss_printed_build" => Some(frames::build(vector, &device::PROFILE)),
         "uss_broadcast" => Some(frames::broadcast(vector, &device::PROFILE)),
         "uss_reply" | "uss_printed_reply" => Some(frames::reply(vector, &device::PROFILE)),

@@ -5,7 +5,8 @@
 //! `Woodward MPU2-S`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
+//! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
+//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! ```
@@ -44,9 +45,11 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::can::{AsyncClient, AsyncTransport, Client, ClientError, Transport};
-pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
-pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
+pub use fieldscribe_runtime::can::{AsyncClient, AsyncTransport, Client, ClientError};
+pub use fieldscribe_runtime::can::{LocalClient, LocalTransport, Transport};
+pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
+pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
+pub use fieldscribe_runtime::{Whole, Writable};
 
 use fieldscribe_runtime::can::{Dialogue, Message, Profile};
 
@@ -58,6 +61,82 @@ pub const VERSION: &str = "1.0.0";
 
 /// What the description says, as a digest.
 pub const DIGEST: &str = "c8ceb345cd78ed794f7c8dbfba539967ae124ffef74f1efad5b4365ccc25a541";
+
+/// All points, to list them or to find one at run time: [`PointInfo::find`].
+pub const POINTS: &[PointInfo] = runtime::point_table! { points:
+    TelegramIdentification GeneratorFrequency GeneratorActivePower GeneratorPowerExponent
+    GeneratorVoltageExponent PresentActivePowerSetpoint ActivePowerSetpointFactor BusbarVoltageL1L2
+    MainsVoltageL1L2 PresentFaultClasses ControlRegister2 ControlRegister1 InternalFaults8
+    InternalFaults6 GeneratorVoltageL2L3 GeneratorVoltageL3L1 GeneratorVoltageL1N GeneratorVoltageL2N
+    GeneratorVoltageL3N GeneratorVoltageL1L2 GeneratorCurrentL1 GeneratorCurrentL2 GeneratorCurrentL3
+    GeneratorCosPhi LoadSharingParticipants MainsState GeneratorState GeneratorCurrentExponent
+    BusbarFrequency BusbarState MainsVoltageL2L3 MainsVoltageL3L1 MainsVoltageL1N MainsVoltageL2N
+    MainsVoltageL3N MainsFrequency MainsVoltageExponent BusbarVoltageExponent OperatingHours
+    HoursUntilMaintenance EngineStartCounter GeneratorActiveEnergy BatteryVoltage InternalFaults1
+    InternalFaults2 InternalFaults3 InternalFaults4 InternalFaults5 DigitalInputFaults1To8
+    DigitalInputFaults9To16 InternalFaults7 PasswordLevel2 GeneratorFrequencySetpoint
+    GeneratorRatedFrequency GeneratorVoltageTransformerSecondary100v
+    GeneratorVoltageTransformerSecondary400v GeneratorVoltageTransformerPrimary
+    BusbarVoltageTransformerSecondary100v BusbarVoltageTransformerSecondary400v
+    BusbarVoltageTransformerPrimary MainsVoltageTransformerSecondary100v
+    MainsVoltageTransformerSecondary400v MainsVoltageTransformerPrimary GeneratorVoltageFactor
+    GeneratorVoltageSetpoint100v GeneratorVoltageSetpoint400v GeneratorRatedVoltage100v
+    GeneratorRatedVoltage400v GeneratorCurrentTransformerRatio PowerMeasurementPhases
+    GeneratorRatedPower GeneratorRatedCurrent GeneratorPowerSetpoint1 GeneratorPowerSetpoint2
+    FrequencyController FrequencyControllerStartFrequency FrequencyControllerStartDelay
+    FrequencyControllerDeadBand FrequencyControllerPulseTime FrequencyControllerProportionalGain
+    VoltageController VoltageControllerDeadBand VoltageControllerPulseTime
+    VoltageControllerProportionalGain CosPhiController CosPhiControllerSetpoint CosPhiControllerDeadBand
+    CosPhiControllerProportionalGain ActivePowerController ActivePowerControllerRamp
+    ActivePowerControllerMaximum ActivePowerControllerMinimum ActivePowerControllerDeadBand
+    ActivePowerControllerProportionalGain ActivePowerControllerSensitivityReduction PartLoadLeadSetpoint
+    PartLoadLeadTime ControlByInterfaceX1X5 BreakerLogic LoadRampMaximumTime GeneratorBreakerSignalLogic
+    GeneratorBreakerOpenRelayLogic SynchronisationFrequencyDifferenceMaximum
+    SynchronisationFrequencyDifferenceMinimum SynchronisationVoltageDifferenceMaximum
+    SynchronisationVoltageDifferenceMinimum SynchronisationPulseTime GeneratorBreakerPickUpTime
+    SynchronisationTimeMonitoring SynchronisationTimeMonitoringDelay DeadBusStart
+    DeadBusStartFrequencyDifferenceMaximum DeadBusStartVoltageDifferenceMaximum DeadBusStartMaximumTime
+    GeneratorBreakerMonitoring AutomaticBreakerUnlocking GeneratorOverloadMonitoring
+    OverloadThresholdParallelOperation OverloadDelayParallelOperation OverloadThresholdIsolatedOperation
+    OverloadDelayIsolatedOperation GeneratorReversePowerMonitoring ReversePowerThreshold
+    ReversePowerDelay GeneratorUnbalancedLoadMonitoring UnbalancedLoadThreshold UnbalancedLoadDelay
+    GeneratorOvercurrentMonitoring Overcurrent1Threshold Overcurrent1Delay Overcurrent2Threshold
+    Overcurrent2Delay InverseTimeOvercurrent InverseTimeOvercurrentCharacteristic
+    InverseTimeOvercurrentTp InverseTimeOvercurrentIp InverseTimeOvercurrentIstart
+    InverseTimeOvercurrentVoltageDependence InverseTimeOvercurrentVoltageKnee
+    GeneratorOverfrequencyMonitoring GeneratorOverfrequency1Threshold GeneratorOverfrequency1Delay
+    GeneratorOverfrequency2Threshold GeneratorOverfrequency2Delay GeneratorUnderfrequencyMonitoring
+    GeneratorUnderfrequency1Threshold GeneratorUnderfrequency1Delay GeneratorUnderfrequency2Threshold
+    GeneratorUnderfrequency2Delay GeneratorOvervoltageMonitoring GeneratorOvervoltage1Threshold100v
+    GeneratorOvervoltage1Threshold400v GeneratorOvervoltage1Delay GeneratorOvervoltage2Threshold100v
+    GeneratorOvervoltage2Threshold400v GeneratorOvervoltage2Delay GeneratorUndervoltageMonitoring
+    GeneratorUndervoltage1Threshold100v GeneratorUndervoltage1Threshold400v GeneratorUndervoltage1Delay
+    GeneratorUndervoltage2Threshold100v GeneratorUndervoltage2Threshold400v GeneratorUndervoltage2Delay
+    MainsFrequencyMonitoring MainsOverfrequencyThreshold MainsOverfrequencyDelay
+    MainsUnderfrequencyThreshold MainsUnderfrequencyDelay MainsVoltageMonitoring MainsVoltageFactor
+    MainsOvervoltageThreshold100v MainsOvervoltageThreshold400v MainsOvervoltageDelay
+    MainsUndervoltageThreshold100v MainsUndervoltageThreshold400v MainsUndervoltageDelay
+    PhaseShiftMonitoring PhaseShiftMonitoringPhases PhaseShiftThresholdSinglePhase
+    PhaseShiftThresholdThreePhase ReactivePowerMonitoring ReactivePowerThresholdInductive
+    ReactivePowerDelayInductive ReactivePowerThresholdCapacitive ReactivePowerDelayCapacitive
+    EarthFaultMonitoring EarthFaultThreshold EarthFaultDelay BatteryUndervoltageThreshold
+    BatteryUndervoltageDelay DigitalInputs1To4Logic DigitalInputs1To4Delay DigitalInputs1To4EngineDelay
+    DigitalInputs1To4FaultClass DigitalInputs5To8Logic DigitalInputs5To8Delay
+    DigitalInputs5To8EngineDelay DigitalInputs5To8FaultClass DigitalInputs9To12Logic
+    DigitalInputs9To12Delay DigitalInputs9To12EngineDelay DigitalInputs9To12FaultClass
+    FaultTextTerminal62 FaultTextTerminal63 FaultTextTerminal64 FaultTextTerminal65 FaultTextTerminal66
+    FaultTextTerminal67 FaultTextTerminal68 FaultTextTerminal69 FaultTextTerminal70 FaultTextTerminal71
+    FaultTextTerminal72 FaultTextTerminal73 AnalogOutput1Source AnalogOutput1CurrentRange
+    AnalogOutput1ValueAt0Percent AnalogOutput1ValueAt100Percent AnalogOutput2Source
+    AnalogOutput2CurrentRange AnalogOutput2ValueAt0Percent AnalogOutput2ValueAt100Percent Relay1Event1
+    Relay1Logic1 Relay1Event2 Relay1Logic2 Relay1Event3 Relay1Logic3 Relay2Event1 Relay2Logic1
+    Relay2Event2 Relay2Logic2 Relay2Event3 Relay2Logic3 Relay3Event1 Relay3Logic1 Relay3Event2
+    Relay3Logic2 Relay3Event3 Relay3Logic3 Relay4Event1 Relay4Logic1 Relay4Event2 Relay4Logic2
+    Relay4Event3 Relay4Logic3 Relay5Event1 Relay5Logic1 Relay5Event2 Relay5Logic2 Relay5Event3
+    Relay5Logic3 Relay6Event1 Relay6Logic1 Relay6Event2 Relay6Logic2 Relay6Event3 Relay6Logic3
+    Relay7Event1 Relay7Logic1 Relay7Event2 Relay7Logic2 Relay7Event3 Relay7Logic3 AutomaticIdleControl
+    Shutdown EngineMonitoringDelay MonitoringStartFrequency
+};
 
 /// What the messages need to know of the device.
 pub static PROFILE: Profile = Profile::new((0, 30), 11, READ, WRITE);

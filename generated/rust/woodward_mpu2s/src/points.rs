@@ -3566,7 +3566,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 22) => {
                 Ok(runtime::Rule::new(1, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     read { count i64; with with::AnalogOutput1ValueAt0Percent; }
     write { count i64; with with::AnalogOutput1ValueAt0Percent; }
@@ -3606,7 +3606,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 22) => {
                 Ok(runtime::Rule::new(1, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     read { count i64; with with::AnalogOutput1ValueAt100Percent; }
     write { count i64; with with::AnalogOutput1ValueAt100Percent; }
@@ -3673,7 +3673,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 22) => {
                 Ok(runtime::Rule::new(1, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     read { count i64; with with::AnalogOutput2ValueAt0Percent; }
     write { count i64; with with::AnalogOutput2ValueAt0Percent; }
@@ -3713,7 +3713,7 @@ point! {
             () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 22) => {
                 Ok(runtime::Rule::new(1, 1))
             }
-            () => Err(runtime::Error::NoCase),
+            () => Err(runtime::Error::NoCase(None)),
         });
     read { count i64; with with::AnalogOutput2ValueAt100Percent; }
     write { count i64; with with::AnalogOutput2ValueAt100Percent; }

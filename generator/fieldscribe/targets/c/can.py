@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, aliases_of, kind_of, lies, names_of, old_names_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.modbus import exceptions_of
 from fieldscribe.targets.identifiers import Owner
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Message, Point, Telegram
     from fieldscribe.targets.c.scope import Scope
-    from fieldscribe.targets.c.views import DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
 
 _BYTES = 8
 
@@ -92,6 +92,7 @@ class BusView:
     layouts: tuple[Descriptor, ...]
     parameters: tuple[FrameView, ...]
     cyclic: tuple[FrameView, ...]
+    aliases: tuple[AliasView, ...]
 
 
 def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -133,6 +134,7 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         layouts=layouts.descriptors,
         parameters=tuple(one for one in parameters if one is not None),
         cyclic=heard,
+        aliases=aliases_of((one.descriptor for one in (*filter(None, parameters), *heard)), device, scope),
     )
 
 
@@ -149,6 +151,7 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     for group in bus.groups:
         yield from ((name, Owner("group", group.title)) for name in (group.array, group.count_name))
     yield from names_of((*bus.layouts, *(one.descriptor for one in (*bus.parameters, *bus.cyclic))))
+    yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

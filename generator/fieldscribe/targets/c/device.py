@@ -34,8 +34,7 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
             continue
         one = point_view(point, scope)
         by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
-        for old in point.was:
-            item = old + point.item[len(point.name) :]  # a variant keeps its suffix
+        for item in old_items(point):
             of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
             aliases += [AliasView(item, one.item, *alias) for alias in of_item]
     groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
@@ -59,6 +58,11 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         double=not names_only and any(computes_in_double(point) for point in device.points if point.generated),
     )
     return view, scope
+
+
+def old_items(point: Point) -> Iterator[str]:
+    """What the point was called before; a variant keeps its suffix."""
+    yield from (old + point.item[len(point.name) :] for old in point.was)
 
 
 def _title(group: str, scope: Scope) -> str:
@@ -106,7 +110,14 @@ def _aliases(view: PointView, function: str, macro: str) -> Iterator[tuple[str, 
     for name in function_names(view):
         tail = name[len(view.function) :]
         floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
-        yield function + tail, name, "floating function" if floats else "function"
+        sort = "object" if tail == "_addresses" else "floating function" if floats else "function"
+        yield function + tail, name, sort
+    if view.fields:
+        yield f"{function}_with", f"{view.function}_with", "struct"
+    if view.enum is not None and view.enum.function == f"{view.function}_name":
+        yield f"{function}_name", view.enum.function, "function"
+        for name, _, _ in view.enum.entries:
+            yield macro + name[len(view.macro) :], name, "number"
 
 
 def _remark(point: Point, scope: Scope) -> RemarkView:

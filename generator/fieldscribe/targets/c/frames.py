@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.c.device import old_items
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.c.scope import Scope
 
 _LINE = 120
@@ -89,6 +91,22 @@ def names_of(descriptors: Iterable[Descriptor]) -> Iterator[tuple[str, Owner]]:
     """The identifiers of descriptors, with what they belong to."""
     for one in descriptors:
         yield one.name, Owner("point", one.item, "the frame") if one.item else Owner("target", "layouts")
+
+
+def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: Scope) -> tuple[AliasView, ...]:
+    """The descriptors of renamed points by the names that they had."""
+    renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
+    return tuple(
+        AliasView(old, one.item, old_name, one.name, "object")
+        for one in descriptors
+        for old in renamed.get(one.item, ())
+        for old_name in (f"{scope.prefix}_{old}{one.name[len(f'{scope.prefix}_{one.item}') :]}",)
+    )
+
+
+def old_names_of(aliases: Iterable[AliasView]) -> Iterator[tuple[str, Owner]]:
+    """The identifiers of old names, with the points that had them."""
+    yield from ((one.old, Owner("point", one.item, f"old name of {one.new}")) for one in aliases)
 
 
 def _mask(point: Point) -> int:

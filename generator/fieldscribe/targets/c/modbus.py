@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Layouts,
+    aliases_of,
+    kind_of,
+    lies,
+    names_of,
+    old_names_of,
+    places_of,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -17,7 +27,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Block, Command, Device, Place, Point
     from fieldscribe.targets.c.scope import Scope
-    from fieldscribe.targets.c.views import Define, DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -79,6 +89,7 @@ class BusView:
     frames: tuple[FrameView, ...]
     commands: tuple[CommandView, ...]
     exceptions: tuple[tuple[str, str, str], ...]
+    aliases: tuple[AliasView, ...]
 
 
 def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -115,6 +126,7 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         frames=tuple(one for one in frames if one is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
+        aliases=aliases_of((one.descriptor for one in frames if one is not None), device, scope),
     )
 
 
@@ -135,6 +147,7 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
         yield from ((one, Owner("command", name)) for one in (name, *(define for define, _ in command.defines)))
     yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
     yield from names_of((*bus.layouts, *(one.descriptor for one in bus.frames)))
+    yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

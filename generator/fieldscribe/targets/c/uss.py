@@ -6,7 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Layouts,
+    aliases_of,
+    kind_of,
+    lies,
+    names_of,
+    old_names_of,
+    places_of,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
@@ -16,7 +26,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Code, Device, Point, Telegram
     from fieldscribe.targets.c.scope import Scope
-    from fieldscribe.targets.c.views import DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
 
 _READ = (1, 6)
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
@@ -78,6 +88,7 @@ class BusView:
     layouts: tuple[Descriptor, ...]
     frames: tuple[FrameView, ...]
     words: tuple[WordView, ...]
+    aliases: tuple[AliasView, ...]
 
 
 def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -116,6 +127,14 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         layouts=layouts.descriptors,
         frames=tuple(one for one in frames if one is not None),
         words=words,
+        aliases=aliases_of(
+            (
+                *(one for frame in frames if frame is not None for one in frame.descriptors),
+                *(one.descriptor for one in words),
+            ),
+            device,
+            scope,
+        ),
     )
 
 
@@ -127,6 +146,7 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
         yield from ((name, Owner("code", name)) for name, _, _, _ in codes.entries)
     yield from names_of((*bus.layouts, *(one for frame in bus.frames for one in frame.descriptors)))
     yield from names_of(one.descriptor for one in bus.words)
+    yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
@@ -209,7 +229,7 @@ def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: lis
 
 
 def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
-    position = f"{{{min(point.addresses)}U}}"
+    position = f"{{{min(point.addresses)}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     return WordView(

@@ -39,6 +39,7 @@ _RUNTIME = (
     "src/form/scaled.rs",
     "src/form/text.rs",
     "src/form/wide.rs",
+    "src/info.rs",
     "src/lib.rs",
     "src/macros.rs",
     "src/modbus/client.rs",

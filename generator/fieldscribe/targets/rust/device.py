@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
@@ -52,6 +53,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
     return {
         "head": head(device, "//"),
         "points": points,
+        "table": wrap(" ".join(one.name for one in scope.subjects), 100, break_long_words=False),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import upper
+from fieldscribe.names import RUST_CONSTANTS, upper
 from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families import family_identifiers
 from fieldscribe.targets.rust.literals import type_name, variant_name
@@ -15,14 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
-
-CONSTANTS = frozenset(
-    {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
-    | {"decimals", "read_function", "write_function", "write_address"}
-    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
-    | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
-)
-"""Associated constants of the point traits, which a name of the author would hide."""
 
 
 def identifiers(device: Device) -> Iterator[Identifier]:
@@ -55,7 +47,7 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
     yield Identifier("Rust, points", subject.name, owner)
     for old in point.was if point.variant is None else ():
         yield Identifier("Rust, points", type_name(old), owner._replace(part=f"old name {old}"))
-    for name in CONSTANTS.intersection((*point.references, *(special.name for special in point.specials))):
+    for name in RUST_CONSTANTS.intersection((*point.references, *(special.name for special in point.specials))):
         yield Identifier(own, name.upper(), Owner("target", f"the constant `{name.upper()}` of every point"))
     for key in point.references:
         yield Identifier(own, key.upper(), owner._replace(part=f"numbering {key}"))

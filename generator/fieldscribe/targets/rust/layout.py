@@ -100,3 +100,10 @@ def chained(text: str) -> Lines:
         return (text,)
     first, *others = text.split("?.")
     return first, *(f"    ?.{one}" for one in others)
+
+
+def chain(left: str, start: str, steps: list[str]) -> Lines:
+    """`left = start.step().step();`: one step in the line of a binding, several in a line each."""
+    if len(steps) < 2:
+        return binding(0, left, "".join((start, *steps)))
+    return (f"{left} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")

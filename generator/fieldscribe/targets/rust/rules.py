@@ -19,7 +19,7 @@ Lines = tuple[str, ...]
 
 def rule_lines(point: Point, points: Points) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
-    otherwise = "Err(runtime::Error::NoCase)"
+    otherwise = "Err(runtime::Error::NoCase(None))"
     found: list[tuple[str, list[str], str]] = []
     for case in point.scale or ():
         result = rule_of(case.rule, points)

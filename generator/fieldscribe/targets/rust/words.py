@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import RUST_UNKNOWN
 from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
@@ -121,7 +122,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
     name = type_name(enum.name)
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(one for one in ("Unknown", "Other", "Unnamed", "Number") if one not in taken)
+    unknown = next(one for one in RUST_UNKNOWN if one not in taken)
     return EnumView(sentence(enum.name), name, raw, entries, unknown)
 
 

@@ -164,8 +164,8 @@ impl Message {
         if bytes().any(|(role, byte)| matches!(role, Role::Constant(own) if *own != byte)) {
             return Err(ParseError::WrongConstant);
         }
-        let is_other = |(role, byte): (&Role, u8)| matches!(role, Role::Unit(shift) if byte_of(u16::from(unit), *shift) != byte);
-        if bytes().any(is_other) {
+        let own = |shift: u8| byte_of(u16::from(unit), shift);
+        if bytes().any(|(role, byte)| matches!(role, Role::Unit(shift) if own(*shift) != byte)) {
             return Err(ParseError::WrongUnit);
         }
         if bytes()

@@ -18,7 +18,8 @@ mod error;
 mod message;
 mod receiver;
 
-pub use client::{AsyncClient, AsyncTransport, Client, ClientError, Listener, Transport};
+pub use client::{AsyncClient, AsyncTransport, Client, ClientError};
+pub use client::{Listener, LocalClient, LocalTransport, Transport};
 pub use error::{BuildError, ParseError, ReceiveError};
 pub use message::{Content, Dialogue, Message, Profile, Role};
 pub use receiver::{Received, Receiver, Slot, Telegram};

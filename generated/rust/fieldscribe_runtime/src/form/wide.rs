@@ -37,5 +37,5 @@ pub fn decode_count<P: FixedScale, C: TryFrom<i128>>(raw: P::Raw, (): ()) -> Res
     let sum = product.and_then(|product| product.checked_add(line.add));
     let count = sum.map(|sum| div_round_i128(sum, line.divide.unsigned_abs()));
     let count = count.and_then(|count| C::try_from(count).ok());
-    count.ok_or(Error::Overflow)
+    count.ok_or(Error::Overflow(Some(P::NAME)))
 }

@@ -75,8 +75,13 @@ pub enum ReplyError {
     WrongUnit,
     /// The reply is to another function.
     WrongFunction,
-    /// The device refused, with this code.
-    Exception(u8),
+    /// The device refused.
+    Exception {
+        /// The code that says why.
+        code: u8,
+        /// Its name in the description, which the [`Profile`](super::Profile) knows.
+        name: Option<&'static str>,
+    },
     /// The byte count is not what the request asked for.
     BadByteCount,
     /// What was written is not what the reply repeats.
@@ -96,7 +101,7 @@ impl ReplyError {
             Self::WrongTransaction => "wrong_transaction",
             Self::WrongUnit => "wrong_unit",
             Self::WrongFunction => "wrong_function",
-            Self::Exception(_) => "exception",
+            Self::Exception { .. } => "exception",
             Self::BadByteCount => "bad_byte_count",
             Self::EchoMismatch => "echo_mismatch",
         }
@@ -114,7 +119,10 @@ impl fmt::Display for ReplyError {
             Self::WrongTransaction => formatter.write_str("the reply is to another transaction"),
             Self::WrongUnit => formatter.write_str("another unit replied"),
             Self::WrongFunction => formatter.write_str("the reply is to another function"),
-            Self::Exception(code) => write!(formatter, "the device refused with exception {code}"),
+            Self::Exception { code, name } => {
+                write!(formatter, "the device refused with exception {code:02X}h")?;
+                name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
+            }
             Self::BadByteCount => formatter.write_str("the byte count is not what was asked for"),
             Self::EchoMismatch => formatter.write_str("the reply repeats something else"),
         }

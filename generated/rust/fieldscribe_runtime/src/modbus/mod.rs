@@ -18,7 +18,7 @@ mod profile;
 mod reply;
 mod request;
 
-pub use client::{AsyncClient, Client, ClientError};
+pub use client::{AsyncClient, Client, ClientError, LocalClient};
 pub use error::{BuildError, ReplyError};
 pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};

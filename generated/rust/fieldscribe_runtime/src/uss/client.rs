@@ -7,9 +7,10 @@ use super::{
     broadcast, BuildError, Link, Parameter, ParseError, Profile, Received, Reply, Request, Sent,
     Value, LONGEST,
 };
-use crate::client::{AsyncTransport, Transport};
+use crate::client::{AsyncTransport, LocalTransport, Transport};
 use crate::point::joined;
-use crate::{BitGroup, Decoded, Encodable, Error, Raw, Readable, Whole};
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error};
+use crate::{Raw, Readable, Whole, Writable};
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
@@ -17,6 +18,8 @@ const WORDS: usize = 16;
 const SENT: usize = 4 + 2 * (4 + WORDS);
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
@@ -65,11 +68,8 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Point(error) => Some(error),
-            Self::Build(error) => Some(error),
-            Self::Reply(error) => Some(error),
-            Self::EchoMismatch(_) => None,
-            Self::Transport(error) => Some(error),
+            Self::Transport(error) => error.source(),
+            _ => None,
         }
     }
 }
@@ -166,7 +166,7 @@ impl Drive {
         // A drive that does not do the task has taken the process data of the telegram all the same.
         let is_about_this = matches!(
             reply,
-            Ok(_) | Err(ParseError::Refused(_) | ParseError::NoRights | ParseError::NoAnswer)
+            Ok(_) | Err(ParseError::Refused { .. } | ParseError::NoRights | ParseError::NoAnswer)
         );
         if is_about_this {
             self.process = Process {
@@ -182,22 +182,29 @@ impl Drive {
         reply
     }
 
+    /// Sets a point to a raw number that was checked.
+    fn put<P: Sent>(&mut self, raw: P::Raw) -> Result<(), Error> {
+        self.process = self.with_words::<P>(raw.into_words().as_ref())?;
+        Ok(())
+    }
+
     /// The process data with other words of a point.
     fn with_words<P: Sent>(&self, words: &[u16]) -> Result<Process, Error> {
         self.changed(|all| {
             for (position, word) in P::ADDRESSES.iter().zip(words) {
                 *all.get_mut(usize::from(*position))
-                    .ok_or(Error::WrongLength)? = *word;
+                    .ok_or(Error::WrongLength(None))? = *word;
             }
             Ok(())
         })
+        .map_err(Error::of::<P>)
     }
 
     /// The process data with another word.
     fn with_word(&self, position: u16, word: u16) -> Result<Process, Error> {
         self.changed(|all| {
             let place = all.get_mut(usize::from(position));
-            *place.ok_or(Error::WrongLength)? = word;
+            *place.ok_or(Error::WrongLength(None))? = word;
             Ok(())
         })
     }
@@ -206,10 +213,11 @@ impl Drive {
     fn with_bits<P: Sent + BitGroup>(&self, raw: P::Raw) -> Result<Process, Error> {
         self.changed(|all| {
             let word = all.get_mut(usize::from(P::ADDRESS));
-            let word = word.ok_or(Error::WrongLength)?;
+            let word = word.ok_or(Error::WrongLength(None))?;
             *word = P::insert(*word, raw);
             Ok(())
         })
+        .map_err(Error::of::<P>)
     }
 
     fn changed(
@@ -218,7 +226,7 @@ impl Drive {
     ) -> Result<Process, Error> {
         let mut words = self.process.words;
         let linked = words.get_mut(..usize::from(self.link.pzd));
-        change(linked.ok_or(Error::WrongLength)?)?;
+        change(linked.ok_or(Error::WrongLength(None))?)?;
         Ok(Process {
             words,
             is_changed: self.process.is_changed || words != self.process.words,
@@ -229,7 +237,7 @@ impl Drive {
     fn heard<P: Received>(&self) -> Result<P::Raw, Error> {
         let mut words = P::Raw::MIN.into_words();
         for (place, position) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
-            *place = self.heard_word(*position)?;
+            *place = self.heard_word(*position).map_err(Error::of::<P>)?;
         }
         Ok(joined::<P>(words))
     }
@@ -237,10 +245,10 @@ impl Drive {
     fn heard_word(&self, position: u16) -> Result<u16, Error> {
         let heard = self.heard.get(..self.count).unwrap_or_default();
         if heard.is_empty() {
-            return Err(Error::NotHeard);
+            return Err(Error::NotHeard(None));
         }
         let word = heard.get(usize::from(position));
-        word.copied().ok_or(Error::WrongLength)
+        word.copied().ok_or(Error::WrongLength(None))
     }
 }
 
@@ -297,9 +305,29 @@ macro_rules! client {
             where
                 P: Encodable + Whole + Sent,
             {
-                let words = P::encode_with(value, with)?.into_words();
-                self.drive.process = self.drive.with_words::<P>(words.as_ref())?;
-                Ok(())
+                self.drive.put::<P>(P::encode_with(value, with)?)
+            }
+
+            /// Sets a point of the process data to a count: its value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// The same.
+            pub fn set_count<P>(&mut self, count: P::Count) -> Result<(), Error>
+            where
+                P: CountWritable<With = ()> + Whole + Sent,
+            {
+                self.set_count_with::<P>(count, ())
+            }
+
+            /// As `set_count`, by the raw numbers that the point's scale and limits need.
+            ///
+            /// # Errors
+            /// The same.
+            pub fn set_count_with<P>(&mut self, count: P::Count, with: P::With) -> Result<(), Error>
+            where
+                P: CountWritable + Whole + Sent,
+            {
+                self.drive.put::<P>(P::encode_count_with(count, with)?)
             }
 
             /// Sets a group of bits of the process data, which the next telegram carries.
@@ -360,6 +388,28 @@ macro_rules! client {
             {
                 P::decode_with(self.drive.heard::<P>()?, with).into_result()
             }
+
+            /// As `heard`, as a count: the value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// The same.
+            pub fn heard_count<P>(&self) -> Result<P::Count, Error>
+            where
+                P: CountReadable<Factors = ()> + Received,
+            {
+                self.heard_count_with::<P>(())
+            }
+
+            /// As `heard_count`, by the raw numbers that the point's scale needs.
+            ///
+            /// # Errors
+            /// The same.
+            pub fn heard_count_with<P>(&self, with: P::Factors) -> Result<P::Count, Error>
+            where
+                P: CountReadable + Received,
+            {
+                P::decode_count_with(self.drive.heard::<P>()?, with).into_result()
+            }
         }
 
         impl<T: $transport> $client<T> {
@@ -401,8 +451,8 @@ macro_rules! client {
             ///
             /// The first mask says which words are meant: bit 1 the first word, bit 2 the second. The second mask says
             /// which bits of the first word are meant, the others which of a further control word: `[6, 0xFFFF, 0, 0]`
-            /// is a whole control word and its setpoint. Other clients on the bus do not know of it and repeat their own
-            /// words with their next telegram: set those too, or a stop for all lasts until then.
+            /// is a whole control word and its setpoint. Other clients on the bus do not know of it and repeat their
+            /// own words with their next telegram: set those too, or a stop for all lasts until then.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells; [`BuildError::BadMask`] if the first word is meant without the bits that
@@ -526,6 +576,32 @@ macro_rules! client {
                 Ok(P::decode_with(raw, with).into_result()?)
             }
 
+            /// A parameter's count: its value in units of `10^-DECIMALS`, without floating point.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable<Factors = ()> + Parameter,
+            {
+                self.read_count_with::<P>(())$($wait)*
+            }
+
+            /// A parameter's count, by the raw numbers that its scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable + Parameter,
+            {
+                let raw = self.read_raw::<P>()$($wait)*?;
+                Ok(P::decode_count_with(raw, with).into_result()?)
+            }
+
             /// Changes a parameter until the power is off.
             ///
             /// # Errors
@@ -553,6 +629,60 @@ macro_rules! client {
                 self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
             }
 
+            /// Changes a parameter to a count until the power is off: its value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable<With = ()> + Whole + Parameter,
+            {
+                self.write_count_with::<P>(count, ())$($wait)*
+            }
+
+            /// As `write_count`, by the raw numbers that the point's scale and limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count_with<P>(
+                &mut self,
+                count: P::Count,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable + Whole + Parameter,
+            {
+                let raw = P::encode_count_with(count, with)?;
+                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
+            }
+
+            /// Changes a parameter to a raw number until the power is off, if it may be written.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole + Parameter,
+            {
+                self.write_raw_with::<P>(raw, ())$($wait)*
+            }
+
+            /// As `write_raw`, by the raw numbers that the point's limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw_with<P>(
+                &mut self,
+                raw: P::Raw,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable + Whole + Parameter,
+            {
+                P::check_with(raw, with)?;
+                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
+            }
+
             /// Changes a parameter in the EEPROM too, which stands a limited number of writes.
             ///
             /// # Errors
@@ -577,6 +707,60 @@ macro_rules! client {
                 P: Encodable + Whole + Parameter,
             {
                 let raw = P::encode_with(value, with)?;
+                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
+            }
+
+            /// Changes a parameter to a count in the EEPROM too: its value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn store_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable<With = ()> + Whole + Parameter,
+            {
+                self.store_count_with::<P>(count, ())$($wait)*
+            }
+
+            /// As `store_count`, by the raw numbers that the point's scale and limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn store_count_with<P>(
+                &mut self,
+                count: P::Count,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable + Whole + Parameter,
+            {
+                let raw = P::encode_count_with(count, with)?;
+                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
+            }
+
+            /// Changes a parameter to a raw number in the EEPROM too, if it may be written.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn store_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole + Parameter,
+            {
+                self.store_raw_with::<P>(raw, ())$($wait)*
+            }
+
+            /// As `store_raw`, by the raw numbers that the point's limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn store_raw_with<P>(
+                &mut self,
+                raw: P::Raw,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable + Whole + Parameter,
+            {
+                P::check_with(raw, with)?;
                 self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
             }
 
@@ -629,7 +813,7 @@ macro_rules! client {
             {
                 let request = Request::read::<P>(self.drive.unit);
                 let reply = self.exchange(request)$($wait)*?;
-                Ok(reply.word()?)
+                Ok(reply.word().map_err(Error::of::<P>)?)
             }
         }
     };
@@ -642,4 +826,17 @@ client!(
     [],
     []
 );
-client!(AsyncClient, AsyncTransport, "One drive behind a transport that does not block.", [async], [.await]);
+client!(
+    AsyncClient,
+    AsyncTransport,
+    "One drive behind a transport that does not block.",
+    [async],
+    [.await]
+);
+client!(
+    LocalClient,
+    LocalTransport,
+    "One drive behind a transport of one thread, which does not block.",
+    [async],
+    [.await]
+);

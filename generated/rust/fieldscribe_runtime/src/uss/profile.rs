@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What the telegrams need to know of a device, as constants of the generated code, and how a link is set.
 
-use super::{Sent, VARIABLE};
+use super::{ParseError, Sent, VARIABLE};
 
 /// How a link is set: its words of the parameter part (0, 3, 4 or 127 for variable) and of process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +90,7 @@ impl FixedBits {
 }
 
 /// What the telegrams need to know of a device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Profile {
     tasks: &'static [Task],
     pub(super) units: (u8, u8),
@@ -98,6 +98,7 @@ pub struct Profile {
     pzd: (u8, u8),
     pub(super) broadcast: Option<u8>,
     fixed: &'static [FixedBits],
+    name: fn(u16) -> Option<&'static str>,
 }
 
 impl Profile {
@@ -119,7 +120,21 @@ impl Profile {
             pzd,
             broadcast,
             fixed,
+            name: |_| None,
         }
+    }
+
+    /// The same drive, whose error values have names.
+    #[must_use]
+    pub const fn naming(self, name: fn(u16) -> Option<&'static str>) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The refusal that an error value is, with the name that the drive has for it.
+    #[must_use]
+    pub fn refusal(&self, error: u16) -> ParseError {
+        let name = (self.name)(error);
+        ParseError::Refused { error, name }
     }
 
     pub(super) fn knows(&self, task: u8) -> bool {

@@ -38,7 +38,7 @@ impl Reply<'_> {
     pub const fn word(&self) -> Result<u16, Error> {
         match self.value {
             Value::Word(word) => Ok(word),
-            _ => Err(Error::WrongLength),
+            _ => Err(Error::WrongLength(None)),
         }
     }
 
@@ -55,7 +55,7 @@ impl Reply<'_> {
                 *high = u16::from_be_bytes([a, b]);
                 *low = u16::from_be_bytes([c, d]);
             }
-            _ => return Err(Error::WrongLength),
+            _ => return Err(Error::WrongLength(Some(P::NAME))),
         }
         Ok(crate::point::joined::<P>(found))
     }
@@ -96,7 +96,7 @@ impl Request {
             return Err(ParseError::WrongParameter);
         }
         match reply.response {
-            7 => return Err(ParseError::Refused(first)),
+            7 => return Err(profile.refusal(first)),
             8 => return Err(ParseError::NoRights),
             response if !profile.answers(self.task, response) => {
                 return Err(ParseError::WrongResponse);

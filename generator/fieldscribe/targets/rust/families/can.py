@@ -56,7 +56,7 @@ def can_context(device: Device) -> dict[str, object]:
         "dialogues": tuple(_dialogues(device.messages)),
         "messages": tuple(map(_message, device.messages)),
         "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
-        "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16")),),
+        "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
         "telegrams": tuple(
             _telegram(one, carriers[one.message])
             for one in device.telegrams

@@ -8,7 +8,7 @@ from fieldscribe.families.modbus import framings_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import array, binding
+from fieldscribe.targets.rust.layout import Lines, array, chain
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -36,8 +36,8 @@ def modbus_context(device: Device) -> dict[str, object]:
         "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
-        "profile": tuple(binding(0, "pub static PROFILE: Profile", _profile(bus))),
-        "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
+        "profile": _profile(bus),
+        "exceptions": tuple(map(_exception, bus.exceptions)),
         "blocks": tuple(_blocks(device)),
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
@@ -45,11 +45,21 @@ def modbus_context(device: Device) -> dict[str, object]:
     }
 
 
-def _profile(bus: Bus) -> str:
+def _exception(code: Code) -> tuple[str, str, str]:
+    """What is said of an exception code, its constant and its number."""
+    return (
+        f"{sentence(code.name).rstrip('.')}: exception {code.number:02X}h.",
+        code.name.upper(),
+        f"0x{code.number:02X}",
+    )
+
+
+def _profile(bus: Bus) -> Lines:
     broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
     profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
     pads = bus.pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
-    return f"{profile}.padding_coils()" if pads else profile
+    steps = [*([".padding_coils()"] if pads else []), *([".naming(exceptions::name)"] if bus.exceptions else [])]
+    return chain("pub static PROFILE: Profile", profile, steps)
 
 
 def _most(code: Code) -> int:

@@ -18,10 +18,14 @@ Constant = tuple[str, tuple[str, ...]]
 """What a doc comment says of a constant, and its lines."""
 
 
-def constants(codes: Iterable[Code], type_: str) -> tuple[Constant, ...]:
-    """A constant of that type for each code."""
+def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Constant, ...]:
+    """A constant of that type for each code; `what` is the word by which people know its number."""
     return tuple(
-        (sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number))) for one in codes
+        (
+            f"{sentence(one.name).rstrip('.')}: {what} {one.number}." if what else sentence(one.name),
+            binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number)),
+        )
+        for one in codes
     )
 
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families.numbers import code_names, constants
-from fieldscribe.targets.rust.layout import array
+from fieldscribe.targets.rust.layout import array, binding
 from fieldscribe.targets.rust.literals import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device
+    from fieldscribe.model import Bus, Device
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 
@@ -23,18 +23,27 @@ def uss_context(device: Device) -> dict[str, object]:
         "example_link": f"Link::new({max(bus.pkw)}, {bus.pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
-        "units": f"({bus.units[0]}, {bus.units[1]})",
-        "pzd": f"({bus.pzd[0]}, {bus.pzd[1]})",
+        "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
         "pkw": ", ".join(map(str, bus.pkw)),
-        "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
         "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
         "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
             ("responses", "Response ids.", constants(bus.responses, "u8")),
-            ("exceptions", "Error values of a refusal.", constants(bus.exceptions, "u16")),
+            (
+                "exceptions",
+                "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.",
+                constants(bus.exceptions, "u16", "error"),
+            ),
         ),
     }
+
+
+def _profile(bus: Bus) -> str:
+    units, pzd = f"({bus.units[0]}, {bus.units[1]})", f"({bus.pzd[0]}, {bus.pzd[1]})"
+    broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
+    naming = ".naming(exceptions::name)" if bus.exceptions else ""
+    return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
 
 
 def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:

@@ -4,17 +4,16 @@
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
 use std::collections::VecDeque;
-use std::error::Error as _;
 
 use fieldscribe_runtime::can::{
     AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Dialogue, Frame,
-    Listener, Message, Parameter, ParseError, Profile, ReceiveError, Received, Receiver, Role,
-    Slot, Telegram, Transport,
+    Listener, LocalClient, LocalTransport, Message, Parameter, ParseError, Profile, ReceiveError,
+    Received, Receiver, Role, Slot, Telegram, Transport,
 };
 use fieldscribe_runtime::{BitGroup, Error, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Lost, REFUSED};
+use super::runtime::{at_once, chain, tells, Lost, FAILED, FAILURE, REFUSED};
 
 made_up!(Word u16, Parameter 0x0102, &[0x0102], 1);
 made_up!(Long u32, Parameter 0x0201, &[0x0202, 0x0201], 2);
@@ -166,6 +165,8 @@ pub fn check() {
     parameters_now();
     telegrams_at_once();
     telegrams_now();
+    parameters_staying();
+    telegrams_staying();
 }
 
 fn errors() {
@@ -228,41 +229,37 @@ fn errors() {
                 "the words may belong to different moments",
             ),
             (
-                ReceiveError::Point(Error::Overflow),
+                ReceiveError::Point(Error::Overflow(None)),
                 "overflow",
                 "the result does not fit its type",
             ),
         ],
     );
-    let errors: [(ClientError<Lost>, &str, bool); 6] = [
+    let errors: [(ClientError<Lost>, &str); 6] = [
         (
-            Error::Overflow.into(),
+            Error::Overflow(None).into(),
             "the result does not fit its type",
-            true,
         ),
         (
             BuildError::BadUnit.into(),
             "the device has no such unit number",
-            true,
         ),
         (
             ClientError::Telegram(ReceiveError::Missing),
             "the frame with the word never came",
-            true,
         ),
-        (ClientError::Transport(Lost), "nothing came", true),
-        (ClientError::NoAnswer, "the device does not answer", false),
+        (ClientError::Transport(Lost), "nothing came"),
+        (ClientError::NoAnswer, "the device does not answer"),
         (
             ClientError::EchoMismatch(7),
             "the device answered 7 to a write",
-            false,
         ),
     ];
-    for (error, shown, has_source) in errors {
-        assert_eq!(error.to_string(), shown);
-        let source = error.source().map(ToString::to_string);
-        assert_eq!(source, has_source.then(|| shown.to_owned()));
+    for (error, shown) in errors {
+        assert_eq!(chain(&error), [shown]);
     }
+    assert_eq!(chain(&ReceiveError::Point(REFUSED)).len(), 1);
+    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
 }
 
 fn frames() {
@@ -481,6 +478,22 @@ impl AsyncTransport for Bus {
     }
 }
 
+impl LocalTransport for Bus {
+    type Error = Lost;
+
+    async fn send(&mut self, frame: &Frame) -> Result<(), Lost> {
+        self.sent(frame)
+    }
+
+    async fn receive(&mut self) -> Result<Frame, Lost> {
+        self.came.pop_front().ok_or(Lost)
+    }
+
+    async fn pending(&mut self) -> Result<Option<Frame>, Lost> {
+        Ok(self.stale.pop_front())
+    }
+}
+
 /// Hears everything.
 #[derive(Default)]
 struct Log(Vec<Frame>);
@@ -566,6 +579,23 @@ macro_rules! conversations {
             assert_eq!($wait(client.read::<Word>()), Err(bad));
             let lost = ClientError::Transport(Lost);
             assert_eq!($wait(client.listen()), Err(lost));
+            let bus = Bus::new(&[
+                (asked(0x0102), vec![answered(0x0102, 7)]),
+                (change(0x0102, 8), vec![answered(0x0102, 8)]),
+                (change(0x0202, 3), vec![answered(0x0202, 3)]),
+                (change(0x0201, 4), vec![answered(0x0201, 4)]),
+            ]);
+            let mut client = $client::new(bus, &PROFILE, 5);
+            assert_eq!($wait(client.read_count::<Word>()), Ok([7]));
+            assert_eq!($wait(client.write_count::<Word>([8])), Ok(()));
+            assert_eq!($wait(client.write_raw::<Long>(0x0003_0004)), Ok(()));
+            for found in [
+                $wait(client.write_count::<Word>([0xFFFF])),
+                $wait(client.write_raw::<Word>(0xFFFF)),
+            ] {
+                assert_eq!(found, Err(wrong));
+            }
+            assert!(client.into_transport().steps.is_empty());
             let bus = Bus::new(&[(asked(0x0102), vec![noise; 10_000])]);
             let mut client = $client::new(bus, &PROFILE, 5);
             assert_eq!($wait(client.read::<Word>()), Err(ClientError::NoAnswer));
@@ -621,3 +651,4 @@ macro_rules! conversations {
 
 conversations!(parameters_at_once telegrams_at_once Client at_once);
 conversations!(parameters_now telegrams_now AsyncClient now);
+conversations!(parameters_staying telegrams_staying LocalClient now);

@@ -74,6 +74,15 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
     Ok(())
 }
 
+/// That the profile names an error value as the drive does.
+pub fn named(vector: &Vector, profile: &Profile) -> Outcome {
+    let found = match profile.refusal(vector.raw("number")) {
+        ParseError::Refused { name, .. } => name,
+        _ => None,
+    };
+    same(vector.said("name").as_deref(), found)
+}
+
 /// A telegram to all units.
 pub fn broadcast(vector: &Vector, profile: &Profile) -> Outcome {
     let words: Vec<u16> = vector.numbers("words");
@@ -95,7 +104,7 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
     let found = request(vector).parse(profile, link(vector), &received);
     let (status, response, error) = match found {
         Ok(reply) => ("ok", reply.response(), 0),
-        Err(ParseError::Refused(error)) => ("refused", 7, error),
+        Err(ParseError::Refused { error, .. }) => ("refused", 7, error),
         Err(error) => (error.name(), 0, 0),
     };
     let value = found.map_or(Value::Nothing, |reply| reply.value());

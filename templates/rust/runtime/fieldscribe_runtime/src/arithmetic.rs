@@ -138,7 +138,7 @@ pub fn exponent(raw: impl Raw, low: i64, high: i64) -> Result<i64, Error> {
     if low <= raw && raw <= high {
         Ok(raw)
     } else {
-        Err(Error::Overflow)
+        Err(Error::Overflow(None))
     }
 }
 
@@ -148,6 +148,9 @@ pub fn exponent(raw: impl Raw, low: i64, high: i64) -> Result<i64, Error> {
 /// [`Error::Overflow`].
 #[inline]
 pub fn line(raw: impl Raw, slope: i64, intercept: i64) -> Result<i64, Error> {
-    let product = raw.to_i64().checked_mul(slope).ok_or(Error::Overflow)?;
-    product.checked_add(intercept).ok_or(Error::Overflow)
+    let product = raw
+        .to_i64()
+        .checked_mul(slope)
+        .ok_or(Error::Overflow(None))?;
+    product.checked_add(intercept).ok_or(Error::Overflow(None))
 }

@@ -5,7 +5,7 @@
 
 use core::future::Future;
 
-pub use crate::modbus::{AsyncClient, Client, ClientError};
+pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 
 /// Sends a request and waits for its reply.
 ///
@@ -86,6 +86,39 @@ pub trait AsyncTransport: Send {
     ) -> impl Future<Output = Result<usize, Self::Error>> + Send;
 }
 
+/// Sends a request and waits for its reply without blocking, on one thread: its futures need not be [`Send`].
+///
+/// It is [`AsyncTransport`] for executors that keep their tasks on one thread, and for transports that hold what cannot
+/// leave it. Each family has a `LocalClient` over it.
+///
+/// ```
+/// use std::{cell::RefCell, io::Error, rc::Rc};
+///
+/// use fieldscribe_runtime::LocalTransport;
+///
+/// struct Shared(Rc<RefCell<Vec<u8>>>);
+///
+/// impl LocalTransport for Shared {
+///     type Error = Error;
+///
+///     async fn exchange(&mut self, request: &[u8], _reply: &mut [u8]) -> Result<usize, Error> {
+///         self.0.borrow_mut().extend(request);
+///         Ok(0)
+///     }
+/// }
+/// ```
+pub trait LocalTransport {
+    /// What can go wrong on the line.
+    type Error;
+
+    /// As [`AsyncTransport::exchange`].
+    fn exchange(
+        &mut self,
+        request: &[u8],
+        reply: &mut [u8],
+    ) -> impl Future<Output = Result<usize, Self::Error>>;
+}
+
 /// Several clients share one bus: each borrows it for as long as it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {
     type Error = T::Error;
@@ -104,6 +137,19 @@ impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
         request: &[u8],
         reply: &mut [u8],
     ) -> impl Future<Output = Result<usize, Self::Error>> + Send {
+        (**self).exchange(request, reply)
+    }
+}
+
+/// As for [`Transport`].
+impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
+    type Error = T::Error;
+
+    fn exchange(
+        &mut self,
+        request: &[u8],
+        reply: &mut [u8],
+    ) -> impl Future<Output = Result<usize, Self::Error>> {
         (**self).exchange(request, reply)
     }
 }

@@ -3,40 +3,47 @@
 
 use core::fmt;
 
+use crate::Point;
+
 /// Why a number could not be encoded, decoded or checked.
 ///
 /// ```
 /// use fieldscribe_runtime::{Error, Outside, Refused};
 ///
-/// let given = Outside { point: "base_frequency", given: 500.0, low: 30.0, high: 400.0 };
-/// let error = Error::OutOfRange(Refused::Value(given));
-/// assert_eq!(error.to_string(), "base_frequency: 500 is outside 30 to 400");
+/// let outside = Outside { point: "base_frequency", given: 500.0, low: 30.0, high: 400.0 };
+/// let refused = Refused::Value { outside, unit: "Hz", raw: Some((300, 4000)) };
+/// let error = Error::OutOfRange(refused);
+/// let shown = "base_frequency: 500 Hz is outside 30 to 400 Hz (raw 300 to 4000)";
+/// assert_eq!(error.to_string(), shown);
+/// assert_eq!(error.point(), Some("base_frequency"));
 /// ```
+///
+/// The text beside a variant is the point's name; there is none where no point had to do with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
     /// The number is outside what the manual allows, which is said with it.
     OutOfRange(Refused),
     /// The value is not a number.
-    NotANumber,
+    NotANumber(&'static str),
     /// The closed enum has no such number, or the point no such code.
     UnknownValue(Refused),
     /// The text is too long, or has a character that is none of its encoding.
-    BadText,
+    BadText(Option<&'static str>),
     /// A factor that is read at run time is zero, or no quantity.
-    ZeroFactor,
+    ZeroFactor(Option<&'static str>),
     /// No case of the scale holds.
-    NoCase,
+    NoCase(Option<&'static str>),
     /// The result does not fit its type.
-    Overflow,
-    /// The raw number is a special code and no quantity.
-    Special,
+    Overflow(Option<&'static str>),
+    /// The raw number is a special code and no quantity, and may not be written.
+    Special(&'static str),
     /// There are more or fewer words than the point has.
-    WrongLength,
+    WrongLength(Option<&'static str>),
     /// The reply is of another space than the point's.
-    WrongSpace,
+    WrongSpace(Option<&'static str>),
     /// The last telegram was not answered, so nothing was heard of the point.
-    NotHeard,
+    NotHeard(Option<&'static str>),
 }
 
 /// A number that a point does not take, in the terms in which it was given.
@@ -48,7 +55,14 @@ pub enum Refused {
     /// A count.
     Count(Outside<i64>),
     /// A value in the point's unit.
-    Value(Outside<f64>),
+    Value {
+        /// What was given, and the limits.
+        outside: Outside<f64>,
+        /// The unit of all three; empty for a plain number.
+        unit: &'static str,
+        /// The limits as raw numbers, where these are others.
+        raw: Option<(i64, i64)>,
+    },
 }
 
 /// What was given to a point, and the least and the greatest number that it takes now.
@@ -71,16 +85,16 @@ impl Error {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::OutOfRange(_) | Self::BadText => "out_of_range",
-            Self::NotANumber => "not_a_number",
+            Self::OutOfRange(_) | Self::BadText(_) => "out_of_range",
+            Self::NotANumber(_) => "not_a_number",
             Self::UnknownValue(_) => "unknown_value",
-            Self::ZeroFactor => "zero_factor",
-            Self::NoCase => "no_case",
-            Self::Overflow => "overflow",
-            Self::Special => "special",
-            Self::WrongLength => "wrong_length",
-            Self::WrongSpace => "wrong_space",
-            Self::NotHeard => "not_heard",
+            Self::ZeroFactor(_) => "zero_factor",
+            Self::NoCase(_) => "no_case",
+            Self::Overflow(_) => "overflow",
+            Self::Special(_) => "special",
+            Self::WrongLength(_) => "wrong_length",
+            Self::WrongSpace(_) => "wrong_space",
+            Self::NotHeard(_) => "not_heard",
         }
     }
 
@@ -92,6 +106,38 @@ impl Error {
             _ => None,
         }
     }
+
+    /// The name of the point that it is about, if it is about one.
+    #[must_use]
+    pub const fn point(self) -> Option<&'static str> {
+        match self {
+            Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused.point()),
+            Self::NotANumber(point) | Self::Special(point) => Some(point),
+            Self::BadText(point)
+            | Self::ZeroFactor(point)
+            | Self::NoCase(point)
+            | Self::Overflow(point)
+            | Self::WrongLength(point)
+            | Self::WrongSpace(point)
+            | Self::NotHeard(point) => point,
+        }
+    }
+
+    /// The same about this point, where it does not say yet which it is about.
+    #[must_use]
+    pub fn of<P: Point>(mut self) -> Self {
+        match &mut self {
+            Self::BadText(point)
+            | Self::ZeroFactor(point)
+            | Self::NoCase(point)
+            | Self::Overflow(point)
+            | Self::WrongLength(point)
+            | Self::WrongSpace(point)
+            | Self::NotHeard(point) => *point = point.or(Some(P::NAME)),
+            _ => {}
+        }
+        self
+    }
 }
 
 impl Refused {
@@ -100,59 +146,70 @@ impl Refused {
     pub const fn point(self) -> &'static str {
         match self {
             Self::Raw(outside) | Self::Count(outside) => outside.point,
-            Self::Value(outside) => outside.point,
+            Self::Value { outside, .. } => outside.point,
         }
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(point) = self.point() {
+            write!(formatter, "{point}: ")?;
+        }
         formatter.write_str(match self {
-            Self::OutOfRange(refused) => return refused.fmt(formatter),
+            Self::OutOfRange(refused) => return refused.show(formatter),
             Self::UnknownValue(Refused::Raw(outside)) => {
-                return write!(
-                    formatter,
-                    "{}: nothing has the number {}",
-                    outside.point, outside.given
-                );
+                return write!(formatter, "nothing has the number {}", outside.given);
             }
-            Self::NotANumber => "the value is not a number",
+            Self::NotANumber(_) => "the value is not a number",
             Self::UnknownValue(_) => "the enum has no such number",
-            Self::BadText => {
+            Self::BadText(_) => {
                 "the text is too long, or has a character that is none of its encoding"
             }
-            Self::ZeroFactor => "a factor is zero",
-            Self::NoCase => "no case of the scale holds",
-            Self::Overflow => "the result does not fit its type",
-            Self::Special => "the raw number is a special code and no quantity",
-            Self::WrongLength => "the point has another number of words",
-            Self::WrongSpace => "the reply is of another space than the point's",
-            Self::NotHeard => "the last telegram was not answered",
+            Self::ZeroFactor(_) => "a factor is zero",
+            Self::NoCase(_) => "no case of the scale holds",
+            Self::Overflow(_) => "the result does not fit its type",
+            Self::Special(_) => "the raw number is a special code and no quantity",
+            Self::WrongLength(_) => "the point has another number of words",
+            Self::WrongSpace(_) => "the reply is of another space than the point's",
+            Self::NotHeard(_) => "the last telegram was not answered",
         })
     }
 }
 
 impl fmt::Display for Refused {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}: ", self.point())?;
+        self.show(formatter)
+    }
+}
+
+impl Refused {
+    /// What is refused, without the point's name.
+    fn show(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Raw(outside) => outside.show("raw ", formatter),
-            Self::Count(outside) => outside.show("count ", formatter),
-            Self::Value(outside) => outside.show("", formatter),
+            Self::Raw(outside) => outside.show("raw ", "", formatter),
+            Self::Count(outside) => outside.show("count ", "", formatter),
+            Self::Value { outside, unit, raw } => {
+                outside.show("", unit, formatter)?;
+                match raw {
+                    Some((low, high)) => write!(formatter, " (raw {low} to {high})"),
+                    None => Ok(()),
+                }
+            }
         }
     }
 }
 
 impl<T: fmt::Display> Outside<T> {
-    fn show(&self, what: &str, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn show(&self, what: &str, unit: &str, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            point,
-            given,
-            low,
-            high,
+            given, low, high, ..
         } = self;
+        let gap = if unit.is_empty() { "" } else { " " };
         write!(
             formatter,
-            "{point}: {what}{given} is outside {low} to {high}"
+            "{what}{given}{gap}{unit} is outside {low} to {high}{gap}{unit}"
         )
     }
 }

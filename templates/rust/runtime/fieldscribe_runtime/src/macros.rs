@@ -39,7 +39,7 @@
 /// assert_eq!(BaseFrequency::decode_count(500), 500);
 /// assert_eq!(BaseFrequency::encode(50.0), Ok(500));
 /// let error = BaseFrequency::encode(29.0).unwrap_err();
-/// assert_eq!(error.to_string(), "base_frequency: 29 is outside 30 to 400");
+/// assert_eq!(error.to_string(), "base_frequency: 29 Hz is outside 30 to 400 Hz (raw 300 to 4000)");
 /// ```
 #[macro_export]
 macro_rules! point {
@@ -83,8 +83,9 @@ macro_rules! point {
             $(const UNIT: &'static str = $unit;)?
             $(const DECIMALS: u32 = $decimals;)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
+            const ACCESS: $crate::Access = $crate::point!(@access $(r $read)? $(w $write)?);
             $(
-                const IS_GROUPED: bool = true;
+                const GROUP: Option<u16> = Some($mask);
 
                 #[inline]
                 fn from_words([word]: [u16; 1]) -> $raw {
@@ -120,6 +121,11 @@ macro_rules! point {
 
     (@no $given:tt) => { false };
     (@first $first:ty, $($other:ty,)?) => { $first };
+
+    (@access) => { $crate::Access::None };
+    (@access r $read:tt) => { $crate::Access::Read };
+    (@access w $write:tt) => { $crate::Access::Write };
+    (@access r $read:tt w $write:tt) => { $crate::Access::ReadWrite };
 
     (@floating floating) => { true };
     (@floating $form:ident) => { false };
@@ -297,7 +303,7 @@ macro_rules! point {
 
     (@special reading $raw:ident) => {
         if let Some(special) = <Self as $crate::Coded>::special($raw) {
-            return special.checked();
+            return special.checked::<Self>();
         }
     };
     (@special reading_or_error $raw:ident) => { $crate::point!(@special reading $raw); };
@@ -317,7 +323,8 @@ macro_rules! point {
     }};
     (@check $form:ident $raw:ident $with:ident limits $others:ident $limits:tt) => {{
         let $others = $with;
-        $crate::check::limited::<Self>($raw, &$limits)
+        let limits = (|| Ok($limits))();
+        $crate::check::limited::<Self>($raw, &limits.map_err($crate::Error::of::<Self>)?)
     }};
     (@check $form:ident $raw:ident $with:ident check $check:path) => {{
         let _ = $with;

@@ -9,7 +9,8 @@ use super::{
     Telegram,
 };
 use crate::point::joined;
-use crate::{BitGroup, Decoded, Encodable, Error, Raw, Readable, Whole};
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error};
+use crate::{Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
 pub trait Transport {
@@ -55,6 +56,21 @@ pub trait AsyncTransport: Send {
     fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> + Send;
 }
 
+/// Sends frames and waits for frames without blocking, on one thread: its futures need not be [`Send`].
+pub trait LocalTransport {
+    /// What can go wrong on the bus.
+    type Error;
+
+    /// As [`Transport::send`].
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>>;
+
+    /// As [`AsyncTransport::receive`].
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>>;
+
+    /// As [`Transport::pending`].
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>>;
+}
+
 /// Several clients share one bus: each borrows it for as long as it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {
     type Error = T::Error;
@@ -89,6 +105,23 @@ impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
     }
 }
 
+/// As for [`Transport`].
+impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
+    type Error = T::Error;
+
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> {
+        (**self).receive()
+    }
+
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> {
+        (**self).pending()
+    }
+}
+
 /// Hears the frames that a client does not wait for: a [`Receiver`], a pair of listeners, or `()` for none.
 pub trait Listener {
     /// Takes a frame that may be none of its own.
@@ -119,6 +152,8 @@ impl<L: Listener + ?Sized> Listener for &mut L {
 }
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
@@ -164,11 +199,8 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Point(error) => Some(error),
-            Self::Build(error) => Some(error),
-            Self::NoAnswer | Self::EchoMismatch(_) => None,
-            Self::Telegram(error) => Some(error),
-            Self::Transport(error) => Some(error),
+            Self::Transport(error) => error.source(),
+            _ => None,
         }
     }
 }
@@ -365,6 +397,32 @@ macro_rules! client {
                 Ok(P::decode_with(raw, with).into_result()?)
             }
 
+            /// A parameter's count: its value in units of `10^-DECIMALS`, without floating point.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable<Factors = ()> + Parameter,
+            {
+                self.read_count_with::<P>(())$($wait)*
+            }
+
+            /// A parameter's count, by the raw numbers that its scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable + Parameter,
+            {
+                let raw = self.read_raw::<P>()$($wait)*?;
+                Ok(P::decode_count_with(raw, with).into_result()?)
+            }
+
             /// Writes a value to a parameter.
             ///
             /// # Errors
@@ -390,7 +448,66 @@ macro_rules! client {
             where
                 P: Encodable + Whole + Parameter,
             {
-                let words = P::encode_with(value, with)?.into_words();
+                self.put::<P>(P::encode_with(value, with)?)$($wait)*
+            }
+
+            /// Writes a count to a parameter: its value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable<With = ()> + Whole + Parameter,
+            {
+                self.write_count_with::<P>(count, ())$($wait)*
+            }
+
+            /// As `write_count`, by the raw numbers that the point's scale and limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count_with<P>(
+                &mut self,
+                count: P::Count,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable + Whole + Parameter,
+            {
+                let raw = P::encode_count_with(count, with)?;
+                self.put::<P>(raw)$($wait)*
+            }
+
+            /// Writes a raw number to a parameter, if it may be written.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole + Parameter,
+            {
+                self.write_raw_with::<P>(raw, ())$($wait)*
+            }
+
+            /// As `write_raw`, by the raw numbers that the point's limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw_with<P>(
+                &mut self,
+                raw: P::Raw,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable + Whole + Parameter,
+            {
+                P::check_with(raw, with)?;
+                self.put::<P>(raw)$($wait)*
+            }
+
+            /// Writes a raw number that was checked, word by word.
+            $($async)? fn put<P: Whole + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+                let words = raw.into_words();
                 for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
                     self.write_word(*address, *word)$($wait)*?;
                 }
@@ -472,4 +589,17 @@ client!(
     [],
     []
 );
-client!(AsyncClient, AsyncTransport, "One unit behind a transport that does not block.", [async], [.await]);
+client!(
+    AsyncClient,
+    AsyncTransport,
+    "One unit behind a transport that does not block.",
+    [async],
+    [.await]
+);
+client!(
+    LocalClient,
+    LocalTransport,
+    "One unit behind a transport of one thread, which does not block.",
+    [async],
+    [.await]
+);

@@ -64,7 +64,7 @@ pub fn encode<P: Writable<Raw: Pattern>, V: Into<f64>>(
 ) -> Result<P::Raw, Error> {
     let value = value.into();
     if value.is_nan() {
-        return Err(Error::NotANumber);
+        return Err(Error::NotANumber(P::NAME));
     }
     let raw = P::Raw::nearest(value);
     if !raw.number().is_finite() {
@@ -72,12 +72,8 @@ pub fn encode<P: Writable<Raw: Pattern>, V: Into<f64>>(
         return Err(outside::<P>(value, -greatest, greatest));
     }
     match checked::<P>(raw, with) {
-        Err(Error::OutOfRange(Refused::Value(limits))) => {
-            let given = Outside {
-                given: value,
-                ..limits
-            };
-            Err(Error::OutOfRange(Refused::Value(given)))
+        Err(Error::OutOfRange(Refused::Value { outside, .. })) => {
+            Err(self::outside::<P>(value, outside.low, outside.high))
         }
         other => other,
     }
@@ -101,7 +97,7 @@ pub fn check<P: Writable<Raw: Pattern>>(raw: P::Raw) -> Result<(), Error> {
 pub fn ranged<P: Writable<Raw: Pattern>>(raw: P::Raw, ranges: &[(f64, f64)]) -> Result<(), Error> {
     let given = raw.number();
     if given.is_nan() {
-        return Err(Error::NotANumber);
+        return Err(Error::NotANumber(P::NAME));
     }
     if ranges
         .iter()
@@ -119,11 +115,14 @@ pub fn ranged<P: Writable<Raw: Pattern>>(raw: P::Raw, ranges: &[(f64, f64)]) -> 
 }
 
 fn outside<P: Point>(given: f64, low: f64, high: f64) -> Error {
-    let point = P::NAME;
-    Error::OutOfRange(Refused::Value(Outside {
-        point,
-        given,
-        low,
-        high,
-    }))
+    Error::OutOfRange(Refused::Value {
+        outside: Outside {
+            point: P::NAME,
+            given,
+            low,
+            high,
+        },
+        unit: P::UNIT,
+        raw: None,
+    })
 }

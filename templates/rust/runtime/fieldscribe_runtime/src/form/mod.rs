@@ -87,36 +87,34 @@ fn nearest<P: Writable>(
     decode: impl Fn(i128) -> f64,
 ) -> Result<P::Raw, Error> {
     if scaled.is_nan() {
-        return Err(Error::NotANumber);
+        return Err(Error::NotANumber(P::NAME));
     }
     let Some(raw) = P::Raw::round(scaled) else {
-        let (low, high) = (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128());
-        return Err(refused_value::<P>(value, decode(low), decode(high)));
+        let (low, high) = (P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64());
+        return Err(refused_value::<P>(value, (low, high), decode));
     };
     match P::check_with(raw, with) {
         Ok(()) => Ok(raw),
-        Err(Error::OutOfRange(Refused::Raw(Outside { low, high, .. }))) => Err(refused_value::<P>(
-            value,
-            decode(low.into()),
-            decode(high.into()),
-        )),
+        Err(Error::OutOfRange(Refused::Raw(Outside { low, high, .. }))) => {
+            Err(refused_value::<P>(value, (low, high), decode))
+        }
         Err(error) => Err(error),
     }
 }
 
-fn refused_value<P: Writable>(given: f64, low: f64, high: f64) -> Error {
-    let (low, high) = if low <= high {
-        (low, high)
-    } else {
-        (high, low)
-    };
-    let point = P::NAME;
-    Error::OutOfRange(Refused::Value(Outside {
-        point,
-        given,
-        low,
-        high,
-    }))
+/// What is said of a value, where these are the least and the greatest raw number.
+fn refused_value<P: Writable>(given: f64, raw: (i64, i64), decode: impl Fn(i128) -> f64) -> Error {
+    let (one, other) = (decode(raw.0.into()), decode(raw.1.into()));
+    Error::OutOfRange(Refused::Value {
+        outside: Outside {
+            point: P::NAME,
+            given,
+            low: if one <= other { one } else { other },
+            high: if one <= other { other } else { one },
+        },
+        unit: P::UNIT,
+        raw: Some(raw),
+    })
 }
 
 /// What is said of a raw number that a count became, told in counts, which `decode` makes of raw numbers.

@@ -2,6 +2,7 @@
 //! Points that are their raw numbers, or what is made of these alone.
 
 pub use crate::check::within as check;
+use crate::error::{Outside, Refused};
 use crate::form::stored;
 use crate::{Error, Point, Raw, Writable};
 
@@ -23,7 +24,30 @@ pub fn decode_count<P: Point<Raw: Into<C>>, C>(raw: P::Raw, (): ()) -> C {
 /// What [`Writable::check_with`] says.
 #[inline]
 pub fn encode<P: Writable, V: Into<P::Raw>>(value: V, with: P::With) -> Result<P::Raw, Error> {
-    stored::<P>(value.into().to_i128(), with)
+    let given = value.into().to_i128();
+    stored::<P>(given, with).map_err(|error| in_units::<P>(error, given))
+}
+
+/// What is said of a value that is its raw number, told in the point's unit if it has one.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "it is for people: of more than 53 bits the last ones are rounded"
+)]
+#[cold]
+fn in_units<P: Point>(error: Error, given: i128) -> Error {
+    match error {
+        Error::OutOfRange(Refused::Raw(raw)) if !P::UNIT.is_empty() => {
+            let outside = Outside {
+                point: raw.point,
+                given: given as f64,
+                low: raw.low as f64,
+                high: raw.high as f64,
+            };
+            let (unit, raw) = (P::UNIT, None);
+            Error::OutOfRange(Refused::Value { outside, unit, raw })
+        }
+        other => other,
+    }
 }
 
 /// The raw number of a count, checked.

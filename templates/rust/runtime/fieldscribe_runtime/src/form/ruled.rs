@@ -4,7 +4,7 @@
 pub use crate::check::within as check;
 use crate::check::{beyond, saturated};
 use crate::form::{checked, in_counts, nearest, per_unit};
-use crate::{Error, Raw, Scaled, Writable};
+use crate::{Error, Raw, Rule, Scaled, Writable};
 
 /// The value: the binary64 number nearest to the exact one.
 ///
@@ -12,16 +12,13 @@ use crate::{Error, Raw, Scaled, Writable};
 /// What the rule says; [`Error::Overflow`].
 #[inline]
 pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<V, Error> {
-    let rule = P::rule(with)?;
-    if P::is_beyond(raw) {
-        return Err(Error::Overflow);
-    }
+    let rule = holding::<P>(raw, with)?;
     let value = if P::IS_WIDE {
         rule.decode_wide(raw.to_i128())
     } else {
         rule.decode(raw.to_i64())
     };
-    value.map(V::from)
+    value.map(V::from).map_err(Error::of::<P>)
 }
 
 /// The count nearest to the value, halves away from zero.
@@ -30,12 +27,19 @@ pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<
 /// What the rule says; [`Error::Overflow`].
 #[inline]
 pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> Result<C, Error> {
-    let rule = P::rule(with)?;
+    let rule = holding::<P>(raw, with)?;
+    let count = rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS));
+    count.map(C::from).map_err(Error::of::<P>)
+}
+
+/// The rule that holds now, if the raw number is not too large for it.
+#[inline]
+fn holding<P: Scaled>(raw: P::Raw, with: P::Factors) -> Result<Rule, Error> {
+    let rule = P::rule(with).map_err(Error::of::<P>)?;
     if P::is_beyond(raw) {
-        return Err(Error::Overflow);
+        return Err(Error::Overflow(Some(P::NAME)));
     }
-    rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS))
-        .map(C::from)
+    Ok(rule)
 }
 
 /// The raw number nearest to a value, checked; each step is rounded to binary64.
@@ -49,9 +53,9 @@ where
 {
     let value = value.into();
     if value.is_nan() {
-        return Err(Error::NotANumber);
+        return Err(Error::NotANumber(P::NAME));
     }
-    let rule = P::rule(with.into())?;
+    let rule = P::rule(with.into()).map_err(Error::of::<P>)?;
     let decode = |raw| rule.decode(saturated(raw)).unwrap_or(f64::NAN);
     nearest::<P>(value, rule.encode(value), with, decode)
 }
@@ -65,7 +69,8 @@ pub fn encode_count<P, C: Into<i64>>(count: C, with: P::With) -> Result<P::Raw, 
 where
     P: Scaled + Writable<With: Into<P::Factors>>,
 {
-    let (rule, count) = (P::rule(with.into())?, count.into());
+    let rule = P::rule(with.into()).map_err(Error::of::<P>)?;
+    let count = count.into();
     let decode = |raw| rule.decode_count(raw, per_unit(P::DECIMALS)).ok();
     let number = rule.encode_count(count, per_unit(P::DECIMALS));
     let number = number.map_or(i128::MAX, i128::from);

@@ -48,7 +48,7 @@ pub fn check<P: Writable>(raw: P::Raw) -> Result<(), Error> {
     if is_latin_1(raw.into_words().as_ref()) {
         Ok(())
     } else {
-        Err(Error::BadText)
+        Err(Error::BadText(Some(P::NAME)))
     }
 }
 
@@ -60,6 +60,6 @@ pub fn ascii<P: Writable>(raw: P::Raw) -> Result<(), Error> {
     if is_ascii(raw.into_words().as_ref()) {
         Ok(())
     } else {
-        Err(Error::BadText)
+        Err(Error::BadText(Some(P::NAME)))
     }
 }

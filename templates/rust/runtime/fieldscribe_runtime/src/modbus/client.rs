@@ -3,11 +3,14 @@
 
 use core::fmt;
 
-use super::{BuildError, Framing, Profile, Reply, ReplyError, Request, LONGEST};
-use crate::client::{AsyncTransport, Transport};
-use crate::{BitGroup, Decoded, Encodable, Error, Readable, Whole};
+use super::{Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST};
+use crate::client::{AsyncTransport, LocalTransport, Transport};
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, Readable};
+use crate::{Whole, Writable};
 
 /// Why a point could not be read or written.
+///
+/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.
@@ -52,10 +55,8 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Point(error) => Some(error),
-            Self::Build(error) => Some(error),
-            Self::Reply(error) => Some(error),
-            Self::Transport(error) => Some(error),
+            Self::Transport(error) => error.source(),
+            _ => None,
         }
     }
 }
@@ -110,7 +111,8 @@ impl Unit {
             return Ok(None);
         }
         let received = self.received.get(..length).ok_or(ReplyError::LongFrame)?;
-        request.parse(received).map(Some)
+        let reply = request.parse(received);
+        reply.map(Some).map_err(|error| self.profile.named(error))
     }
 }
 
@@ -163,9 +165,22 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>> {
                 let request = Request::read::<P>(self.unit.number);
+                Ok(self.answered(request)$($wait)*?.raw::<P>()?)
+            }
+
+            /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` gives each point that it brings.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_block(&mut self, block: &Block) -> Result<Reply<'_>, ClientError<T::Error>> {
+                let request = Request::block(self.unit.number, block);
+                self.answered(request)$($wait)*
+            }
+
+            /// The reply to a request that cannot go to all units.
+            $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_>, ClientError<T::Error>> {
                 let reply = self.exchange(request)$($wait)*?;
-                let reply = reply.ok_or(ClientError::Reply(ReplyError::ShortFrame))?;
-                Ok(reply.raw::<P>()?)
+                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame))
             }
 
             /// A point's value.
@@ -191,6 +206,29 @@ macro_rules! client {
                 Ok(P::decode_with(raw, with).into_result()?)
             }
 
+            /// A point's count: its value in units of `10^-DECIMALS`, without floating point.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable<Factors = ()>,
+            {
+                self.read_count_with::<P>(())$($wait)*
+            }
+
+            /// A point's count, by the raw numbers that its scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_count_with<P: CountReadable>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Count, ClientError<T::Error>> {
+                let raw = self.read_raw::<P>()$($wait)*?;
+                Ok(P::decode_count_with(raw, with).into_result()?)
+            }
+
             /// Writes a value to a point.
             ///
             /// # Errors
@@ -211,8 +249,70 @@ macro_rules! client {
                 value: P::Value,
                 with: P::With,
             ) -> Result<(), ClientError<T::Error>> {
-                let words = P::to_words(P::encode_with(value, with)?);
+                self.put::<P>(P::encode_with(value, with)?)$($wait)*
+            }
+
+            /// Writes a count to a point: its value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable<With = ()> + Whole,
+            {
+                self.write_count_with::<P>(count, ())$($wait)*
+            }
+
+            /// Writes a count to a point, by the raw numbers that its scale and its limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_count_with<P: CountWritable + Whole>(
+                &mut self,
+                count: P::Count,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>> {
+                self.put::<P>(P::encode_count_with(count, with)?)$($wait)*
+            }
+
+            /// Writes a raw number to a point, if it may be written.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole,
+            {
+                self.write_raw_with::<P>(raw, ())$($wait)*
+            }
+
+            /// Writes a raw number to a point, if it may be written by the raw numbers that its limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_raw_with<P: Writable + Whole>(
+                &mut self,
+                raw: P::Raw,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>> {
+                P::check_with(raw, with)?;
+                self.put::<P>(raw)$($wait)*
+            }
+
+            /// Writes a raw number that was checked.
+            $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+                let words = P::to_words(raw);
                 let request = Request::write_words::<P>(self.unit.number, words.as_ref());
+                self.exchange(request)$($wait)*?;
+                Ok(())
+            }
+
+            /// Gives a command, one of `commands`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn command(&mut self, command: &Command) -> Result<(), ClientError<T::Error>> {
+                let request = Request::command(self.unit.number, command);
                 self.exchange(request)$($wait)*?;
                 Ok(())
             }
@@ -227,8 +327,7 @@ macro_rules! client {
             {
                 let raw = P::encode(value)?;
                 let read = Request::read::<P>(self.unit.number);
-                let reply = self.exchange(read)$($wait)*?;
-                let word = reply.and_then(|reply| reply.item(0));
+                let word = self.answered(read)$($wait)*?.item(0);
                 let word = word.ok_or(ClientError::Reply(ReplyError::ShortFrame))?;
                 let write = Request::update::<P>(self.unit.number, word, raw);
                 self.exchange(write)$($wait)*?;
@@ -245,4 +344,17 @@ client!(
     [],
     []
 );
-client!(AsyncClient, AsyncTransport, "One unit behind a transport that does not block.", [async], [.await]);
+client!(
+    AsyncClient,
+    AsyncTransport,
+    "One unit behind a transport that does not block.",
+    [async],
+    [.await]
+);
+client!(
+    LocalClient,
+    LocalTransport,
+    "One unit behind a transport of one thread, which does not block.",
+    [async],
+    [.await]
+);

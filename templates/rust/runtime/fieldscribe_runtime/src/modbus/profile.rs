@@ -2,7 +2,7 @@
 //! What the frames need to know of a device, as constants of the generated code.
 
 use super::function::{longest_count, writes};
-use super::Framing;
+use super::{Framing, ReplyError};
 use crate::{Readable, Space};
 
 /// A function that a device knows.
@@ -38,18 +38,18 @@ impl Function {
 }
 
 /// What the frames need to know of a device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Profile {
     functions: &'static [Function],
     framings: &'static [Framing],
     pub(super) units: (u8, u8),
     broadcast: Option<u8>,
     pub(super) pad_coil_bytes_even: bool,
+    name: fn(u8) -> Option<&'static str>,
 }
 
 impl Profile {
-    /// The functions, the framings, the least and the greatest unit, the unit that means all. Where a gateway translates,
-    /// give a profile of your own with both framings.
+    /// The functions, the framings, the least and the greatest unit, the unit that means all.
     #[must_use]
     pub const fn new(
         functions: &'static [Function],
@@ -63,6 +63,40 @@ impl Profile {
             units,
             broadcast,
             pad_coil_bytes_even: false,
+            name: |_| None,
+        }
+    }
+
+    /// The same device behind a gateway that speaks these framings to us.
+    ///
+    /// ```
+    /// use fieldscribe_runtime::modbus::{Framing, Function, Profile};
+    ///
+    /// // The device's own profile, which its crate has: it speaks RTU.
+    /// static PROFILE: Profile = Profile::new(&[Function::new(3, 4)], &[Framing::Rtu], (1, 32), Some(0));
+    /// static BEHIND_GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
+    /// assert!(BEHIND_GATEWAY.speaks(Framing::Tcp));
+    /// ```
+    #[must_use]
+    pub const fn with_framings(self, framings: &'static [Framing]) -> Self {
+        Self { framings, ..self }
+    }
+
+    /// The same device, whose exception codes have names.
+    #[must_use]
+    pub const fn naming(self, name: fn(u8) -> Option<&'static str>) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same error, with the name that the device has for an exception code.
+    #[must_use]
+    pub fn named(&self, error: ReplyError) -> ReplyError {
+        match error {
+            ReplyError::Exception { code, .. } => ReplyError::Exception {
+                code,
+                name: (self.name)(code),
+            },
+            other => other,
         }
     }
 

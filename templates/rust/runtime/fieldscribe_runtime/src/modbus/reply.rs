@@ -59,13 +59,12 @@ impl Reply<'_> {
     pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error> {
         let reads = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
         if self.function != reads && self.function != write_function(P::SPACE, 1) {
-            return Err(Error::WrongSpace);
+            return Err(Error::WrongSpace(Some(P::NAME)));
         }
-        let offset = P::ADDRESS
-            .checked_sub(self.address)
-            .ok_or(Error::WrongLength)?;
-        let end = offset.checked_add(P::WORDS).ok_or(Error::WrongLength)?;
-        P::from_received((offset..end).map_while(|place| self.item(place)))
+        let offset = P::ADDRESS.checked_sub(self.address);
+        let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
+        let places = places.ok_or(Error::WrongLength(Some(P::NAME)))?;
+        P::from_received(places.map_while(|place| self.item(place)))
     }
 }
 
@@ -89,7 +88,7 @@ impl Request<'_> {
         if function != self.function {
             return Err(match data {
                 [] => ReplyError::ShortFrame,
-                [code] => ReplyError::Exception(*code),
+                &[code] => ReplyError::Exception { code, name: None },
                 _ => ReplyError::LongFrame,
             });
         }

@@ -75,8 +75,13 @@ pub enum ParseError {
     WrongParameter,
     /// The drive did not answer the task, or not yet: the same request may be sent again.
     NoAnswer,
-    /// The drive refused, with this error value.
-    Refused(u16),
+    /// The drive refused.
+    Refused {
+        /// The error value that says why.
+        error: u16,
+        /// Its name in the description.
+        name: Option<&'static str>,
+    },
     /// The drive does not let this master change parameters.
     NoRights,
     /// The response does not belong to the task.
@@ -94,7 +99,7 @@ impl ParseError {
             Self::WrongUnit => "wrong_unit",
             Self::WrongParameter => "wrong_parameter",
             Self::NoAnswer => "no_answer",
-            Self::Refused(_) => "refused",
+            Self::Refused { .. } => "refused",
             Self::NoRights => "no_rights",
             Self::WrongResponse => "wrong_response",
         }
@@ -110,7 +115,10 @@ impl fmt::Display for ParseError {
             Self::WrongUnit => formatter.write_str("another unit answered"),
             Self::WrongParameter => formatter.write_str("the answer is about another parameter"),
             Self::NoAnswer => formatter.write_str("the drive did not answer the task"),
-            Self::Refused(error) => write!(formatter, "the drive refused with error {error}"),
+            Self::Refused { error, name } => {
+                write!(formatter, "the drive refused with error {error}")?;
+                name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
+            }
             Self::NoRights => formatter.write_str("the drive gives no right to change parameters"),
             Self::WrongResponse => formatter.write_str("the response is not to the task"),
         }

@@ -16,7 +16,7 @@ mod profile;
 mod reply;
 mod request;
 
-pub use client::{AsyncClient, Client, ClientError};
+pub use client::{AsyncClient, Client, ClientError, LocalClient};
 pub use error::{BuildError, ParseError};
 pub use profile::{FixedBits, Link, Profile, Task};
 pub use reply::Reply;
