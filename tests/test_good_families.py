@@ -30,8 +30,8 @@ title: Drive
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: read, 06h: write, 10h: write_many}}
-groups:
-- group: a
+group:
+  name: a
   space: holding
   source: {document: manual, section: "1"}
 """
@@ -53,7 +53,7 @@ def point(name: str, item: str) -> Point:
 
 
 def made(tmp_path: Path, rows: str) -> Device:
-    """A Modbus device with these rows in its one group; they are indented by two."""
+    """A Modbus device whose group ends with these lines, its points among them."""
     file = tmp_path / "device.yaml"
     file.write_text(MODBUS + rows, "utf-8")
     report = Report()
@@ -64,15 +64,15 @@ def made(tmp_path: Path, rows: str) -> Device:
 
 
 NORD = """  addressing: number * 64 + (index - 1) * sets + (set - 1)
-  points:
-  - {name: alone, at: {number: 601}}
-  - {name: by_set, title: {en: Ramp, de: Rampe}, at: {number: 102, sets: 4}, was: [ramp]}
-  - {name: by_index, at: {number: 607, indices: 2}, each: {2: {code: P607b, title: Second, default: 5}}}
-  - {name: by_both, at: {number: 543, sets: 4, indices: 3}, each: {2: {line: 5}, 4/2: {line: 7}}}
-  - {name: one_element, at: {number: 50, index: 3}}
-  - {name: one_set, at: {number: 103, sets: 4, set: 2, indices: 2}}
-  - {name: from_zero, at: {number: 7, indices: 1..2}}
-  - {name: plain, at: 3200}
+points:
+- {name: alone, at: {number: 601}}
+- {name: by_set, title: {en: Ramp, de: Rampe}, at: {number: 102, sets: 4}, was: [ramp]}
+- {name: by_index, at: {number: 607, indices: 2}, each: {2: {code: P607b, title: Second, default: 5}}}
+- {name: by_both, at: {number: 543, sets: 4, indices: 3}, each: {2: {line: 5}, 4/2: {line: 7}}}
+- {name: one_element, at: {number: 50, index: 3}}
+- {name: one_set, at: {number: 103, sets: 4, set: 2, indices: 2}}
+- {name: from_zero, at: {number: 7, indices: 1..2}}
+- {name: plain, at: 3200}
 """
 
 
@@ -149,7 +149,7 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "  points:\n  - {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
     assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 

@@ -43,9 +43,10 @@ def read(folder: Path) -> Description:
         found.words = part.get("bus", {}).get("words", found.words)
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
-    for group in (group for part in parts for group in (part, *part.get("groups", ()))):
+    for part in parts:
+        group = part.get("group", {})
         around = [(one.get("special", {}), one.get("types", {})) for one in (device, group)]
-        for row in group.get("points", ()):
+        for row in part.get("points", ()):
             shared = {key: group[key] for key in _INHERITED if key in group} | {"around": around}
             for one in _written_out(found, shared | row):
                 found.points[one["item"]] = one

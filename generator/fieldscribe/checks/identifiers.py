@@ -67,7 +67,7 @@ def enums_of(point: Point) -> Iterator[tuple[str, Enum]]:
 
 def _groups(subject: Subject) -> Iterator[Claim]:
     for group in groups(subject.scope):
-        yield Claim("", f"group {group['group']}", f"the group `{group['group']}`", group, "group")
+        yield Claim("", f"group {group['name']}", f"the group `{group['name']}`", group, "name")
 
 
 def _point(subject: Subject, resolved: Resolved) -> Iterator[Claim]:

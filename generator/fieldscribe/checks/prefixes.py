@@ -124,7 +124,7 @@ def _of_device(subject: Subject) -> Iterator[str]:
     yield from (f"exception_{code.name}" for code in subject.bus.exceptions)
     yield from (f"command_{raw['name']}" for raw in subject.scope.listed("commands"))
     for group in groups(subject.scope):
-        yield from (f"{group['group']}_{tail}" for tail in ("blocks", "blocks_count", "group_count"))
+        yield from (f"{group['name']}_{tail}" for tail in ("blocks", "blocks_count", "group_count"))
     yield from (f"message_{raw['name']}" for raw in subject.scope.listed("messages"))
     for raw in subject.scope.listed("telegrams"):
         yield from (f"telegram_{raw['name']}{tail}" for tail in ("", "_words", "_slots"))

@@ -31,7 +31,7 @@ _HEADERS = frozenset(
 )
 """Headers of C libraries, which one of the same name in a folder of `-I` hides."""
 _CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
-_PART_KEYS = frozenset({"group", "groups", "points"})
+_PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")
 
 

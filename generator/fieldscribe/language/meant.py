@@ -271,6 +271,11 @@ def _bytes(key: str, value: Any) -> str | None:
     return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
 
 
+def _group(_: str, value: Any) -> str | None:
+    """Its name alone."""
+    return f"write `group: {{name: {value}, space: …, source: …}}`" if isinstance(value, str) and value else None
+
+
 def _values(_: str, value: Any) -> str | None:
     """The values of a variant as a list."""
     if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str | int) for one in value):
@@ -302,5 +307,6 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "at": _at,
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
     "family": _family,
+    "group": _group,
 }
 """What makes the hint, by key; words alone stand in the table above."""

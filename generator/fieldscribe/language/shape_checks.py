@@ -22,7 +22,7 @@ Check = Callable[[Any, Map | Seq, Any, Report], bool]
 Broken keys and items are dropped from what holds them. Places are made only for findings.
 """
 
-_NAMING = ("name", "code", "id", "group")
+_NAMING = ("name", "code", "id")
 
 
 @lru_cache(maxsize=256)

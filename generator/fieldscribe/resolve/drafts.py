@@ -121,11 +121,10 @@ class Draft:
 
 
 def groups(scope: Scope) -> Iterator[Map]:
-    """The mappings that hold points: the entries of `groups` and each part with `group`."""
+    """What each file says under `group` for the points beside it."""
     for file in scope.files:
-        yield from file.get("groups", ())
-        if "group" in file and "space" in file:
-            yield file
+        if "group" in file:
+            yield file["group"]
 
 
 def humanised(name: str) -> str:

@@ -107,7 +107,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         name=draft.name,
         variant=draft.variant,
         code=draft.code,
-        group=str(draft.group["group"]),
+        group=str(draft.group["name"]),
         space=shape.space,
         places=() if place is None else (place,),
         references=places.references(draft, None if place is None else _first(place, shape)),

@@ -31,13 +31,24 @@ PART = Place(
     "A part",
     "A file that device.yaml lists under `parts`: one group, or shared facts.",
     [
-        {"group": "standard_a", "space": "holding", "points": []},
+        {"group": {"name": "standard_a", "space": "holding"}, "points": []},
         {"enums": {"contact": {"0": "open", "1": "closed"}}},
     ],
     more=_PRIVATE,
 )
 GROUP = Place(
-    "group", "A group", "A group of points.", [{"group": "standard_a", "space": "holding", "points": []}], more=_PRIVATE
+    "group",
+    "A group, under `group`",
+    "What the points of a file share: a file holds one group at most, with its `points` beside it.",
+    [
+        {
+            "name": "standard_a",
+            "space": "holding",
+            "access": "rw",
+            "source": {"document": "manual", "section": "Gruppe A"},
+        }
+    ],
+    more=_PRIVATE,
 )
 POINT = Place(
     "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
@@ -254,7 +265,6 @@ ERRATUM = Place(
     more=_PRIVATE,
 )
 
-GROUPS = (PART, GROUP)
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
 """The point once more: only what differs."""

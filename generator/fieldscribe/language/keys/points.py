@@ -15,10 +15,9 @@ from fieldscribe.kinds import (
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import (
     CITED,
+    DEVICE,
     FACTS,
-    FILES,
     GROUP,
-    GROUPS,
     MEMBER,
     POINT,
     POINTS,
@@ -85,8 +84,8 @@ WHICH = (
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
     Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1), own=True),
-    Key("title", (*FILES, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(places.DEVICE,), own=True),
-    Key("note", (*FILES, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
+    Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
+    Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key(
         "line",
         (*POINTS, USE, *_NAMED, places.BUS),
@@ -110,7 +109,7 @@ WHICH = (
 )
 """Which point it is, and where the manual says so."""
 
-_USED = (*GROUPS, *POINTS)
+_USED = (GROUP, *POINTS)
 _EVERYWHERE = (*_USED, USE)
 
 USING = (
@@ -120,7 +119,6 @@ USING = (
         "What a master may do: read, write, both, or nothing over this bus.",
         ["rw"],
         one_of("r", "w", "rw", "none"),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -130,7 +128,6 @@ USING = (
         "name, or as the caller chooses with each write (`choice`).",
         ["enter"],
         Text(80),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -139,7 +136,6 @@ USING = (
         "How often the value changes by itself, for polling and for run-time factors.",
         ["never"],
         one_of("never", "rarely", "always"),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -148,7 +144,6 @@ USING = (
         "What must hold for a write.",
         [["stopped"]],
         Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -157,7 +152,6 @@ USING = (
         "The point exists only if this holds; comparisons with and, or, not.",
         ["phases >= 2 and meter != none"],
         Text(500),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -166,7 +160,6 @@ USING = (
         "The first firmware that has it.",
         ["firmware 2.1.0"],
         Text(80),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -175,7 +168,6 @@ USING = (
         "The last firmware that has it.",
         ["firmware 3.7"],
         Text(80),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -184,7 +176,6 @@ USING = (
         "The maker keeps this address to itself.",
         [True],
         YES_NO,
-        needs=("group",),
         inherited=(GROUP,),
     ),
 )
