@@ -474,7 +474,7 @@ group:
   telegram: cells
   source: {document: manual, section: "1"}
   addressing: number + index - 1
-points: [{name: cell, at: {number: 0, indices: 6}}]
+points: [{name: cell, at: 0, indices: 6}]
 """
 LIMITS = """\
 group:
@@ -483,7 +483,7 @@ group:
   access: r
   source: {document: manual, section: "2"}
   addressing: 100h * number + index
-points: [{name: limit, at: {number: 1, indices: 2}}]
+points: [{name: limit, at: 1, indices: 2}]
 """
 
 
