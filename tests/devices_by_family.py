@@ -6,8 +6,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can import build
-from fieldscribe.families.uss import telegram
+from fieldscribe.families.can.frames import build
+from fieldscribe.families.uss.telegrams import telegram
 from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir
 

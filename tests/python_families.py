@@ -9,6 +9,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.existence import Comparison, Condition
+from fieldscribe.families.can.facts import CanBus
+from fieldscribe.families.uss.facts import UssBus
 from fieldscribe.model import (
     Bus,
     Code,
@@ -121,7 +123,7 @@ def can_points() -> tuple[Point, ...]:
 
 def can_device() -> Device:
     """A measuring device on CAN."""
-    bus = Bus((), (0, 30), None, (), (), {}, None, {}, {}, {}, bitrate=125000, identifier_bits=11)
+    bus = Bus((), (0, 30), None, (), (), {}, {}, {}, {}, CanBus(125000, 11))
     telegram = Telegram("measurements", titles("Measurements"), "cyclic", 11, "measurements", SOURCE)
     return replace(
         sample_device(can_points()),
@@ -183,7 +185,7 @@ def uss_device() -> Device:
         for number, answers in _TASKS.items()
     )
     errors = (Code(17, "not_now", titles("Not now"), None),)
-    bus = Bus((), (0, 31), 32, functions, errors, {}, None, {}, {}, {}, pkw=(0, 3, 4, 127), pzd=(0, 4))
+    bus = Bus((), (0, 31), 32, functions, errors, {}, {}, {}, {}, UssBus(pkw=(0, 3, 4, 127), pzd=(0, 4)))
     telegrams = tuple(
         Telegram(name, titles(name), direction, 4, None, SOURCE)
         for name, direction in (("task", "request"), ("answer", "response"))

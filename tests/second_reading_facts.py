@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families.can import facts as can
+from fieldscribe.families.modbus import facts as modbus
+from fieldscribe.families.uss import facts as uss
 from second_reading_points import LONG, entries_of, enum_of, of_point, place_of
 
 if TYPE_CHECKING:
@@ -29,7 +32,7 @@ def described(device: Device) -> Iterator[Row]:
     for enum in {one.name: one for one in map(enum_of, device.points) if one and len(one.entries) > LONG}.values():
         yield _row("list", None, {"name": enum.name}, {"entries": entries_of(enum.entries)})
     for of in ("functions", "exceptions", "responses"):
-        for code in getattr(device.bus, of):
+        for code in device.bus.codes(of):
             yield _row("code", None, {"of": of, "number": code.number}, _of_code(code))
     for frame in device.frames:
         bytes_of = {"bytes": frame.printed.hex(" "), "direction": frame.direction}
@@ -80,8 +83,8 @@ def _of_frame(frame: Frame) -> Facts:
         "answers": frame.answers,
         "corrected": "" if frame.valid else frame.corrected.hex(" "),
         "meaning": dict(frame.meaning),
-        "pkw": frame.pkw,
-        "can_id": frame.can_id,
+        "pkw": uss.of_frame(frame).pkw,
+        "can_id": can.identifier_of(frame),
     }
 
 
@@ -102,7 +105,7 @@ def _of_message(message: Message) -> Facts:
         "title": message.title.get("de"),
         "direction": message.direction,
         "answers": message.answers,
-        "can_id": message.can_id,
+        "can_id": message.identifier,
         "adds_unit": message.adds_unit,
         "bytes": [f"{one.kind} {one.number}" for one in message.roles],
     }
@@ -118,18 +121,18 @@ def _of_telegram(telegram: Telegram) -> Facts:
 
 
 def _of_bus(device: Device) -> Facts:
-    bus = device.bus
+    bus, telegrams, frames = device.bus, uss.of_bus(device.bus), can.of_bus(device.bus)
     found = {
         "framings": list(bus.framings),
         "units": list(bus.units),
         "broadcast": bus.broadcast,
         "gaps": {space: [list(one) for one in gaps] for space, gaps in bus.gaps.items()},
-        "pad_coil_bytes": bus.pad_coil_bytes,
-        "pkw": list(bus.pkw),
-        "pzd": list(bus.pzd) if any(bus.pzd) else [],
-        "pzd_of": dict(bus.variant_pzd),
-        "bitrate": bus.bitrate,
-        "identifier_bits": bus.identifier_bits,
+        "pad_coil_bytes": modbus.of_bus(bus).pad_coil_bytes,
+        "pkw": list(telegrams.pkw),
+        "pzd": list(telegrams.pzd) if any(telegrams.pzd) else [],
+        "pzd_of": dict(telegrams.variant_pzd),
+        "bitrate": telegrams.bitrate or frames.bitrate,
+        "identifier_bits": frames.identifier_bits,
         **{f"timing {name}": text for name, text in bus.timing.items()},
         **{f"serial {name}": dict(choices) for name, choices in bus.serial.items()},
         **{f"variants {axis}": list(values) for axis, values in device.variants.items()},

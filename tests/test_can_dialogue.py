@@ -6,21 +6,23 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
+from asked import asked
 from devices_by_family import at, can_frame, coded, shipped
+from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.lookup import find
+from fieldscribe.conversation.options import Options, refuse_foreign
+from fieldscribe.conversation.others import explain_others
+from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.samples import sample_raw
+from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.conversation.texts import shown
 from fieldscribe.diagnostics import Report
-from fieldscribe.dialogue.encoding import encode_point
-from fieldscribe.dialogue.options import Options, refuse_foreign
-from fieldscribe.dialogue.refusals import RefusedError
-from fieldscribe.dialogue.selection import UnclearError
-from fieldscribe.dialogue.texts import shown
-from fieldscribe.explain import explain_point, find
-from fieldscribe.explain.others import explain_others
-from fieldscribe.explain.samples import sample_raw
-from fieldscribe.families.can import CanFrame, parse
-from fieldscribe.families.can.dialogue import decode, frames_for
-from fieldscribe.families.can.listener import CanListener
-from fieldscribe.families.can.notation import Pasted, read_frames
-from fieldscribe.families.can.recognition import recognise
+from fieldscribe.families.can.conversation import decode, frames_for
+from fieldscribe.families.can.conversation.listener import CanListener
+from fieldscribe.families.can.conversation.notation import Pasted, read_frames
+from fieldscribe.families.can.conversation.recognition import recognise
+from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.model import Role
 from fieldscribe.pipeline import load_device
 from hypothesis import given
@@ -30,7 +32,7 @@ from models import kitchen_sink, named
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.dialogue import Heard
+    from fieldscribe.conversation.answers import Heard
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")
@@ -39,7 +41,7 @@ EXPONENTS = "321#DD010302000007D0"
 
 def hear(*texts: str, **settings: int) -> list[Heard]:
     """All frames, one after the other."""
-    return decode(DEVICE, settings, texts, Options())
+    return decode(DEVICE, settings, texts, asked())
 
 
 def said(heard: Heard) -> list[str]:
@@ -50,7 +52,7 @@ def said(heard: Heard) -> list[str]:
 def send(item: str, value: str, options: Options | None = None) -> tuple[str, ...]:
     """The frames that write a value."""
     point = named(DEVICE, item)
-    return frames_for(DEVICE, point, encode_point(DEVICE, point, value, {}).raw, {}, options or Options()).frames
+    return frames_for(DEVICE, point, encode_point(DEVICE, point, value, {}).raw, {}, options or asked()).frames
 
 
 @pytest.mark.parametrize(
@@ -250,7 +252,7 @@ def test_damaged_telegrams_are_not_read() -> None:
     cyclic = DEVICE.messages[0]
     roles = (*cyclic.roles[:-1], Role("xor", 0b0111_1111))
     device = replace(DEVICE, messages=(replace(cyclic, roles=roles), *DEVICE.messages[1:]))
-    heard = decode(device, {}, ["321#DD00051E13880000", "321#DD00051E1388005D"], Options())
+    heard = decode(device, {}, ["321#DD00051E13880000", "321#DD00051E1388005D"], asked())
     assert (heard[0].faults, heard[0].items) == (("the checksum is wrong",), ())
     assert "not read" in heard[0].notes[0]
     assert (heard[1].faults, heard[1].checks) == ((), "ok (5D)")
@@ -315,11 +317,11 @@ def test_any_text_is_safe(text: str, can_id: str | None) -> None:
 
 
 def test_a_word_is_written_by_one_frame() -> None:
-    unit = Options(unit=3)
+    unit = asked(unit=3)
     transformer = at(DEVICE, 2)
     assert send(transformer.item, "500 A", unit) == (can_frame(DEVICE, "write_request", 3, 2, 500),)
     with pytest.raises(RefusedError, match="unit number") as caught:
-        send(transformer.item, "500 A", Options(unit=31))
+        send(transformer.item, "500 A", asked(unit=31))
     assert caught.value.hint == "units are 0 to 30"
 
 
@@ -340,13 +342,13 @@ def test_bit_groups_need_the_word() -> None:
         send("relay_1_event_1", "5")
     assert "--with-word" in caught.value.hint
     assert can_frame(DEVICE, "read_request", 1, named(DEVICE, "relay_1_event_1").addresses[0]) in caught.value.hint
-    word = send("relay_1_event_1", "5", Options(with_word="12FFh"))
+    word = send("relay_1_event_1", "5", asked(with_word="12FFh"))
     assert word == (can_frame(DEVICE, "write_request", 1, named(DEVICE, "relay_1_event_1").addresses[0], 0x0507),)
     for bad in ("10000h", "zz", "-1"):
         with pytest.raises(UnclearError, match="is no word"):
-            send("relay_1_event_1", "5", Options(with_word=bad))
+            send("relay_1_event_1", "5", asked(with_word=bad))
     with pytest.raises(UnclearError, match="takes its whole word"):
-        send(at(DEVICE, 2).item, "500", Options(with_word="0h"))
+        send(at(DEVICE, 2).item, "500", asked(with_word="0h"))
 
 
 @pytest.mark.parametrize(
@@ -370,15 +372,13 @@ def test_a_digit_that_the_enum_does_not_have() -> None:
     assert "each digit is one of 0 " in caught.value.hint
 
 
-@pytest.mark.parametrize(
-    "options", [Options(pkw=4), Options(framing="rtu"), Options(direction="request"), Options(index=0)]
-)
+@pytest.mark.parametrize("options", [asked(pkw=4), asked(framing="rtu"), asked(direction="request"), asked(index=0)])
 def test_options_of_other_families_are_refused(options: Options) -> None:
     with pytest.raises(UnclearError, match="woodward_mpu2s"):
         refuse_foreign(DEVICE, options)
-    refuse_foreign(DEVICE, Options(can_id="321", with_word="0", unit=1, request=""))
+    refuse_foreign(DEVICE, asked(can_id="321", with_word="0", unit=1, request=""))
     with pytest.raises(UnclearError, match="--can-id is for can devices"):
-        refuse_foreign(kitchen_sink(), Options(can_id="321"))
+        refuse_foreign(kitchen_sink(), asked(can_id="321"))
 
 
 @pytest.mark.parametrize(
@@ -424,8 +424,8 @@ def test_a_device_without_messages() -> None:
     rows = dict(explain_point(bare, point).rows)
     assert "Write" not in rows
     with pytest.raises(RefusedError, match="no message"):
-        frames_for(bare, point, 100, {}, Options())
-    assert decode(bare, {}, ["321#00"], Options())[0].kind == "other"
+        frames_for(bare, point, 100, {}, asked())
+    assert decode(bare, {}, ["321#00"], asked())[0].kind == "other"
 
 
 def test_every_point_is_explained() -> None:
@@ -443,7 +443,7 @@ def test_every_point_comes_back_from_its_frames() -> None:
         raw = 0x5445585420202020 << 64 if one.text is not None else sample_raw(one)
         if raw is None:
             continue
-        options = Options(with_word=None if one.bits is None else "FFFFh")
+        options = asked(with_word=None if one.bits is None else "FFFFh")
         heard = hear(*frames_for(DEVICE, one, raw, {}, options).frames)
         assert all(not frame.faults for frame in heard)
         items = [item for frame in heard for item in frame.items if item.point in (one.item, one.name)]
@@ -495,7 +495,7 @@ def test_elements_of_an_array_are_found_by_address_where_no_index_travels(tmp_pa
     device = load_device(file, Report())
     assert device is not None
     first, second, told = decode(
-        device, {}, ["301#00A5000100020003", "301#01A5000400050006", "201#0201020007000000"], Options()
+        device, {}, ["301#00A5000100020003", "301#01A5000400050006", "201#0201020007000000"], asked()
     )
     assert [item.point for item in (*first.items, *second.items)] == [f"cell_index_{number}" for number in range(1, 7)]
     assert [item.point for item in told.items] == ["limit_index_2"]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.families.can import CanFrame, Receiver, build, parse
+from fieldscribe.families.can.frames import CanFrame, build, parse
+from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Message, Role, Source, Telegram
 from hypothesis import given
 from hypothesis import strategies as st

@@ -11,13 +11,16 @@ from typing import TYPE_CHECKING, Any
 import cantools
 import pytest
 from devices_by_family import shipped
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
-from fieldscribe.dialogue import codec
-from fieldscribe.dialogue.words import raw_of
-from fieldscribe.export.dbc import export_dbc
-from fieldscribe.export.dbc_points import decimal
+from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
-from fieldscribe.families.can import CanFrame, Receiver, build, identifier, parse
+from fieldscribe.families.can.export.dbc import export_dbc
+from fieldscribe.families.can.export.dbc_points import decimal
+from fieldscribe.families.can.facts import of_bus
+from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
+from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
@@ -367,11 +370,11 @@ def _overlapping() -> Device:
 )
 def test_refusals(device: Device, unit: int | None, why: str) -> None:
     with pytest.raises(ExportError, match=why):
-        export_dbc(device, unit)
+        export_form("dbc", device, unit)
 
 
 def test_extended_identifiers() -> None:
-    device = replace(DEVICE, bus=replace(DEVICE.bus, identifier_bits=29))
+    device = replace(DEVICE, bus=replace(DEVICE.bus, own=replace(of_bus(DEVICE.bus), identifier_bits=29)))
     message = loaded(export_dbc(device)).get_message_by_frame_id(0x321, force_extended_id=True)
     assert message.is_extended_frame
 

@@ -6,16 +6,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.dialogue.refusals import RefusedError
-from fieldscribe.families.modbus import crc16
-from fieldscribe.families.modbus.listener import ModbusListener
-from fieldscribe.families.modbus.words import raw_of, words_of, write_request
+from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.families.modbus.conversation.listener import ModbusListener
+from fieldscribe.families.modbus.conversation.words import raw_of, words_of, write_request
+from fieldscribe.families.modbus.requests import crc16
 from hypothesis import given
 from hypothesis import strategies as st
 from models import named, sample_device
 
 if TYPE_CHECKING:
-    from fieldscribe.dialogue import Heard
+    from fieldscribe.conversation.answers import Heard
 
 DEVICE = sample_device()
 

@@ -6,8 +6,8 @@ import json
 from dataclasses import replace
 
 import pytest
-from fieldscribe.explain import explain_point, find, near
-from fieldscribe.explain.lookup import number_of
+from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.lookup import find, near, number_of
 from models import named, point, sample_device
 
 DEVICE = sample_device()

@@ -32,7 +32,7 @@ def titles_of(device: Device) -> Iterator[tuple[str, Titles]]:
         for flag in point.flags:
             yield f"{point.item}: {flag.name}", flag.title
     bus = device.bus
-    for code in (*bus.functions, *bus.responses, *bus.exceptions):
+    for code in (*bus.functions, *bus.codes("responses"), *bus.exceptions):
         yield code.name, code.title
     for command in device.commands:
         yield command.name, command.title

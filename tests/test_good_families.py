@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.conversation.lookup import find
 from fieldscribe.diagnostics import Report
-from fieldscribe.explain import find
 from fieldscribe.export import export_model
+from fieldscribe.families.can.facts import identifier_of
+from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
 from fieldscribe.pipeline import load_device
 from fieldscribe.plain import digest, for_code
@@ -264,13 +266,13 @@ def test_messages() -> None:
     """The role of each byte."""
     messages = {one.name: one for one in kitchen("kitchen_can").messages}
     read = messages["read_request"]
-    assert (read.can_id, read.adds_unit, read.direction, read.answers) == (0x33F, False, "request", None)
+    assert (read.identifier, read.adds_unit, read.direction, read.answers) == (0x33F, False, "request", None)
     assert read.roles == (
         *(Role("constant", 0xFF), Role("unit", 0), Role("address", 8), Role("address", 0)),
         *(Role("constant", 0), Role("constant", 0), Role("xor", 0b010101), Role("xor", 0b101010)),
     )
     answer = messages["write_answer"]
-    assert (answer.can_id, answer.adds_unit, answer.answers) == (0x320, True, "write_request")
+    assert (answer.identifier, answer.adds_unit, answer.answers) == (0x320, True, "write_request")
     assert answer.roles[4:6] == (Role("raw", 8), Role("raw", 0))
     values = messages["measurements"]
     assert values.roles[1:] == (Role("multiplexer", 0), *(Role("word", number) for number in range(6)))
@@ -290,7 +292,7 @@ def test_can_frames() -> None:
     assert frames["read_voltage_answer"].meaning == {"transformer_secondary": 400}
     assert frames["first_words"].meaning == {"frequency": 5000, "power_exponent": -1, "voltage_exponent": 2}
     wrong = frames["write_limit_answer"]
-    assert (wrong.valid, wrong.corrected.hex(), wrong.can_id) == (False, "ee05000b2d00c30e", 0x325)
+    assert (wrong.valid, wrong.corrected.hex(), identifier_of(wrong)) == (False, "ee05000b2d00c30e", 0x325)
 
 
 @pytest.mark.parametrize(
@@ -328,7 +330,12 @@ def test_uss_frames() -> None:
     assert frames["read_maximum_answer"].meaning == {"maximum_frequency": 0x42480000}
     assert frames["read_baud_rate_answer"].meaning == {"baud_rate_index_1": 6}
     assert frames["run_40"].meaning == {"control_word": 0x47F, "main_setpoint": 0x3333}
-    assert [frames[name].pkw for name in ("read_700", "write_fixed", "run_40", "no_parameter")] == [127, 4, None, 0]
+    assert [of_frame(frames[name]).pkw for name in ("read_700", "write_fixed", "run_40", "no_parameter")] == [
+        127,
+        4,
+        None,
+        0,
+    ]
     wrong = frames["whole_answer"]
     assert (wrong.valid, wrong.corrected[-1]) == (False, 0x6A)
 
@@ -338,8 +345,20 @@ def test_uss_codes() -> None:
     bus = kitchen("kitchen_uss").bus
     tasks = {one.number: one for one in bus.functions}
     assert (tasks[1].answers, tasks[1].refusals, tasks[4].answers) == ((1, 2), (7,), (3,))
-    assert next(one for one in bus.responses if one.number == 7).answers == (1, 2, 3, 4, 6, 7, 8, 11, 12, 13, 14)
-    assert (bus.pkw, bus.pzd, bus.units, bus.broadcast) == ((0, 3, 4, 127), (0, 4), (0, 31), 32)
+    assert next(one for one in bus.codes("responses") if one.number == 7).answers == (
+        1,
+        2,
+        3,
+        4,
+        6,
+        7,
+        8,
+        11,
+        12,
+        13,
+        14,
+    )
+    assert (of_bus(bus).pkw, of_bus(bus).pzd, bus.units, bus.broadcast) == ((0, 3, 4, 127), (0, 4), (0, 31), 32)
 
 
 def test_places_of_uss_parameters_in_the_export() -> None:
@@ -366,7 +385,7 @@ def test_what_is_for_people_does_not_reach_code(name: str) -> None:
     assert digest(plain) == device.digest
     named = [(one.name, one.title) for one in plain.messages]
     named += [(one.name, one.title) for one in plain.telegrams]
-    named += [(one.name, one.title) for one in plain.bus.responses]
+    named += [(one.name, one.title) for one in plain.bus.codes("responses")]
     assert named
     assert all(title == {"en": name.replace("_", " ").capitalize()} for name, title in named)
     for found in plain.points:

@@ -52,7 +52,7 @@ def known(device: Device) -> set[str]:
     names.update(f"command_{one.name}_{tail}" for one in device.commands for tail in ("address", "value"))
     names.update(f"command_{one.name}" for one in device.commands)
     names.update(f"exception_{one.name}" for one in bus.exceptions)
-    for kind, codes in (("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)):
+    for kind, codes in (("task", bus.functions), ("response", bus.codes("responses")), ("error", bus.exceptions)):
         names.update((f"{kind}_name", *(f"{kind}_{one.name}" for one in codes)))
     names.update(f"space_{point.space}" for point in device.points)
     names.update(f"{one.name}_{tail}" for one in device.groups for tail in ("blocks", "blocks_count", "group_count"))

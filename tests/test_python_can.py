@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import wrong_bytes
 from c_device import kitchen
-from fieldscribe.dialogue.options import Options
-from fieldscribe.families.can import CanFrame, parse
-from fieldscribe.families.can.dialogue import decode
+from fieldscribe.conversation.options import Options
+from fieldscribe.families.can.conversation import decode
+from fieldscribe.families.can.frames import CanFrame, parse
 from python_families import AsyncCanUnit, CanUnit, can_device
 from python_package import error, imported, typed_findings, write_package
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from fieldscribe.dialogue import Heard
+    from fieldscribe.conversation.answers import Heard
     from fieldscribe.model import Message
 
 
@@ -88,7 +88,7 @@ def test_units_that_the_device_cannot_have_are_refused(kitchen_package: Any) -> 
     profile = kitchen_package.KitchenCan.PROFILE
     for unit in (0, 31, 256, "5"):
         assert error(can.Receiver, profile, "heartbeat", unit).status == "bad_unit"
-        assert error(kitchen_package.KitchenCan, None, unit).status == "bad_unit"
+        assert error(kitchen_package.KitchenCan, CanUnit(can.Frame, 1), unit).status == "bad_unit"
     data = bytes((5, 31, 0, 0, 0, 0, 5, 31))
     assert hear_kitchen(f"71F#{data.hex()}").kind == "other"
 

@@ -20,7 +20,7 @@ from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out, wrapped
-from fieldscribe.targets.rust.families import family_traits
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
@@ -412,7 +412,7 @@ def probe_source(device: str) -> str:
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
-        traits = " ".join(family_traits(subject, scope))
+        traits = " ".join(in_rust(model.family).traits(subject, scope))
         reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         bodies += parameter_probes(subject, name) if reached else ()

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from c_device import KITCHENS, WARNINGS, kitchen, write_headers
 from fieldscribe.cli import main
+from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.diagnostics import Report
-from fieldscribe.dialogue.meanings import meaning_of
 from fieldscribe.export import export_model
-from fieldscribe.export.dbc import export_dbc
+from fieldscribe.families.can.export.dbc import export_dbc
 from fieldscribe.model import Special
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render

@@ -6,19 +6,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
+from asked import asked
 from devices_by_family import coded, shipped, uss_bytes
-from fieldscribe.dialogue import codec
-from fieldscribe.dialogue.encoding import encode_point
-from fieldscribe.dialogue.options import Options, refuse_foreign
-from fieldscribe.dialogue.refusals import RefusedError
-from fieldscribe.dialogue.selection import UnclearError, choose_point, choose_variants
-from fieldscribe.dialogue.typed_values import read_settings
-from fieldscribe.explain import explain_point, find
-from fieldscribe.explain.others import explain_others
-from fieldscribe.explain.samples import sample_raw
-from fieldscribe.families.uss import Link, Request, parse, telegram
-from fieldscribe.families.uss.dialogue import decode, frames_for
-from fieldscribe.families.uss.listener import UssListener
+from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.lookup import find
+from fieldscribe.conversation.options import Options, refuse_foreign
+from fieldscribe.conversation.others import explain_others
+from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.samples import sample_raw
+from fieldscribe.conversation.selection import UnclearError, choose_point, choose_variants
+from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.uss.conversation import decode, frames_for
+from fieldscribe.families.uss.conversation.listener import UssListener
+from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
 from hypothesis import given
 from hypothesis import strategies as st
 from models import sample_device
@@ -26,28 +28,28 @@ from models import sample_device
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.dialogue import Heard
+    from fieldscribe.conversation.answers import Heard
 
 DEVICE = shipped("siemens_mm4")
 SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])
 READ, ANSWER = "143A 0000 0000 0000", "243A 0000 4248 0000"
-PKW = Options(framing="pkw")
+PKW = asked(framing="pkw")
 
 
 def hear(*texts: str, options: Options | None = None, **settings: int | Fraction) -> list[Heard]:
     """All telegrams, one after the other."""
-    return decode(DEVICE, settings, texts, options or Options())
+    return decode(DEVICE, settings, texts, options or asked())
 
 
 def pkw(*texts: str, link: int | None = None, direction: str | None = None) -> list[Heard]:
     """Parameter parts alone."""
-    return hear(*texts, options=Options(framing="pkw", pkw=link, direction=direction))
+    return hear(*texts, options=asked(framing="pkw", pkw=link, direction=direction))
 
 
 def send(code: str, value: str, options: Options | None = None, *given: str) -> tuple[str, ...]:
     """The telegrams that write a value."""
     settings = read_settings(DEVICE, list(given))
-    chosen = options or Options()
+    chosen = options or asked()
     point = choose_point(DEVICE, code, index=chosen.index)
     return frames_for(DEVICE, point, encode_point(DEVICE, point, value, settings).raw, settings, chosen).frames
 
@@ -70,7 +72,7 @@ def test_single_words_by_the_length_of_the_part() -> None:
     misplaced = pkw("22BC 0000 0005 0000", link=4)[0]
     assert "the second value word, here the first is used; is --pkw 127 or --single-first meant?" in misplaced.notes[0]
     assert "is --pkw 4 meant?" in pkw("22BC 0000 0000 0005")[0].notes[0]
-    first = hear("22BC 0000 0005 0000", options=Options(framing="pkw", pkw=4, single_first=True))[0]
+    first = hear("22BC 0000 0005 0000", options=asked(framing="pkw", pkw=4, single_first=True))[0]
     assert first.items[0].raw == 5
     short = pkw("12BC 0000 0000", "12BC 0000 0002", link=3)
     assert short[1].items[0].raw == 2
@@ -145,7 +147,7 @@ def test_settings_are_learned_where_the_interface_is_chosen() -> None:
         "1009 8000 0000 0000 0000 0000", "1009 8000 0001 0000 0000", "0000 0000 0000 0000 047F 0FA0",
     )]  # fmt: skip
     chosen = choose_variants(DEVICE, ["interface=rs485"])
-    heard = decode(chosen, {}, telegrams, Options())
+    heard = decode(chosen, {}, telegrams, asked())
     assert heard[4].items[-1].text.startswith("HSW main_setpoint = 40 Hz")
     assert hear(*telegrams)[4].items[-1].missing == ("uss_normalisation",)
 
@@ -159,13 +161,13 @@ def test_units_are_kept_apart() -> None:
 def test_the_first_telegram_may_be_an_answer() -> None:
     answer = uss_bytes(1, "243A 0000 4248 0000 FA31 0000")
     assert "--direction response" in hear(answer)[0].notes[0]
-    forced = hear(answer, options=Options(direction="response"))[0]
+    forced = hear(answer, options=asked(direction="response"))[0]
     assert (forced.kind, forced.notes) == ("reply", ())
     assert forced.items[0].text.startswith("P1082 maximum_frequency = 50 Hz")
 
 
 def test_process_data_alone() -> None:
-    no_part = Options(pkw=0)
+    no_part = asked(pkw=0)
     heard = hear(uss_bytes(1, "047F 3333"), uss_bytes(1, "FA31 3333"), options=no_part)
     assert [item.point for one in heard for item in one.items] == [
         "control_word",
@@ -173,13 +175,13 @@ def test_process_data_alone() -> None:
         "status_word",
         "main_actual_value",
     ]
-    words = hear("FA31 3333", options=Options(framing="pzd", direction="response"), **SCALED)[0]
+    words = hear("FA31 3333", options=asked(framing="pzd", direction="response"), **SCALED)[0]
     assert "39.9993896 Hz" in words.items[1].text
-    assert "--direction response" in hear("047F 3333", options=Options(framing="pzd"))[0].notes[0]
-    assert hear("00" * 20, options=Options(framing="pzd"))[0].faults == (
+    assert "--direction response" in hear("047F 3333", options=asked(framing="pzd"))[0].notes[0]
+    assert hear("00" * 20, options=asked(framing="pzd"))[0].faults == (
         "there are 0 to 8 words of process data, here are 10",
     )
-    ignored = hear("0000", options=Options(framing="pzd", direction="request"))[0]
+    ignored = hear("0000", options=asked(framing="pzd", direction="request"))[0]
     assert "breaks what is always written: bit 10 always 1" in ignored.items[0].text
 
 
@@ -202,11 +204,11 @@ def test_process_data_alone() -> None:
     ],
 )
 def test_broadcasts(words: str, texts: list[str]) -> None:
-    for heard in (hear(uss_bytes(32, words))[0], hear(words, options=Options(framing="broadcast"))[0]):
+    for heard in (hear(uss_bytes(32, words))[0], hear(words, options=asked(framing="broadcast"))[0]):
         assert heard.kind == "broadcast"
         for item, text in zip(heard.items, texts, strict=False):
             assert text in item.text
-    assert hear("0006 FFFF", options=Options(framing="broadcast"))[0].faults
+    assert hear("0006 FFFF", options=asked(framing="broadcast"))[0].faults
 
 
 @pytest.mark.parametrize(
@@ -238,7 +240,7 @@ def test_words_that_are_no_telegram() -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "why"), [(Options(pkw=5), "no parameter part of this length"), (Options(pzd=9), "0 to 8 words")]
+    ("options", "why"), [(asked(pkw=5), "no parameter part of this length"), (asked(pzd=9), "0 to 8 words")]
 )
 def test_links_that_the_device_does_not_know(options: Options, why: str) -> None:
     with pytest.raises(UnclearError, match=why):
@@ -287,17 +289,17 @@ def test_answers_without_faults_are_those_of_the_reference(
 @pytest.mark.parametrize(
     ("code", "value", "options", "frame"),
     [
-        ("P1082", "40 Hz", Options(framing="pkw"), "343A 0000 4220 0000"),
-        ("P1082", "40", Options(framing="pkw", keep=True), "D43A 0000 4220 0000"),
-        ("P0700", "5", Options(framing="pkw"), "22BC 0000 0005 0000"),
-        ("P0700", "uss_rs485", Options(framing="pkw", pkw=4), "22BC 0000 0000 0005"),
-        ("P0700", "5", Options(framing="pkw", pkw=4, single_first=True), "22BC 0000 0005 0000"),
-        ("P0700", "5", Options(framing="pkw", pkw=3), "22BC 0000 0005"),
-        ("P2010", "6", Options(framing="pkw", index=1), "700A 8001 0006 0000"),
-        ("P2010[1]", "6", Options(framing="pkw", keep=True), "C00A 8001 0006 0000"),
-        ("STW", "047Fh", Options(framing="pzd"), "047F 0000"),
-        ("STW", "47Eh", Options(framing="pzd", pzd=1), "047E"),
-        ("P1082", "40", Options(unit=3), "02 0E 03 34 3A 00 00 42 20 00 00 00 00 00 00 63"),
+        ("P1082", "40 Hz", asked(framing="pkw"), "343A 0000 4220 0000"),
+        ("P1082", "40", asked(framing="pkw", keep=True), "D43A 0000 4220 0000"),
+        ("P0700", "5", asked(framing="pkw"), "22BC 0000 0005 0000"),
+        ("P0700", "uss_rs485", asked(framing="pkw", pkw=4), "22BC 0000 0000 0005"),
+        ("P0700", "5", asked(framing="pkw", pkw=4, single_first=True), "22BC 0000 0005 0000"),
+        ("P0700", "5", asked(framing="pkw", pkw=3), "22BC 0000 0005"),
+        ("P2010", "6", asked(framing="pkw", index=1), "700A 8001 0006 0000"),
+        ("P2010[1]", "6", asked(framing="pkw", keep=True), "C00A 8001 0006 0000"),
+        ("STW", "047Fh", asked(framing="pzd"), "047F 0000"),
+        ("STW", "47Eh", asked(framing="pzd", pzd=1), "047E"),
+        ("P1082", "40", asked(unit=3), "02 0E 03 34 3A 00 00 42 20 00 00 00 00 00 00 63"),
     ],
 )
 def test_telegrams_that_write(code: str, value: str, options: Options, frame: str) -> None:
@@ -305,24 +307,24 @@ def test_telegrams_that_write(code: str, value: str, options: Options, frame: st
 
 
 def test_process_data_takes_along_what_is_given() -> None:
-    frames = send("HSW", "40", Options(framing="pzd"), "STW=047Fh", "P2000=50", "P2009=0")
+    frames = send("HSW", "40", asked(framing="pzd"), "STW=047Fh", "P2000=50", "P2009=0")
     assert frames == ("047F 3333",)
     point = coded(DEVICE, "P1082")
-    told = frames_for(DEVICE, point, 0, {}, Options())
+    told = frames_for(DEVICE, point, 0, {}, asked())
     assert "task 3 write_double_word" in told.notes[0]
     assert "STW control_word goes along as 0000h" in told.notes[1]
-    assert len(frames_for(DEVICE, point, 0, {coded(DEVICE, "STW").name: 0x047E}, Options()).notes) == 1
+    assert len(frames_for(DEVICE, point, 0, {coded(DEVICE, "STW").name: 0x047E}, asked()).notes) == 1
 
 
 @pytest.mark.parametrize(
     ("code", "value", "options", "why"),
     [
-        ("P1082", "40", Options(pkw=3), "does not fit into the parameter part"),
-        ("P1082", "40", Options(pkw=0), "no task that writes it"),
-        ("P1082", "40", Options(unit=32), "unit number"),
-        ("STW2", "0", Options(), "word 4 of the process data, the link has 2"),
-        ("ZSW", "0", Options(), "read only"),
-        ("r0000", "0", Options(), "cannot be written"),
+        ("P1082", "40", asked(pkw=3), "does not fit into the parameter part"),
+        ("P1082", "40", asked(pkw=0), "no task that writes it"),
+        ("P1082", "40", asked(unit=32), "unit number"),
+        ("STW2", "0", asked(), "word 4 of the process data, the link has 2"),
+        ("ZSW", "0", asked(), "read only"),
+        ("r0000", "0", asked(), "cannot be written"),
     ],
 )
 def test_telegrams_that_cannot_be(code: str, value: str, options: Options, why: str) -> None:
@@ -333,13 +335,13 @@ def test_telegrams_that_cannot_be(code: str, value: str, options: Options, why: 
 @pytest.mark.parametrize(
     ("code", "value", "options", "why"),
     [
-        ("STW", "0", Options(keep=True), "--keep is for parameters"),
-        ("STW", "0", Options(framing="pkw"), "is a word of process data"),
-        ("P1082", "40", Options(framing="pzd"), "is a parameter"),
-        ("P1082", "40", Options(framing="broadcast"), "not built"),
-        ("P2010", "6", Options(), "has 2 elements"),
-        ("P2010", "6", Options(index=7), "no element 7"),
-        ("P1082", "6", Options(index=0), "no element 0"),
+        ("STW", "0", asked(keep=True), "--keep is for parameters"),
+        ("STW", "0", asked(framing="pkw"), "is a word of process data"),
+        ("P1082", "40", asked(framing="pzd"), "is a parameter"),
+        ("P1082", "40", asked(framing="broadcast"), "not built"),
+        ("P2010", "6", asked(), "has 2 elements"),
+        ("P2010", "6", asked(index=7), "no element 7"),
+        ("P1082", "6", asked(index=0), "no element 0"),
     ],
 )
 def test_requests_that_are_unclear(code: str, value: str, options: Options, why: str) -> None:
@@ -347,11 +349,11 @@ def test_requests_that_are_unclear(code: str, value: str, options: Options, why:
         send(code, value, options)
 
 
-@pytest.mark.parametrize("options", [Options(framing="tcp"), Options(can_id="321"), Options(with_word="0")])
+@pytest.mark.parametrize("options", [asked(framing="tcp"), asked(can_id="321"), asked(with_word="0")])
 def test_options_of_other_families_are_refused(options: Options) -> None:
     with pytest.raises(UnclearError, match="siemens_mm4"):
         refuse_foreign(DEVICE, options)
-    for other in (Options(pkw=0), Options(pzd=0), Options(keep=True), Options(framing="pkw")):
+    for other in (asked(pkw=0), asked(pzd=0), asked(keep=True), asked(framing="pkw")):
         with pytest.raises(UnclearError, match="sample_drive"):
             refuse_foreign(sample_device(), other)
 
@@ -396,10 +398,10 @@ def test_every_point_comes_back_from_its_telegram(pkw_words: int, keep: bool) ->
         raw = sample_raw(one) if one.writable and one.generated else None
         if raw is None or (keep and one.telegram is not None):
             continue
-        raw = codec.with_fixed(one, raw)
-        options = Options(pkw=pkw_words, pzd=8, keep=keep)
+        raw = with_fixed(one, raw)
+        options = asked(pkw=pkw_words, pzd=8, keep=keep)
         (frame,) = frames_for(DEVICE, one, raw, {}, options).frames
-        (heard,) = hear(frame, options=Options(pkw=pkw_words, pzd=8))
+        (heard,) = hear(frame, options=asked(pkw=pkw_words, pzd=8))
         assert not heard.faults
         items = [item for item in heard.items if item.point in (one.item, one.name)]
         assert [item.raw for item in items] == [raw], one.name

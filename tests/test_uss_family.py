@@ -6,7 +6,17 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.uss import Link, Request, broadcast, build, check_byte, parameter_words, parse, telegram
+from fieldscribe.families.uss.facts import UssBus, of_bus
+from fieldscribe.families.uss.telegrams import (
+    Link,
+    Request,
+    broadcast,
+    build,
+    check_byte,
+    parameter_words,
+    parse,
+    telegram,
+)
 from fieldscribe.model import Bus, Code
 from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir
@@ -18,7 +28,12 @@ def test_variants_may_take_fewer_words() -> None:
     """Maximale PZD-Länge, section on BiCo: 4 words for the 410 and 420, 8 for the 430 and 440."""
     device = load_device(descriptions_dir() / "siemens_mm4/device.yaml", Report())
     assert device is not None
-    assert dict(device.bus.variant_pzd) == {"model=mm410": 4, "model=mm420": 4, "model=mm430": 8, "model=mm440": 8}
+    assert dict(of_bus(device.bus).variant_pzd) == {
+        "model=mm410": 4,
+        "model=mm420": 4,
+        "model=mm430": 8,
+        "model=mm440": 8,
+    }
 
 
 def task(number: int, *answers: int) -> Code:
@@ -32,12 +47,10 @@ BUS = Bus(
     functions=(task(0, 0), task(1, 1, 2), task(2, 1), task(3, 2), task(6, 4, 5), task(13, 2), task(14, 1)),
     exceptions=(),
     gaps={},
-    pad_coil_bytes=None,
     timing={},
     serial={},
     note={},
-    pkw=(0, 3, 4, 127),
-    pzd=(0, 8),
+    own=UssBus(pkw=(0, 3, 4, 127), pzd=(0, 8)),
 )
 VARIABLE, FIXED, SHORT, NONE = Link(127, 0), Link(4, 0), Link(3, 0), Link(0, 2)
 

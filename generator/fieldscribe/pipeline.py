@@ -137,8 +137,8 @@ def _checked(files: Files, report: Report) -> Subject | None:
     from fieldscribe.resolve.commands import commands_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
+    from fieldscribe.resolve.families import reading_of
     from fieldscribe.resolve.frames import frames_of
-    from fieldscribe.resolve.messages import messages_of
     from fieldscribe.resolve.names import index_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
@@ -148,7 +148,7 @@ def _checked(files: Files, report: Report) -> Subject | None:
     drafts = expand(scope)
     index = index_of(scope, drafts)
     bus = bus_of(scope)
-    messages = messages_of(scope, bus)
+    messages = reading_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
     resolved, ranges, places = resolve_points(scope, drafts, index, telegrams)
     points = {one.point.item: one.point for one in resolved}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+_LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache"})
 _PACKAGE = Path(__file__).resolve().parent
 
 
@@ -18,6 +19,13 @@ def templates_dir() -> Path:
 def descriptions_dir() -> Path:
     """The folder of the descriptions that come with the compiler."""
     return _shipped("descriptions")
+
+
+def runtime_files(folder: str) -> tuple[str, ...]:
+    """The files of a runtime below a folder of templates, in a fixed order; what tools leave behind is none."""
+    root = templates_dir() / folder
+    found = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
+    return tuple(sorted(path.as_posix() for path in found if not _LEFT_BEHIND.intersection(path.parts)))
 
 
 def _shipped(name: str) -> Path:

@@ -118,7 +118,7 @@ def can(random: Random, count: int) -> Iterator[bytes]:
         unit = 5 if random.random() < 0.8 else random.getrandbits(8)
         data = _laid_out(random, message, unit)
         frame = (_mutated(random, data) if random.random() < 0.4 else data)[:255]
-        identifier = message.can_id + unit * message.adds_unit if random.random() < 0.95 else random.getrandbits(29)
+        identifier = message.identifier + unit * message.adds_unit if random.random() < 0.95 else random.getrandbits(29)
         yield struct.pack("<BBHIH", place, unit, random.randrange(16), identifier, len(frame)) + frame
 
 

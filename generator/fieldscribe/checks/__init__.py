@@ -11,10 +11,9 @@ if TYPE_CHECKING:
 
 
 def run_checks(subject: Subject) -> None:
-    """All checks, in this order; errata come late because the others use them, and names of sound devices last."""
+    """All checks, those of the family among them; errata come late because the others use them, names last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
-        codes_agree,
         conditions_can_hold,
         defaults_are_allowed,
         emitted_names_do_not_clash,
@@ -23,17 +22,15 @@ def run_checks(subject: Subject) -> None:
         every_point_has_a_source,
         fixed_bits_can_be_written,
         frames_agree,
-        functions_agree,
         groups_use_what_they_say,
         lines_run_upwards,
         meanings_do_not_compete,
-        messages_are_told_apart,
         names_do_not_clash,
-        parameters_are_reachable,
         printed_facts_agree,
         references_exist,
     )
 
+    own = subject.scope.family.part("checks")
     checks: tuple[Callable[[Subject], None], ...] = (
         every_point_has_a_source.check,
         lines_run_upwards.check,
@@ -46,10 +43,7 @@ def run_checks(subject: Subject) -> None:
         defaults_are_allowed.check,
         references_exist.check,
         printed_facts_agree.check,
-        functions_agree.check,
-        codes_agree.check,
-        messages_are_told_apart.check,
-        parameters_are_reachable.check,
+        *(() if own is None else own.CHECKS),
         frames_agree.check,
         names_do_not_clash.check,
         errata_are_used.check,

@@ -6,7 +6,6 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.meetings import Meetings
-from fieldscribe.checks.subject import inside
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
@@ -117,7 +116,7 @@ def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | Non
 def _writes_a_value(command: Command, point: Point) -> bool:
     """Whether the command is a name for writing one allowed value to the point."""
     whole = point.writable and point.bits is None and len(point.addresses) == 1 and not point.info.floating
-    return whole and command.value is not None and inside(command.value, point.allowed)
+    return whole and command.value is not None and point.allowed.holds(command.value)
 
 
 def _commands(subject: Subject, taken: Taken) -> None:

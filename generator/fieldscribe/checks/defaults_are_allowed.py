@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject, inside
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
 
@@ -30,8 +29,7 @@ def _fault(point: Point) -> str | None:
     """Why the point does not take its default; None if it does, or if only other points tell."""
     default, raw = point.default, point.default_raw
     if raw is not None:
-        special = any(one.low <= raw <= one.high for one in point.specials)
-        return None if special else _forbidden(point, raw)
+        return None if point.special(raw) else _forbidden(point, raw)
     if default is None:
         return None
     if point.info.floating:
@@ -40,12 +38,12 @@ def _fault(point: Point) -> str | None:
     rule = fixed_rule(point)
     if rule is None:
         return None
-    shown = number_text((default * rule[2] - rule[1]) / rule[0])
+    shown = number_text(rule.argument(default))
     return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
 
 
 def _forbidden(point: Point, raw: int) -> str | None:
-    if not inside(raw, point.allowed):
+    if not point.allowed.holds(raw):
         return f"the range does not allow its raw number {raw}"
     if point.digits is not None:
         names = {str(entry.raw) for entry in point.digits.enum.entries}
@@ -78,5 +76,5 @@ def _fits_in_units(point: Point) -> bool:
     rule = fixed_rule(point)
     if rule is None or point.default_raw is None or point.default == point.default_raw:
         return False
-    raw = (point.default_raw * rule[2] - rule[1]) / Fraction(rule[0])
+    raw = rule.argument(point.default_raw)
     return raw.denominator == 1 and _forbidden(point, raw.numerator) is None

@@ -25,13 +25,13 @@ def check(subject: Subject) -> None:
     """Names that meet in a target, whichever is generated today."""
     if subject.report.has_errors:
         return
-    from fieldscribe.targets import NAMESPACES, target
+    from fieldscribe.targets import NAMESPACES, knows, target
     from fieldscribe.targets.identifiers import clashes
 
     _, device = subject.models
     places: _Places | None = None
     told: set[tuple[str, str]] = set()
-    for name in NAMESPACES:
+    for name in (one for one in NAMESPACES if knows(one, device)):
         for clash in clashes(target(name).identifiers(device)):
             places = places or _Places(subject)
             if (pair := (str(clash.first), str(clash.second))) not in told:

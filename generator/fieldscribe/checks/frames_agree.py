@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.language.nodes import Map
 
@@ -38,7 +39,8 @@ def check(subject: Subject) -> None:
     """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
     if not subject.bus_is_whole:
         return
-    read = _reader(str(subject.scope.header["family"]))
+    own = subject.scope.family.part("checks")
+    read: Reader = _unread if own is None else own.read
     seen: dict[str, Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
@@ -53,14 +55,10 @@ def check(subject: Subject) -> None:
         subject.frames.append(replace(found.frame, errata=ids))
 
 
-def _reader(family: str) -> Reader:
-    if family == "can":
-        from fieldscribe.checks.can_frames import read
-    elif family == "uss":
-        from fieldscribe.checks.uss_frames import read
-    else:
-        from fieldscribe.checks.modbus_frames import read
-    return read
+def _unread(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """A frame of a family that does not say how its frames are read."""
+    del subject, seen
+    return Seen(one.frame)
 
 
 def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
@@ -82,12 +80,17 @@ def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[st
 def _fixed(subject: Subject, one: OpenFrame, carries: Carries, points: list[Point]) -> None:
     """What a request writes has the bits that are always written as a constant."""
     for point in points:
-        word = carries(replace(point, type="u16", bits=None)) if point.bits is not None else carries(point)
+        word = carries(_whole_word(point))
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
         subject.disagrees(Printed(f"frame:{one.frame.name}", "fixed", printed, None, one.raw.span("bytes"), message))
+
+
+def _whole_word(point: Point) -> Point:
+    """The word that a bit group lies in, as if it were the point."""
+    return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
 
 
 def no_frame(subject: Subject, one: OpenFrame, message: str) -> Seen:
@@ -115,14 +118,8 @@ def wrong_error(subject: Subject, one: OpenFrame, carried: int | None) -> None:
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
     """The raw number of a point from its words, the high part first; None if one is not there."""
-    raw = 0
-    for word in words:
-        if word is None:
-            return None
-        raw = raw << 16 | word
-    if point.bits is not None:
-        raw = raw >> point.bits[1] & ((1 << point.width) - 1)
-    return raw - (1 << point.width) if raw > point.greatest and not point.info.floating else raw
+    known = [word for word in words if word is not None]
+    return raw_of(point, known) if len(known) == len(words) else None
 
 
 def hex_of(data: bytes) -> str:

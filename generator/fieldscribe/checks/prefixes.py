@@ -131,7 +131,7 @@ def _of_device(subject: Subject) -> Iterator[str]:
     if subject.scope.header["family"] == "uss":
         kinds = (
             ("task", subject.bus.functions),
-            ("response", subject.bus.responses),
+            ("response", subject.bus.codes("responses")),
             ("error", subject.bus.exceptions),
         )
         for kind, codes in kinds:

@@ -53,7 +53,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Say that there is no such command; the exit code."""
-    from fieldscribe.dialogue.selection import quoted
+    from fieldscribe.conversation.selection import quoted
 
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
@@ -122,8 +122,8 @@ def _known_folder(name: Path) -> Path:
 
 def open_device(arguments: Namespace) -> Device:
     """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
+    from fieldscribe.conversation.selection import UnclearError, choose_variants
     from fieldscribe.diagnostics import Report
-    from fieldscribe.dialogue.selection import UnclearError, choose_variants
     from fieldscribe.pipeline import load_device
 
     report = Report()
@@ -228,9 +228,9 @@ def _reader() -> ReadLines:
 
 def settings_of(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
     """What `--with` says of other points. Raises StopError."""
-    from fieldscribe.dialogue.refusals import RefusedError
-    from fieldscribe.dialogue.selection import UnclearError
-    from fieldscribe.dialogue.typed_values import read_settings
+    from fieldscribe.conversation.refusals import RefusedError
+    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.conversation.typed_values import read_settings
 
     try:
         return read_settings(device, pairs)

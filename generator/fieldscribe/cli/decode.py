@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.dialogue import Heard
+    from fieldscribe.conversation.answers import Heard
 
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
@@ -33,7 +33,7 @@ may come. Notes are no findings."""
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device, add_format
-    from fieldscribe.cli.link import add_framing, add_uss, add_with
+    from fieldscribe.cli.link import add_framing, add_own, add_with
 
     add_device(parser)
     parser.add_argument(
@@ -46,13 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--request", metavar="FRAME", help="the request that the frames answer")
     add_framing(parser, "default: seen from the bytes; uss")
     parser.add_argument("--unit", type=int, metavar="N", help="only frames to or from this unit")
-    parser.add_argument("--can-id", metavar="ID", help="can: the identifier of frames without one, in hexadecimal")
-    add_uss(parser)
-    parser.add_argument(
-        "--direction",
-        choices=("request", "response"),
-        help="uss: what frames are (default: an answer follows a request to the same unit)",
-    )
+    add_own(parser, "decode")
     add_with(parser)
     add_format(parser)
 
@@ -62,14 +56,14 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
-    from fieldscribe.dialogue import dialogue_of
-    from fieldscribe.dialogue.selection import UnclearError
+    from fieldscribe.conversation.family import conversation_of
+    from fieldscribe.conversation.selection import UnclearError
 
     device = open_device(arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        heard = dialogue_of(device).decode(device, settings, _frames(arguments.frames), options)
+        heard = conversation_of(device).decode(device, settings, _frames(arguments.frames), options)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     heard = [one for one in heard if arguments.unit is None or one.unit == arguments.unit]
@@ -97,7 +91,7 @@ def _frames(words: list[str]) -> list[str]:
 
 def _print(heard: list[Heard]) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.dialogue.hexadecimal import spaced
+    from fieldscribe.conversation.hexadecimal import spaced
     from fieldscribe.report import visible
 
     for place, one in enumerate(heard):

@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Mapping
 
-    from fieldscribe.dialogue import Sent
-    from fieldscribe.dialogue.encoding import Encoded
+    from fieldscribe.conversation.answers import Sent
+    from fieldscribe.conversation.encoding import Encoded
 
 HELP = "turn a value into its raw number, or into the whole request frame"
 EXAMPLE = """examples:
@@ -31,7 +31,7 @@ rounded is a note."""
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device, add_format
-    from fieldscribe.cli.link import add_framing, add_uss, add_with
+    from fieldscribe.cli.link import add_framing, add_own, add_with
 
     add_device(parser)
     parser.add_argument(
@@ -48,10 +48,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--unit", type=int, metavar="N", help="the unit that the frame goes to (default: 1 or the lowest)"
     )
     add_framing(parser, "default: the device's first")
-    parser.add_argument("--with-word", metavar="WORD", help="can: the word that a bit group is put into, as in 1234h")
-    add_uss(parser)
     parser.add_argument("--index", type=int, metavar="N", help="uss: the element of an array")
-    parser.add_argument("--keep", action="store_true", help="uss: write to the EEPROM, not to the RAM alone")
+    add_own(parser, "encode")
     add_format(parser)
 
 
@@ -60,11 +58,11 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS, FINE, USAGE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
-    from fieldscribe.dialogue import dialogue_of
-    from fieldscribe.dialogue.encoding import encode_point
-    from fieldscribe.dialogue.options import asks_for_frames
-    from fieldscribe.dialogue.refusals import RefusedError
-    from fieldscribe.dialogue.selection import UnclearError, choose_point
+    from fieldscribe.conversation.encoding import encode_point
+    from fieldscribe.conversation.family import conversation_of
+    from fieldscribe.conversation.options import asks_for_frames
+    from fieldscribe.conversation.refusals import RefusedError
+    from fieldscribe.conversation.selection import UnclearError, choose_point
 
     device = open_device(arguments)
     options = options_of(device, arguments)
@@ -74,7 +72,7 @@ def run(arguments: Namespace) -> int:
         point = choose_point(device, name, index=options.index)
         encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
         framed = arguments.frame or asks_for_frames(options)
-        sent = dialogue_of(device).frames_for(device, point, encoded.raw, settings, options) if framed else None
+        sent = conversation_of(device).frames_for(device, point, encoded.raw, settings, options) if framed else None
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except RefusedError as error:

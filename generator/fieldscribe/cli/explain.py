@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.explain import Explanation, Match
+    from fieldscribe.conversation.explanation import Explanation
+    from fieldscribe.conversation.lookup import Match
     from fieldscribe.model import Device
 
 HELP = "say everything about one address, code or name"
@@ -46,9 +47,9 @@ def run(arguments: Namespace) -> int:
     """Explain; the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.dialogue.selection import did_you_mean, quoted
-    from fieldscribe.explain.lookup import near, number_of
-    from fieldscribe.explain.others import explain_others
+    from fieldscribe.conversation.lookup import near, number_of
+    from fieldscribe.conversation.others import explain_others
+    from fieldscribe.conversation.selection import did_you_mean, quoted
 
     device = open_device(arguments)
     matches = _matches(device, arguments.what)
@@ -71,7 +72,7 @@ def run(arguments: Namespace) -> int:
 
 def _no_unit(symbol: str) -> tuple[str, str]:
     """The message and the hint for a unit that is neither the description's nor a shipped one."""
-    from fieldscribe.dialogue.selection import quoted
+    from fieldscribe.conversation.selection import quoted
     from fieldscribe.language.units import unit_hint
 
     return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
@@ -81,8 +82,8 @@ def _matches(device: Device, what: str) -> list[Match]:
     """Every point that is meant, of those that the chosen variants have. Raises StopError where they have none."""
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
-    from fieldscribe.dialogue.selection import absence, label
-    from fieldscribe.explain.lookup import find
+    from fieldscribe.conversation.lookup import find
+    from fieldscribe.conversation.selection import absence, label
 
     matches = find(device, what)
     there = [match for match in matches if not absence(device, match.point)]
@@ -94,7 +95,7 @@ def _matches(device: Device, what: str) -> list[Match]:
 
 def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
     """Each of the points, with all readings that lead to it."""
-    from fieldscribe.explain import explain_point
+    from fieldscribe.conversation.explanation import explain_point
 
     readings: dict[str, list[str]] = {}
     points = {}
@@ -109,7 +110,7 @@ def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[
 
 def _print(found: list[tuple[list[str], Explanation]], what: str) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.dialogue.selection import quoted
+    from fieldscribe.conversation.selection import quoted
 
     if len(found) > 1:
         print_lines([[("strong", f"`{quoted(what)}` can mean {len(found)} things.")], []])

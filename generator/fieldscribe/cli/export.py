@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Mapping
 
 HELP = "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)"
 EXAMPLE = """examples:
@@ -16,15 +15,21 @@ EXAMPLE = """examples:
 
 ends with 1 when the description is wrong, with 2 when the form has no way to say such a device"""
 
-_FORMS: Mapping[str, tuple[str, ...]] = {"json": (), "dbc": ("unit", "variant")}
-"""The forms, with the options that each takes."""
+_JSON = "json"
+
+
+def _forms() -> tuple[str, ...]:
+    """The forms: the model of any device, and what only some families have."""
+    from fieldscribe.families import families
+
+    return (_JSON, *(form for one in families() for form in one.exports))
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device
 
-    parser.add_argument("form", choices=tuple(_FORMS), metavar="FORM", help=f"the form: {' or '.join(_FORMS)}")
+    parser.add_argument("form", choices=_forms(), metavar="FORM", help=f"the form: {' or '.join(_forms())}")
     add_device(parser)
     parser.add_argument("--unit", type=int, metavar="N", help="dbc: the unit that sends (default: 1 or the lowest)")
 
@@ -36,18 +41,18 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.export.rules import ExportError
 
     for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
-        if value is not None and option not in _FORMS[arguments.form]:
+        if value is not None and arguments.form == _JSON:
             raise StopError(f"--{option} is not for the form {arguments.form}")
     device = open_device(arguments)
     try:
-        if arguments.form == "dbc":
-            from fieldscribe.export.dbc import export_dbc
-
-            _print_bytes(export_dbc(device, arguments.unit).encode("latin-1"))
-        else:
+        if arguments.form == _JSON:
             from fieldscribe.export import export_model
 
             print_json(export_model(device))
+        else:
+            from fieldscribe.export import export_form
+
+            _print_bytes(export_form(arguments.form, device, arguments.unit))
     except ExportError as error:
         raise StopError(f"{device.id} cannot be exported as {arguments.form}: {error}") from error
     return FINE

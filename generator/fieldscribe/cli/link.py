@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.dialogue.options import Options
+    from fieldscribe.conversation.options import Options
     from fieldscribe.model import Device
-
-_FRAMINGS = ("rtu", "tcp", "uss", "pkw", "pzd", "broadcast")
 
 
 def add_with(parser: ArgumentParser) -> None:
@@ -27,23 +25,33 @@ def add_with(parser: ArgumentParser) -> None:
 
 def add_framing(parser: ArgumentParser, default: str) -> None:
     """How frames are wrapped."""
+    from fieldscribe.conversation.options import framings
+    from fieldscribe.families import families
+
+    known = {one.name: framings(one) for one in families() if framings(one)}
+    said = "; ".join(f"{', '.join(ways)} ({name})" for name, ways in known.items())
     parser.add_argument(
         "--framing",
-        choices=_FRAMINGS,
-        help="how frames are wrapped: rtu, tcp (modbus); uss, or the words of pkw, pzd, broadcast alone (uss) "
-        f"({default})",
+        choices=tuple(way for ways in known.values() for way in ways),
+        help=f"how frames are wrapped: {said} ({default})",
     )
 
 
-def add_uss(parser: ArgumentParser) -> None:
-    """How a USS link is set."""
-    parser.add_argument("--pkw", type=int, metavar="N", help="uss: words of the parameter part (P2013; default: 127)")
-    parser.add_argument("--pzd", type=int, metavar="N", help="uss: words of process data (P2012; default: 2)")
-    parser.add_argument(
-        "--single-first",
-        action="store_true",
-        help="uss: single words stand in the first value word although --pkw is 4 (some firmware)",
-    )
+def add_own(parser: ArgumentParser, command: str) -> None:
+    """The options that only some families have a use for."""
+    from fieldscribe.families import families
+
+    for one in families():
+        for option in one.options:
+            if command not in option.commands:
+                continue
+            said = f"{one.name}: {option.help}"
+            if option.type is None:
+                parser.add_argument(option.flag, action="store_true", help=said)
+            else:
+                parser.add_argument(
+                    option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=said
+                )
 
 
 def options_of(device: Device, arguments: Namespace) -> Options:
@@ -51,11 +59,16 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     from dataclasses import fields
 
     from fieldscribe.cli.common import StopError
-    from fieldscribe.dialogue.options import Options, refuse_foreign
-    from fieldscribe.dialogue.selection import UnclearError
+    from fieldscribe.conversation.options import Options, refuse_foreign
+    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.families import families
 
     given = {one.name: getattr(arguments, one.name) for one in fields(Options) if hasattr(arguments, one.name)}
-    options = Options(**given)
+    names = dict.fromkeys(option.name for one in families() for option in one.options)
+    said = {name: getattr(arguments, name, None) for name in names}
+    options = Options(
+        **given, own={name: value for name, value in said.items() if value is not None and value is not False}
+    )
     try:
         refuse_foreign(device, options)
     except UnclearError as error:

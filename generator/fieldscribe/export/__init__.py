@@ -5,10 +5,13 @@ It changes only with its `format` number. JSON numbers are integers; every other
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.export.points import export_point, source_of
-from fieldscribe.export.uss import uss_places
+from fieldscribe.export.rules import ExportError
+from fieldscribe.families import families, family
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -31,7 +34,7 @@ def export_model(device: Device) -> dict[str, object]:
         "family": device.family,
         "documents": [_document(one) for one in device.documents],
         "variants": {axis: list(values) for axis, values in device.variants.items()},
-        "limits": _limits(device.bus),
+        "limits": _limits(device),
         "points": [_point(device, point, by_name, directions) for point in device.points],
         "commands": [_command(one) for one in device.commands],
         "messages": [_message(one) for one in device.messages],
@@ -42,9 +45,20 @@ def export_model(device: Device) -> dict[str, object]:
     }
 
 
+def export_form(form: str, device: Device, unit: int | None) -> bytes:
+    """The device in a form that only some families have. Raises ExportError."""
+    own = family(device.family)
+    if form not in own.exports:
+        takers = " and ".join(one.name for one in families() if form in one.exports)
+        raise ExportError(f"a {form.upper()} is for {takers} devices, {device.id} is a {device.family} device")
+    made: bytes = own.part("export").export(form, device, unit)
+    return made
+
+
 def _point(device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str]) -> dict[str, object]:
     direction = None if point.telegram is None else directions.get(point.telegram)
-    places = uss_places(device.bus, point) if device.family == "uss" else None
+    own: Any = family(device.family).part("export")
+    places = own.places(device.bus, point) if hasattr(own, "places") else None
     return export_point(point, by_name, direction, places)
 
 
@@ -58,21 +72,24 @@ def _document(document: Document) -> dict[str, object]:
     }
 
 
-def _limits(bus: Bus) -> dict[str, object]:
-    return {
+def _limits(device: Device) -> dict[str, object]:
+    """What the frames need to know, in the order of the contract; what a family does not have stands for nothing."""
+    bus = device.bus
+    found: dict[str, object] = {
         "framings": list(bus.framings),
         "units": list(bus.units),
         "broadcast": bus.broadcast,
         "most": {str(one.number): one.most for one in bus.functions if one.most is not None},
         "gaps": {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
-        "pad_coil_bytes": bus.pad_coil_bytes,
         "timing": dict(bus.timing),
-        "pkw": list(bus.pkw),
-        "pzd": list(bus.pzd),
-        "variant_pzd": dict(bus.variant_pzd),
-        "bitrate": bus.bitrate,
-        "identifier_bits": bus.identifier_bits,
     }
+    for one in sorted(families(), key=lambda one: one.name == device.family):
+        part: Any = one.part("export")
+        if part is not None:
+            found |= part.limits(bus if one.name == device.family else None)
+    schema = json.loads(Path(__file__).with_name("schema.json").read_text("utf-8"))
+    order = schema["$defs"]["limits"]["required"]
+    return {key: found.pop(key) for key in order} | found
 
 
 def _command(command: Command) -> dict[str, object]:
@@ -95,7 +112,7 @@ def _message(message: Message) -> dict[str, object]:
         "title": dict(message.title),
         "direction": message.direction,
         "answers": message.answers,
-        "can_id": message.can_id,
+        "can_id": message.identifier,
         "adds_unit": message.adds_unit,
         "layout": [{"holds": role.kind, "number": role.number} for role in message.roles],
         "source": source_of(message.source),
@@ -127,7 +144,7 @@ def _codes(bus: Bus) -> dict[str, object]:
     return {
         "exceptions": {str(one.number): _code(one) for one in bus.exceptions},
         "functions": {str(one.number): _code(one) for one in bus.functions},
-        "responses": {str(one.number): _code(one) for one in bus.responses},
+        "responses": {str(one.number): _code(one) for one in bus.codes("responses")},
         "serial": {setting: dict(codes) for setting, codes in bus.serial.items()},
     }
 

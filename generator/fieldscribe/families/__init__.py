@@ -1,32 +1,37 @@
-"""Bus families: addressing and framing rules that many devices share. A family is a folder here and a line below."""
+"""Bus families: addressing and framing rules that many devices share. A family is a folder, and a line below.
+
+A folder offers its `FAMILY` (`contract.py` beside this says what that is). Nothing outside the folders names a family.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from fieldscribe.families.contract import Family
 
-
-@dataclass(frozen=True, slots=True)
-class Family:
-    """What the stages before the targets need: what one address of a space holds, and the highest address."""
-
-    spaces: Mapping[str, str]
-    last_address: int
-    indexed: frozenset[str] = frozenset()
-    """The spaces where an address has an index beside it."""
-    words: Mapping[str, int] = field(default_factory=dict)
-    """The spaces whose numbers travel one by one, with the most words of one."""
-
-    def widest(self, space: str) -> int:
-        """The most bits of a number in the space."""
-        return 16 * self.words.get(space, 4)
-
-
-FAMILIES: Mapping[str, Family] = {
-    "modbus": Family({"coil": "bit", "discrete": "bit", "holding": "word", "input": "word"}, 0xFFFF),
-    "can": Family({"parameter": "word", "telegram": "word"}, 0xFFFF, words={"parameter": 1}),
-    "uss": Family({"parameter": "word", "telegram": "word"}, 31999, frozenset({"parameter"}), {"parameter": 2}),
+FAMILIES: dict[str, str] = {
+    "modbus": "fieldscribe.families.modbus",
+    "can": "fieldscribe.families.can",
+    "uss": "fieldscribe.families.uss",
 }
+"""All families by name, with the package that each one is."""
+
+
+def family(name: str) -> Family:
+    """The family of that name; its package is imported when it is first asked for."""
+    return _offered(FAMILIES[name])
+
+
+def families() -> tuple[Family, ...]:
+    """All families, in the order of the registry."""
+    return tuple(family(name) for name in FAMILIES)
+
+
+@cache
+def _offered(package: str) -> Family:
+    module: Any = import_module(f"{package}.facts")
+    offered: Family = module.FAMILY
+    return offered

@@ -252,12 +252,18 @@ def _functions(key: str, value: Any) -> str | None:
 
 
 def _family(_: str, value: Any) -> str | None:
-    if isinstance(value, str) and value.lower().startswith(("modbus", "uss")):
-        name = value.lower()[: 6 if value.lower().startswith("modbus") else 3]
-        more = "; rtu and tcp are `framings` under `bus`" if name == "modbus" and len(value) > len(name) else ""
-        return f"write `family: {name}`{more}"
-    if isinstance(value, str) and value.lower() in ("canopen", "j1939", "nmea2000", "devicenet"):
-        return "the family can is for a maker's own messages, laid out byte by byte; this one is not known yet"
+    """A family with something behind its name, such as a framing; or one that is not known yet."""
+    from fieldscribe.families import families
+
+    known, said = families(), value.lower() if isinstance(value, str) else ""
+    near = next((one for one in known if said.startswith(one.name) and not one.lays_out_messages), None)
+    if near is not None:
+        ways = "framings" in near.bus.needed and len(said) > len(near.name)
+        more = f"; {' and '.join(near.framings)} are `framings` under `bus`" if ways else ""
+        return f"write `family: {near.name}`{more}"
+    if said in ("canopen", "j1939", "nmea2000", "devicenet"):
+        makers = " and ".join(one.name for one in known if one.lays_out_messages)
+        return f"the family {makers} is for a maker's own messages, laid out byte by byte; this one is not known yet"
     return None
 
 

@@ -100,8 +100,12 @@ class Generation:
     def _made(self) -> Iterator[tuple[Device, Made]]:
         """Each device with all its files; one with a target that fails has none at all, and a finding."""
         from fieldscribe.pipeline import TargetError, outputs
+        from fieldscribe.targets import knows
 
         for device_file, device in self.devices.values():
+            if unknown := [target for target in self.targets if not knows(target, device)]:
+                self._report_unknown(device_file, device, unknown)
+                continue
             made: Made = {target: {} for target in self.targets}
             try:
                 for target, path, text in outputs(device, self.targets):
@@ -119,6 +123,13 @@ class Generation:
             hint = f"{way}; nothing of {plan.device} was written"
             place = Span(shown(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
+
+    def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
+        """Targets that cannot say a device of its family."""
+        named = f"target {targets[0]} does" if len(targets) == 1 else f"targets {', '.join(targets)} do"
+        message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
+        hint = "choose others with --target"
+        self.report.error("unknown-family", message, Span(shown(device_file), 1, 1), hint)
 
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """An internal error is a finding of its device."""

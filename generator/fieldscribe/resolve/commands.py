@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import SPACES
+from fieldscribe.families import families
 from fieldscribe.language.meant import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
 from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import integer
 
@@ -23,9 +24,10 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
     places: dict[str, Span] = {}
     for raw in scope.listed("commands"):
         name = str(raw["name"])
-        if scope.header["family"] != "modbus":
+        if scope.family.commands_in is None:
             hint = "describe the point that it writes, with its value under `enum` or `flags`"
-            scope.report.error("family-key", "commands are for the family modbus", raw.span("name"), hint)
+            known = " and ".join(one.name for one in families() if one.commands_in is not None)
+            scope.report.error("family-key", f"commands are for the family {known}", raw.span("name"), hint)
             continue
         if name in result or name in ("no", "yes"):
             first = [(places[name], "first declared here")] if name in places else []
@@ -44,7 +46,7 @@ def _command(scope: Scope, bus: Bus, raw: Map) -> Command | None:
     address = integer(raw["at"], raw.span("at"), scope.report)
     function = integer(raw["function"], raw.span("function"), scope.report)
     value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), scope.report)
-    space = raw.get("space", "holding")
+    space = str(raw.get("space", scope.family.commands_in))
     if space not in scope.family.spaces:
         known = scope.family.spaces
         scope.unknown("space", space, raw.span("space"), known, space_hint(space, known))
@@ -83,7 +85,7 @@ def _fits(scope: Scope, raw: Map, space: str, address: int, value: int | None) -
 
 def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> bool:
     """Whether the device has the function and it writes into the space; a finding if not."""
-    known = [one for one in (SPACES[space].write_one, SPACES[space].write_many) if one is not None]
+    known = reading_of(scope).writes(space)
     if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
         return True
     message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import modbus
 from fieldscribe.model import Block, Device, Enum, Group, Point
 from fieldscribe.plain import with_digest
 from fieldscribe.resolve.drafts import groups, humanised
 from fieldscribe.resolve.exponents import with_exponents
+from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def _blocks(subject: Subject, points: tuple[Point, ...]) -> dict[str, tuple[Bloc
     by_group: dict[str, list[Point]] = {}
     for point in points:
         by_group.setdefault(point.group, []).append(point)
-    if subject.scope.header["family"] != "modbus":
-        return {}
+    reading = reading_of(subject.scope)
     variants = {axis: tuple(entry["values"]) for axis, entry in subject.scope.header.get("variants", {}).items()}
-    return {group: modbus.plan_blocks(subject.bus, members, variants) for group, members in by_group.items()}
+    planned = {group: reading.blocks(subject.bus, members, variants) for group, members in by_group.items()}
+    return {group: blocks for group, blocks in planned.items() if blocks is not None}

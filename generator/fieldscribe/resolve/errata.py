@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families import families
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Erratum
 from fieldscribe.resolve.scope import Scope, source_of
@@ -107,10 +108,10 @@ def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
             if raw[key] not in known:
                 scope.unknown(key, raw[key], raw.span(key), known)
             return f"{key}:{raw[key]}"
-    for key, codes in (("function", bus.functions), ("response", bus.responses), ("exception", bus.exceptions)):
+    for key, section in {codes.key: codes.section for one in families() for codes in one.codes}.items():
         if key in raw:
             number = integer(raw[key], raw.span(key), scope.report)
-            if number is not None and all(code.number != number for code in codes):
+            if number is not None and all(code.number != number for code in bus.codes(section)):
                 scope.unknown(key, str(raw[key]), raw.span(key), ())
             return f"{key}:{number}"
     if "where" in raw:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import FAMILIES, Family
+from fieldscribe.families import family
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.families.contract import Family
     from fieldscribe.language.files import Files
 
 _SOURCE = tuple(keys_of(SOURCE))
@@ -68,7 +69,7 @@ class Scope:
     @property
     def family(self) -> Family:
         """The rules of the device's family."""
-        return FAMILIES[str(self.header["family"])]
+        return family(str(self.header["family"]))
 
     @property
     def axes(self) -> Mapping[str, Map]:

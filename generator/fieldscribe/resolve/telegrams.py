@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.model import Message, Telegram
 from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
@@ -74,8 +75,8 @@ def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Teleg
 def _fits(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
     """Findings for a telegram that nothing carries, that goes another way than its message, or shares it."""
     name, direction, carrier = str(raw["name"]), raw["direction"], raw.get("message")
-    if scope.header["family"] == "uss":
-        _of_uss(scope, raw, before)
+    if not scope.family.lays_out_messages:
+        reading_of(scope).telegram(scope, raw, before)
         return
     if carrier is None:
         if "message" not in raw.broken:
@@ -92,31 +93,10 @@ def _fits(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[
         scope.report.error("two-meanings", text, raw.span("message"), hint)
 
 
-def _of_uss(scope: Scope, raw: Map, before: list[Telegram]) -> None:
-    """Findings for what the process data of the family uss cannot be."""
-    name, direction = str(raw["name"]), raw["direction"]
-    if "message" in raw:
-        hint = "leave it out: the frames of uss are known"
-        scope.report.error("family-key", "messages are for the family can", raw.key_span("message"), hint)
-    if direction not in ("request", "response"):
-        hint = "write `direction: request` for what the master sends, `response` for what the device sends"
-        scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
-    other = next((one for one in before if one.direction == direction), None)
-    if other is not None:
-        text = f"`{other.name}` and `{name}` are both of direction {direction}"
-        hint = "a telegram has process data once in each direction: make them one, or points with `when`"
-        scope.report.error("two-meanings", text, raw.span("direction"), hint)
-    bus = scope.bus
-    longest = "" if bus is None else str(bus.get("pzd", "")).rpartition("..")[2].strip()
-    if longest.isdecimal() and raw["words"] > int(longest):
-        text = f"`{name}` has {raw['words']} words, the process data at most {longest}"
-        scope.report.error("too-many-items", text, raw.span("words"), "correct `words`, or `pzd` under `bus`")
-
-
 def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
     """How many words one frame carries if there are several frames, else 0; findings where they cannot."""
     name = raw.get("message")
-    if name is None or scope.header["family"] != "can":
+    if name is None or not scope.family.lays_out_messages:
         return 0
     message = messages.get(name)
     span = raw.span("message")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.families import family
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Protocol
@@ -15,6 +17,9 @@ if TYPE_CHECKING:
 
     class Target(Protocol):
         """What a target's module offers."""
+
+        NEEDS_FAMILY: bool
+        """Whether it can say only devices whose family has a part for it."""
 
         def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
             """The files of a device: path relative to the output folder, and text."""
@@ -42,3 +47,8 @@ def target(name: str) -> Target:
     module: Any = import_module(f"fieldscribe.targets.{name}")
     made: Target = module
     return made
+
+
+def knows(name: str, device: Device) -> bool:
+    """Whether a target can say a device: whether the family offers what the target needs of it."""
+    return not target(name).NEEDS_FAMILY or family(device.family).part(f"targets.{name}") is not None

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
-from fieldscribe.wording.rules import RAW, Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
 
@@ -107,9 +108,9 @@ def resolution_text(point: Point) -> str:
     if rule is None or not stepped:
         return ""
     steps = point.steps or ((0, 1),)
-    parts = [with_unit(exact(abs(steps[0][1] * rule[0]), rule[2]), point)]
+    parts = [with_unit(exact(abs(steps[0][1] * rule.factor), rule.divisor), point)]
     for start, step in steps[1:]:
-        coarser = with_unit(exact(abs(step * rule[0]), rule[2]), point)
+        coarser = with_unit(exact(abs(step * rule.factor), rule.divisor), point)
         parts.append(f"from {with_unit(shown(start, rule), point)} on {coarser}")
     return ", ".join(parts)
 
@@ -157,37 +158,40 @@ def range_text(point: Point, points: Points | None = None) -> str:
 def raw_range_text(point: Point) -> str:
     """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
     nothing = point.info.floating or point.text is not None or _is_unbounded(point)
-    return "" if nothing else ranges_text(point, RAW, None, "")
+    return "" if nothing else ranges_text(point, SAME, None, "")
 
 
 def _is_unbounded(point: Point) -> bool:
     """Whether nothing is known of the numbers: no type, and no range that the manual prints."""
-    ends = [(one.low, one.high) for one in point.allowed.intervals]
-    return point.untyped is not None and ends == [(point.least, point.greatest)]
+    return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
     """The least and the greatest raw number that can ever be allowed."""
-    intervals = point.allowed.intervals
-    if not intervals or _is_unbounded(point):
-        return None
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
-    return min(lows), max(highs)
+    return None if _is_unbounded(point) else point.allowed.outer
 
 
 def entry_text(entry: Entry) -> str:
     """One named number: `0 = keypad (Keypad / Bedienfeld)`."""
+    return f"{entry.raw} = {entry_meaning(entry)}"
+
+
+def entry_meaning(entry: Entry) -> str:
+    """What a named number means: `keypad (Keypad / Bedienfeld)`."""
     title = title_text(entry.title)
     quantity = f", {entry.quantity}" if entry.quantity and entry.quantity not in title else ""
-    return f"{entry.raw} = {entry.name} ({title}{quantity})"
+    return f"{entry.name} ({title}{quantity})"
 
 
 def special_text(special: Special, width: int) -> str:
     """A special code of a point of `width` bits: `7FFFh = no_sensor (No sensor), no value`."""
+    return f"{special_numbers(special, width)} = {special_meaning(special)}"
+
+
+def special_meaning(special: Special) -> str:
+    """What a special code means: `no_sensor (No sensor), no value`."""
     remarks = special_remarks(special)
-    numbers = special_numbers(special, width)
-    return f"{numbers} = {special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
+    return f"{special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
 
 
 def codes_text(point: Point, mark: str = "") -> str:
@@ -235,10 +239,14 @@ def flag_bits(flag: Flag, point: Point | None = None) -> str:
 
 def flag_text(flag: Flag, point: Point | None = None) -> str:
     """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
-    head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag.name} ({title_text(flag.title)})"
+    return f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag_meaning(flag)}"
+
+
+def flag_meaning(flag: Flag) -> str:
+    """What a flag means: `fault (Fault), true when 0`, or `mode (Mode): 0 = stop (Stop)`."""
     inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
     values = ": " + ", ".join(map(flag_value_text, flag.values)) if flag.values else ""
-    return head + inverted + values
+    return f"{flag.name} ({title_text(flag.title)}){inverted}{values}"
 
 
 def flag_value_text(entry: Entry) -> str:

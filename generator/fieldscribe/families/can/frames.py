@@ -34,7 +34,7 @@ class Parsed:
 
 def identifier(message: Message, unit: int) -> int:
     """The identifier that carries a message to or from a unit."""
-    return message.can_id + unit if message.adds_unit else message.can_id
+    return message.identifier + unit if message.adds_unit else message.identifier
 
 
 def checksum(data: Sequence[int], mask: int) -> int:
@@ -44,6 +44,17 @@ def checksum(data: Sequence[int], mask: int) -> int:
         if mask >> place & 1:
             result ^= byte
     return result
+
+
+def carries(message: Message, kind: str) -> bool:
+    """Whether bytes of a message have a role of that kind."""
+    return any(role.kind == kind for role in message.roles)
+
+
+def carried(message: Message, frame: CanFrame, kind: str) -> int:
+    """What the bytes of a role hold together."""
+    found = zip(message.roles, frame.data, strict=False)
+    return sum(byte << (0 if kind == "multiplexer" else role.number) for role, byte in found if role.kind == kind)
 
 
 def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:

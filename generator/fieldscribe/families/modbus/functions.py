@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus.facts import of_bus
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -73,7 +75,9 @@ def profile_of(bus: Bus) -> Profile:
         if code.number in PROTOCOL_MOST
     }
     silent = {code.number for code in bus.functions if code.broadcast is False}
-    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even", BROADCAST - silent, framings_of(bus))
+    return Profile(
+        most, bus.units, bus.broadcast, of_bus(bus).pad_coil_bytes == "even", BROADCAST - silent, framings_of(bus)
+    )
 
 
 def framings_of(bus: Bus) -> tuple[str, ...]:

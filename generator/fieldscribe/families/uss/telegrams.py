@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.uss.facts import FAMILY, of_bus
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -13,7 +15,8 @@ if TYPE_CHECKING:
 START = 0x02
 VARIABLE = 127
 """The setting of the parameter part that lets its length follow from the request."""
-LAST_PARAMETER = 31999
+LAST_PARAMETER = FAMILY.last_address
+READ_TASK = 1
 DOUBLE_RESPONSES = frozenset({2, 5})
 _REFUSED, _NO_RIGHTS = 7, 8
 _PAGE = 2000
@@ -115,8 +118,8 @@ def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
 
 
 def _bad_link(bus: Bus, link: Link, words: tuple[int, ...]) -> bool:
-    low, high = bus.pzd
-    return link.pkw not in bus.pkw or len(words) != link.pzd or not low <= link.pzd <= high
+    low, high = of_bus(bus).pzd
+    return link.pkw not in of_bus(bus).pkw or len(words) != link.pzd or not low <= link.pzd <= high
 
 
 def _refusal(bus: Bus, link: Link, request: Request) -> str:
@@ -139,7 +142,7 @@ def _refusal(bus: Bus, link: Link, request: Request) -> str:
 
 def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...]) -> tuple[str, bytes]:
     """A telegram to all units: four words of masks and the process data; (`bad_link`, b"") if these do not fit."""
-    low, high = bus.pzd
+    low, high = of_bus(bus).pzd
     if bus.broadcast is None or len(mask) != 4 or len(words) != link.pzd or not low <= link.pzd <= high:
         return "bad_link", b""
     if not all(0 <= word <= 0xFFFF for word in (*mask, *words)):

@@ -1,19 +1,29 @@
 """The one table of keys: JSON Schema, KEYS.md and the front end's own shapes follow, and lists of keys are asked of it.
 
-A new key is one `Key` in one of the modules here. What it is written in stands in `fieldscribe/kinds.py`.
+A new key is one `Key` in one of the modules here, or in the part `keys` of a family that alone has it. What it is
+written in stands in `fieldscribe/kinds.py`.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import families
 from fieldscribe.kinds import Items, Place
 from fieldscribe.language.keys import bus, files, frames, meaning, points, within
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.families.contract import Family
     from fieldscribe.kinds import Key
+
+
+def keys_of_family(one: Family) -> tuple[Key, ...]:
+    """The keys that only this family has."""
+    part = one.part("keys")
+    return () if part is None else tuple(part.KEYS)
+
 
 TABLE: tuple[Key, ...] = (
     *files.HEADS,
@@ -24,8 +34,9 @@ TABLE: tuple[Key, ...] = (
     *within.KEYS,
     *bus.KEYS,
     *frames.KEYS,
+    *(key for one in families() for key in keys_of_family(one)),
 )
-"""All keys, in the order of each table of KEYS.md."""
+"""All keys, in the order of each table of KEYS.md; those that only one family has are the last."""
 
 _AT: dict[Place, dict[str, Key]] = {}
 for _key in TABLE:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by, one_of
+from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, CODE
 from fieldscribe.language.keys.shapes import SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
 
-PKW = Whole(choices=(0, 3, 4, 127))
 _BY_TYPE = Place("", "", "", ())
 _PRINTED = Place(
     "",
@@ -25,48 +24,25 @@ _SETTING = Shape(
     Items(Shape("One choice.", [8], Text(80), Whole())),
     by(forms.ANY, Shape("What the code means.", [4800], Text(80), Whole())),
 )
-_CODES = by(forms.NUMBER, CODE.shape, least=1)
+CODES = by(forms.NUMBER, CODE.shape, least=1)
 
 KEYS = (
-    Key(
-        "framings",
-        BUS,
-        "The framings the device speaks (modbus).",
-        [["rtu"]],
-        Items(Shape("One framing.", ["rtu"], one_of("rtu", "tcp")), 1),
-    ),
     Key("units", BUS, "The unit addresses a device can have.", ["1..32"], Text(40), required=True),
     Key("broadcast", BUS, "The unit address that means all devices.", [0], Whole(0, 255)),
-    Key(
-        "pkw",
-        BUS,
-        "USS: the lengths in words that the parameter part can have; 127 is variable.",
-        [[0, 3, 4, 127]],
-        Items(Shape("A length.", [4], PKW), 1),
-    ),
-    Key("pzd", BUS, "USS: how many words of process data there may be.", ["0..8"], Text(40), Whole()),
     Key("bitrate", BUS, "CAN: bits a second.", [125000], Whole(1, 1_000_000_000)),
-    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),
     Key(
         "functions",
         BUS,
         "The function codes with their limits; of a USS drive the task ids, 0 too.",
         [{"03h": {"name": "read_holding_registers", "max": 4}}],
-        _CODES,
-    ),
-    Key(
-        "responses",
-        BUS,
-        "USS: the response ids with the tasks that they answer.",
-        [{"1": {"name": "value", "answers": [1, 2, 14]}}],
-        _CODES,
+        CODES,
     ),
     Key(
         "exceptions",
         BUS,
         "The exception codes with their meanings.",
         [{"21h": {"name": "value_out_of_range", "en": "Value out of range"}}],
-        _CODES,
+        CODES,
     ),
     Key(
         "words",
@@ -95,7 +71,6 @@ KEYS = (
             ),
         ),
     ),
-    Key("pad_coil_bytes", BUS, "Function 0Fh carries an even number of data bytes.", ["even"], one_of("even")),
     Key(
         "timing",
         BUS,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from fieldscribe.families import families
 from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Key, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms
-from fieldscribe.language.keys.bus import PKW
-from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, MESSAGE, TELEGRAM
+from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, TELEGRAM
 from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
 
 _SAID = by(forms.ANY, Shape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, YES_NO))
@@ -22,33 +22,6 @@ KEYS = (
     ),
     Key("words", TELEGRAM, "How many words it has.", [69], Whole(1, 65536), required=True),
     Key("message", TELEGRAM, "The message whose frames carry the words.", ["visualisation"], NAMED),
-    Key(
-        "direction",
-        MESSAGE,
-        "Who sends it: the master (request), the device when asked (response), the device by itself (cyclic).",
-        ["request"],
-        DIRECTION,
-        required=True,
-    ),
-    Key("answers", MESSAGE, "The message that this one answers.", ["read_request"], NAMED),
-    Key(
-        "can_id",
-        MESSAGE,
-        "The identifier: a number, or a number `+ unit`.",
-        ["33Fh", "320h + unit"],
-        Whole(),
-        Text(80),
-        required=True,
-    ),
-    Key(
-        "layout",
-        MESSAGE,
-        "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `words`, or `xor 0..5`, "
-        "the high byte first.",
-        [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
-        by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
-        required=True,
-    ),
     Key("space", COMMAND, "The address space.", ["holding"], Text(40)),
     Key("at", COMMAND, "The address on the wire.", ["0900h"], Whole(), Text(64), required=True),
     Key("function", COMMAND, "The function code that writes it.", ["06h"], Whole(), Text(20), required=True),
@@ -61,16 +34,8 @@ KEYS = (
         "The framing: the device's first of modbus, `can` or `uss` unless said. Of USS also the words of one part "
         "alone: `pkw`, `pzd`, or `broadcast` (mask words, then process data).",
         ["rtu"],
-        one_of("rtu", "tcp", "can", "uss", "pkw", "pzd", "broadcast"),
+        one_of(*(way for one in families() for way in one.framings)),
     ),
-    Key(
-        "pkw",
-        FRAME,
-        "USS: the length of the parameter part that the link is set to; 127 (variable) unless said.",
-        [4],
-        PKW,
-    ),
-    Key("can_id", FRAME, "CAN: the identifier of the frame.", ["33Fh"], Whole(), Text(40)),
     Key("direction", FRAME, "Who sends it; a response is also recognised by `answers`.", ["request"], DIRECTION),
     Key("answers", FRAME, "The request that this response answers.", ["write_base_frequency"], NAMED),
     Key(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
-from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.identifiers import identifiers
 
@@ -16,17 +16,19 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
+NEEDS_FAMILY = True
+
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     view, scope = device_view(device)
     yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
-    name, family = device.family, FAMILIES[device.family]
-    bus = family.view(device, view, scope)
-    frames = {"device": view, "bus": bus}
-    yield f"c/{device.id}_{name}.h", folded(render(f"c/{name}.h.j2", frames))
-    suite = conformance_view(device, view, scope, family.adapters(bus))
-    program = render("c/conformance.c.j2", {**frames, "suite": suite})
+    frames = frames_of(device)
+    bus = frames.bus_view(device, view, scope)
+    context = {"device": view, "bus": bus}
+    yield f"c/{device.id}_{device.family}.h", folded(render(f"c/{device.family}.h.j2", context))
+    suite = conformance_view(device, view, scope, frames.adapters(bus))
+    program = render("c/conformance.c.j2", {**context, "suite": suite})
     yield f"c/conformance/{device.id}_conformance.c", folded(program)
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import family
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.defines import shares_values
+from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.literals import raw_type, signed
 from fieldscribe.targets.c.points import named_numbers
 from fieldscribe.targets.c.scales import scaled
@@ -67,6 +69,7 @@ _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor
 
 def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Iterable[tuple[str, str]]) -> SuiteView:
     """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
+    named = frames_of(device).NAMED_CODES
     extra: dict[str, list[str]] = {}
     for function, case in more:
         extra.setdefault(function, []).append(case)
@@ -89,7 +92,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
             for one in device.points
             if one.raw_only and one.address is not None
         ),
-        names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
+        names=tuple(kind for kind, codes in _code_kinds(device) if codes and kind in named),
         commands=tuple(
             (one.name, f"{scope.prefix}_command_{one.name}", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
             for one in device.commands
@@ -99,10 +102,8 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
 
 
 def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
-    bus = device.bus
-    if device.family == "uss":
-        return ("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)
-    return (("exception", bus.exceptions),)
+    emitted = (codes for codes in family(device.family).codes if codes.emitted)
+    return tuple((codes.kind, device.bus.codes(codes.section)) for codes in emitted)
 
 
 def _codes(device: Device, scope: Scope) -> Iterator[tuple[str, str, str]]:

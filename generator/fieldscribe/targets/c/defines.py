@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
@@ -81,7 +82,7 @@ def _bits(point: Point, macro: str) -> Iterator[Define]:
         yield f"{macro}_FIXED_BITS", hexadecimal(point.fixed.bits, digits)
     if point.bits is not None:
         yield f"{macro}_SHIFT", f"{point.bits[1]}U"
-        yield f"{macro}_MASK", hexadecimal(((1 << point.width) - 1) << point.bits[1])
+        yield f"{macro}_MASK", hexadecimal(group_mask(point))
 
 
 def _active_low(flag: Flag) -> bool:

@@ -1,14 +1,13 @@
-"""What the C target makes of each bus family: one header for the frames, beside the runtime of the family."""
+"""What the C target asks of a bus family: one header for the frames, beside the runtime of the family."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
-from fieldscribe.targets.c import can, modbus, uss
+from fieldscribe.families import family
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.model import Device
     from fieldscribe.targets.c.scope import Scope
@@ -16,21 +15,23 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Owner
 
 
-@dataclass(frozen=True, slots=True)
-class Family:
-    """The view of the header of frames, and every identifier in it with what it belongs to.
+class OfFamily(Protocol):
+    """What the part `targets.c` of a family offers; its template and runtime go by the family's name."""
 
-    `adapters` are macros with which points answer conformance vectors that only this family has, by their function.
-    """
+    NAMED_CODES: tuple[str, ...]
+    """The kinds of codes that a function names."""
 
-    view: Callable[[Device, DeviceView, Scope], Any]
-    identifiers: Callable[[Any, DeviceView], Iterator[tuple[str, Owner]]]
-    adapters: Callable[[Any], Iterator[tuple[str, str]]]
+    def bus_view(self, device: Device, view: DeviceView, scope: Scope) -> Any:
+        """The view of the header of frames, `<family>.h.j2`."""
+
+    def identifiers(self, bus: Any, view: DeviceView) -> Iterator[tuple[str, Owner]]:
+        """Every identifier in that header with what it belongs to."""
+
+    def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:
+        """Macros with which points answer conformance vectors that only this family has, by their function."""
 
 
-FAMILIES: Mapping[str, Family] = {
-    "modbus": Family(modbus.modbus_view, modbus.identifiers, modbus.adapters),
-    "can": Family(can.can_view, can.identifiers, can.adapters),
-    "uss": Family(uss.uss_view, uss.identifiers, uss.adapters),
-}
-"""A family's template and runtime go by its name: `<name>.h.j2` and `fieldscribe_<name>.h`."""
+def frames_of(device: Device) -> OfFamily:
+    """What is known of the frames of a device."""
+    offered: OfFamily = family(device.family).part("targets.c")
+    return offered

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import upper
 from fieldscribe.targets.c.device import old_items
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
+from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -129,3 +131,11 @@ def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
     if fixed[0]:
         parts.append(f"fixed_{fixed[0]:04x}_{fixed[1]:04x}")
     return "".join(f"_{part}" for part in parts)
+
+
+def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], ...]:
+    """The codes with which a device refuses: enumerator, number and comment."""
+    return tuple(
+        (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
+        for code in device.bus.exceptions
+    )

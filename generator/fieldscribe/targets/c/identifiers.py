@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import FAMILIES
 from fieldscribe.targets.c.device import STATUSES, device_view, function_names
-from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.identifiers import Identifier, Owner
 
@@ -20,9 +21,7 @@ OWN = Owner("target", "what the header needs")
 _TYPES = ("status", "real")
 _MACROS = (
     "H",
-    "MODBUS_H",
-    "CAN_H",
-    "USS_H",
+    *(f"{name.upper()}_H" for name in FAMILIES),
     "DESCRIPTION_VERSION",
     "DESCRIPTION_DIGEST",
 )
@@ -43,10 +42,9 @@ def identifiers(device: Device) -> Iterator[Identifier]:
         yield Identifier("C", name, owner)
     for alias in view.aliases:
         yield Identifier("C", alias.old, owners[alias.new]._replace(part=f"old name of {alias.new}"))
-    family = FAMILIES[device.family]
-    yield from (
-        Identifier("C", name, owner) for name, owner in family.identifiers(family.view(device, view, scope), view)
-    )
+    frames = frames_of(device)
+    bus = frames.bus_view(device, view, scope)
+    yield from (Identifier("C", name, owner) for name, owner in frames.identifiers(bus, view))
 
 
 def _of_points(view: DeviceView) -> Iterator[tuple[str, Owner]]:

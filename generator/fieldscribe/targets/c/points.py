@@ -9,7 +9,7 @@ from fieldscribe.targets.c.comments import comment_lines
 from fieldscribe.targets.c.conversions import INLINE, Writer, value_type
 from fieldscribe.targets.c.defines import defines
 from fieldscribe.targets.c.layout import filled, function
-from fieldscribe.targets.c.limits import ranges_of, ranges_table
+from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
@@ -112,7 +112,7 @@ def _tables(point: Point, name: str, scope: Scope) -> Iterator[TableView]:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
         yield TableView("uint16_t", f"{name}_addresses[{point.words}]", tuple(rows))
     elif ranges_table(point, scope) == f"{name}_ranges":
-        rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in ranges_of(point)), ", ", "    ")
+        rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
         yield TableView("fieldscribe_range", f"{name}_ranges[]", tuple(rows))
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import INT64
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
-from fieldscribe.targets.c.literals import INT64, bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
+from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import CodesView, Function, SpecialView
 from fieldscribe.text import c_comment, c_string
 
@@ -111,4 +112,4 @@ def _literal(raw: int, special: Special, point: Point) -> str:
 
 def _test(point: Point, codes: Iterable[Special]) -> str:
     literal = bare if point.info.signed else unsigned
-    return any_of([interval_test("raw", code.low, code.high, raw_bounds(point), literal) for code in codes])
+    return any_of([interval_test("raw", code.low, code.high, point.held, literal) for code in codes])

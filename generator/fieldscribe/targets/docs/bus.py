@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import BROADCAST
+from fieldscribe.families import family
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
@@ -35,7 +35,10 @@ class BusView:
 
 def bus_view(device: Device) -> BusView:
     """The bus section of a device."""
-    bus = device.bus
+    bus, own = device.bus, family(device.family)
+    part: OfFamily = own.part("targets.docs") or OfFamily()
+    asks = next((one for one in own.codes if one.section == "functions"), None)
+    answered = asks is not None and asks.belongs_to is not None
     serial = [
         (code(setting), cell(number), cell(meaning))
         for setting, codes in bus.serial.items()
@@ -43,10 +46,10 @@ def bus_view(device: Device) -> BusView:
     ]
     return BusView(
         note=paragraph(title_text(bus.note)) if bus.note else "",
-        facts=by_rows(("Fact", "Value"), [*_FACTS[device.family](bus)]),
-        functions=_tasks(bus) if bus.responses else _functions(bus),
-        function_heading="Tasks" if bus.responses else "Functions",
-        responses=_linked_codes(bus.responses, "Tasks"),
+        facts=by_rows(("Fact", "Value"), [*part.facts(bus)]),
+        functions=_answered(bus) if answered else _functions(bus, part),
+        function_heading="" if asks is None else f"{asks.kind.capitalize()}s",
+        responses=_linked_codes(bus.codes("responses"), "Tasks"),
         exceptions=_linked_codes(bus.exceptions, "Tasks"),
         messages=_messages(device),
         telegrams=_telegrams(device),
@@ -56,43 +59,25 @@ def bus_view(device: Device) -> BusView:
     )
 
 
-def _modbus_facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    yield "Framing", cell(", ".join(bus.framings))
-    yield "Unit numbers", _span(bus.units)
-    yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
-    if bus.pad_coil_bytes:
-        yield "Data bytes when coils are written", cell(f"padded to an {bus.pad_coil_bytes} number")
-    for space, gaps in bus.gaps.items():
-        spans = ", ".join(f"{address_text(low)} to {address_text(high)}" for low, high in gaps)
-        yield cell(f"No request may cross ({space})"), spans
+class OfFamily:
+    """What the part `targets.docs` of a family offers; what is here holds where it offers nothing."""
+
+    def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
+        """What people must know of the line, with what it is called."""
+        yield "Unit numbers", span(bus.units)
+
+    def goes_to_all(self, function: Code) -> bool:
+        """Whether a function goes to all units at once where the description does not say it."""
+        del function
+        return False
 
 
-def _can_facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    if bus.bitrate is not None:
-        yield "Bit rate", f"{bus.bitrate} bit/s"
-    if bus.identifier_bits is not None:
-        yield "Identifier", f"{bus.identifier_bits} bits"
-    yield "Unit numbers", _span(bus.units)
-
-
-def _uss_facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    yield "Unit numbers", _span(bus.units)
-    if bus.broadcast is not None:
-        yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
-    lengths = ("variable (127)" if one == _VARIABLE else str(one) for one in bus.pkw)
-    yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
-    yield "Words of process data (PZD)", _span(bus.pzd)
-
-
-_FACTS = {"modbus": _modbus_facts, "can": _can_facts, "uss": _uss_facts}
-_VARIABLE = 127
-
-
-def _span(ends: tuple[int, int]) -> str:
+def span(ends: tuple[int, int]) -> str:
+    """An interval for people."""
     return f"{ends[0]}..{ends[1]}"
 
 
-def _tasks(bus: Bus) -> Table | None:
+def _answered(bus: Bus) -> Table | None:
     rows = [(*_code(one), _numbers(one.answers), _numbers(one.refusals)) for one in bus.functions]
     return by_rows(("Code", "Name", "Title", "Response", "Response when refused"), rows)
 
@@ -113,14 +98,16 @@ def _messages(device: Device) -> Table | None:
             cell(title_text(one.title)),
             cell(one.direction),
             link("message", one.answers) if one.answers else "",
-            hex_text(one.can_id, 3) + (" + unit" if one.adds_unit else ""),
+            hex_text(one.identifier, 3) + (" + unit" if one.adds_unit else ""),
             *(_role(role) for role in one.roles),
             cell(source_text(one.source, len(device.documents) > 1)),
         )
         for one in device.messages
     ]
     bytes_heads = (f"Byte {place}" for place in range(len(device.messages[0].roles) if device.messages else 0))
-    return by_rows(("Name", "Title", "Direction", "Answers", "CAN id", *bytes_heads, "Source"), rows)
+    return by_rows(
+        ("Name", "Title", "Direction", "Answers", f"{device.family.upper()} id", *bytes_heads, "Source"), rows
+    )
 
 
 def _role(role: Role) -> str:
@@ -150,13 +137,13 @@ def _telegrams(device: Device) -> Table | None:
     return by_rows(("Name", "Title", "Direction", "Words", "Message", "Source"), rows)
 
 
-def _functions(bus: Bus) -> Table | None:
+def _functions(bus: Bus, part: OfFamily) -> Table | None:
     """The functions, with the column about broadcast only where there is a unit for it."""
     heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
     rows = [(*_code(one), "" if one.most is None else str(one.most)) for one in bus.functions]
     if bus.broadcast is None:
         return by_rows(heads, rows)
-    taken = [one.number in BROADCAST if one.broadcast is None else one.broadcast for one in bus.functions]
+    taken = [part.goes_to_all(one) if one.broadcast is None else one.broadcast for one in bus.functions]
     answers = ["yes" if yes else "no" for yes in taken]
     return by_rows((*heads, "Broadcast"), [(*row, answer) for row, answer in zip(rows, answers, strict=True)])
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.targets.python.device import device_view
+from fieldscribe.resources import runtime_files
+from fieldscribe.targets.python.device import device_view, uses
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
@@ -19,45 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
-_MODULES = (
-    "__init__",
-    "can/__init__",
-    "can/decoder",
-    "can/device",
-    "can/frames",
-    "can/receiver",
-    "can/session",
-    "commands",
-    "descriptors",
-    "device",
-    "errors",
-    "facts",
-    "fast",
-    "forms",
-    "handles",
-    "layouts",
-    "lookup",
-    "modbus/__init__",
-    "modbus/device",
-    "modbus/frames",
-    "modbus/planner",
-    "modbus/session",
-    "named",
-    "points",
-    "quantities",
-    "records",
-    "rules",
-    "session",
-    "special",
-    "texts",
-    "uss/__init__",
-    "uss/descriptors",
-    "uss/device",
-    "uss/frames",
-    "uss/session",
-    "words",
-    "wrappers",
-)
+_RUNTIME = "fieldscribe_runtime"
+
+NEEDS_FAMILY = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -66,7 +31,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     head = _head(device)
     enums = enums_view(device, names)
     folder = f"python/{names.package}"
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, "view": names})
+    shown = {"uses": uses(device, names.device_class, "")}
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})
@@ -80,8 +46,8 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
     """
     del device
-    for name in (*(f"{module}.py" for module in _MODULES), "py.typed"):
-        yield f"python/fieldscribe_runtime/{name}", f"python/runtime/fieldscribe_runtime/{name}"
+    for name in runtime_files(f"python/runtime/{_RUNTIME}"):
+        yield f"python/{_RUNTIME}/{name}", f"python/runtime/{_RUNTIME}/{name}"
 
 
 def _head(device: Device) -> Mapping[str, object]:

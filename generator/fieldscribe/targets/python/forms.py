@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
 from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
@@ -12,6 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from fractions import Fraction
 
+    from fieldscribe.lowered import Operand
+    from fieldscribe.model import Bound, Linear, Place, Point, ScaleCase, Special
     from fieldscribe.targets.python.scope import Scope
 
 
@@ -128,15 +129,9 @@ def _only_named(point: Point) -> bool:
     """Whether exactly the numbers of a closed enum may be written."""
     if point.enum is None or not point.enum.closed:
         return False
-    named = {entry.raw for entry in point.enum.entries}
-    count = 0
-    for one in point.allowed.intervals:
-        if isinstance(one.low, Limit) or isinstance(one.high, Limit) or one.high - one.low >= len(named):
-            return False
-        count += one.high - one.low + 1
-        if not named.issuperset(range(one.low, one.high + 1)):
-            return False
-    return count == len(named)
+    named, ranges = {entry.raw for entry in point.enum.entries}, point.allowed.fixed
+    as_many = not point.allowed.moves and sum(high - low + 1 for low, high in ranges) == len(named)
+    return as_many and all(named.issuperset(range(low, high + 1)) for low, high in ranges)
 
 
 def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
@@ -169,25 +164,25 @@ def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
         arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
     if linear.factors:
         scope.used.add("Factor")
-        arguments.append(Group("factors=(", tuple(_factor(one, scope, of_scale) for one in linear.factors)))
+        operands = scope.lowered.rule(linear).operands
+        arguments.append(Group("factors=(", tuple([_factor(one, of_scale=of_scale) for one in operands])))
     return call("Rule", arguments)
 
 
-def _factor(factor: Factor, scope: Scope, of_scale: bool) -> Node:
-    arguments: list[Node] = [python_string(factor.point)]
-    if factor.slope != 1:
-        arguments.append(f"slope={factor.slope}")
-    if factor.intercept:
-        arguments.append(f"intercept={factor.intercept}")
-    if factor.power != 1:
-        arguments.append(f"power={factor.power}")
-    source = scope.points.get(factor.point)
-    if source is not None and source.info.floating:
+def _factor(operand: Operand, *, of_scale: bool) -> Node:
+    arguments: list[Node] = [python_string(operand.point)]
+    if operand.slope != 1:
+        arguments.append(f"slope={operand.slope}")
+    if operand.intercept:
+        arguments.append(f"intercept={operand.intercept}")
+    if operand.power != 1:
+        arguments.append(f"power={operand.power}")
+    if operand.floating:
         arguments.append("f32=True")
-    if factor.ten_to:
-        arguments.append("ten_to=({}, {})".format(*(factor.exponents or scope.points[factor.point].outer)))
-    if of_scale and source is not None and source.specials:
-        arguments.append(Group("codes=(", tuple([f"({one.low}, {one.high})" for one in source.specials])))
+    if operand.exponents is not None:
+        arguments.append("ten_to=({}, {})".format(*operand.exponents))
+    if of_scale and operand.codes:
+        arguments.append(Group("codes=(", tuple([f"({low}, {high})" for low, high in operand.codes])))
     return call("Factor", arguments)
 
 
@@ -196,7 +191,7 @@ def allowed(point: Point, scope: Scope) -> Node | None:
     intervals = point.allowed.intervals
     if point.form in ("float", "text", "digits") or _only_named(point):
         return None
-    if intervals == (Interval(point.least, point.greatest),):
+    if point.allowed.fixed == ((point.least, point.greatest),):
         return None
     return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
 

@@ -6,10 +6,10 @@ import textwrap
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import lower
 from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.existence import only_for, uncertain
-from fieldscribe.targets.python.families import FAMILIES
-from fieldscribe.targets.python.families.family import RUNTIME, Family
+from fieldscribe.targets.python.families import RUNTIME, Family, in_python
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
@@ -67,8 +67,8 @@ class PointsView:
 
 def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
-    family = FAMILIES[device.family]
-    scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
+    family = in_python(device)
+    scope = Scope(names, lower(device), device.variants, {"PointTable"})
     errata = frozenset([one.id for one in device.errata if one.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
@@ -103,7 +103,8 @@ def _documented(point: Point, scope: Scope) -> Group:
     scope.used.add("Documented")
     where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
     why = python_string(point.reason or "no reason given")
-    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where))
+    code = [f"code={python_string(point.code)}"] if point.code else []
+    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
 
 
 def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
@@ -120,7 +121,7 @@ def _point(point: Point, family: Family, scope: Scope, errata: Collection[str]) 
     if old_names:
         scope.used.add("renamed")
     arguments = tuple([laid_out(argument, _BODY) for argument in _arguments(point, scope)])
-    return PointView(attribute(point.item), maker, arguments, _doc(point, errata, scope.points), old_names)
+    return PointView(attribute(point.item), maker, arguments, _doc(point, errata, scope.lowered.points), old_names)
 
 
 def _arguments(point: Point, scope: Scope) -> list[Node]:
@@ -152,8 +153,8 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
 def _places(point: Point, scope: Scope) -> list[Node]:
     """Where the point is, on the wire and in the manual."""
     arguments: list[Node] = [place("at", point.places[0], scope, point)]
-    write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
-    if write_place is not point.places[0] and point.writable:
+    write_place = point.write_place
+    if write_place is not None and write_place is not point.places[0] and point.writable:
         arguments.append(place("write_at", write_place, scope, point))
     if point.bits is not None:
         arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.model import Point
+    from fieldscribe.lowered import Lowered
     from fieldscribe.targets.python.identifiers import Identifiers
     from fieldscribe.targets.python.layout import Node
 
@@ -18,7 +18,7 @@ class Scope:
     """Final names, points by name, variants; filled on the way: names of the runtime in use, codes that are shared."""
 
     names: Identifiers
-    points: Mapping[str, Point]
+    lowered: Lowered
     variants: Mapping[str, tuple[str, ...]]
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.resources import runtime_files
 from fieldscribe.targets.rust.conformance import arms, conformance_tables, row_lines
 from fieldscribe.targets.rust.device import device_context
 from fieldscribe.targets.rust.identifiers import identifiers
@@ -16,65 +17,9 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
 
 _SOURCES = ("lib", "points", "enums", "flags", "with")
-_RUNTIME = (
-    "Cargo.toml",
-    "src/arithmetic.rs",
-    "src/can/client.rs",
-    "src/can/error.rs",
-    "src/can/message.rs",
-    "src/can/mod.rs",
-    "src/can/receiver.rs",
-    "src/check.rs",
-    "src/client.rs",
-    "src/digits.rs",
-    "src/error.rs",
-    "src/flags.rs",
-    "src/form/digits.rs",
-    "src/form/flags.rs",
-    "src/form/floating.rs",
-    "src/form/mod.rs",
-    "src/form/named.rs",
-    "src/form/plain.rs",
-    "src/form/ruled.rs",
-    "src/form/scaled.rs",
-    "src/form/text.rs",
-    "src/form/wide.rs",
-    "src/info.rs",
-    "src/lib.rs",
-    "src/macros.rs",
-    "src/modbus/client.rs",
-    "src/modbus/error.rs",
-    "src/modbus/function.rs",
-    "src/modbus/mod.rs",
-    "src/modbus/profile.rs",
-    "src/modbus/reply.rs",
-    "src/modbus/request.rs",
-    "src/path.rs",
-    "src/pattern.rs",
-    "src/point.rs",
-    "src/raw.rs",
-    "src/rule.rs",
-    "src/scale.rs",
-    "src/special.rs",
-    "src/text.rs",
-    "src/uss/client.rs",
-    "src/uss/error.rs",
-    "src/uss/mod.rs",
-    "src/uss/profile.rs",
-    "src/uss/reply.rs",
-    "src/uss/request.rs",
-)
-_CONFORMANCE = (
-    "Cargo.toml",
-    "src/can.rs",
-    "src/can_clients.rs",
-    "src/lib.rs",
-    "src/modbus.rs",
-    "src/modbus_clients.rs",
-    "src/runtime.rs",
-    "src/uss.rs",
-    "src/uss_clients.rs",
-)
+_RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
+
+NEEDS_FAMILY = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -93,10 +38,9 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 def runtime(_: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    for name in _RUNTIME:
-        yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
-    for name in _CONFORMANCE:
-        yield f"rust/fieldscribe_conformance/{name}", f"rust/runtime/fieldscribe_conformance/{name}"
+    for crate in _RUNTIMES:
+        for name in runtime_files(f"rust/runtime/{crate}"):
+            yield f"rust/{crate}/{name}", f"rust/runtime/{crate}/{name}"
 
 
 __all__ = ["identifiers", "outputs", "runtime"]

@@ -60,7 +60,7 @@ def _allowed(subject: Subject, scope: Scope) -> Iterator[str]:
     elif subject.form == "digits" and point.digits is not None:
         yield f"check runtime::form::digits::check::<Self, {point.digits.count}>;"
     else:
-        ranges = _merged(point)
+        ranges = point.allowed.fixed
         if len(ranges) > 1:
             yield "\n".join(filled("in [", " | ", [interval(*one) for one in ranges], "];"))
 
@@ -82,7 +82,7 @@ def _limits(point: Point, scope: Scope) -> Iterator[str]:
 
 
 def _end(bound: Bound, scope: Scope, *, lower: bool) -> tuple[str, ...]:
-    return limit_lines(bound, scope.points, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
+    return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
@@ -94,22 +94,10 @@ def _float_ranges(point: Point) -> Iterator[str]:
         yield f"ranges [{pairs}];"
 
 
-def _merged(point: Point) -> list[tuple[int, int]]:
-    """The ranges that may be written in ascending order, neighbours joined."""
-    ends = ((one.low, one.high) for one in point.allowed.intervals)
-    found: list[tuple[int, int]] = []
-    for low, high in sorted((low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)):
-        if found and low <= found[-1][1] + 1:
-            found[-1] = (found[-1][0], max(high, found[-1][1]))
-        else:
-            found.append((low, high))
-    return found
-
-
 def _place(point: Point, scope: Scope) -> Iterator[str]:
     """Function and address that write the point, where they are not the usual ones."""
     first = point.places[0]
-    place = first if first.purpose == "write" else next((one for one in point.places if one.purpose == "write"), first)
+    place = point.write_place or first
     one, many = _WRITES.get(place.space, (0, 0))
     usual = one if point.words == 1 else many
     function = place.function if place.purpose == "write" else None

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.families import family_traits
+from fieldscribe.families import family
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
@@ -15,18 +16,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.targets.rust.families import Needs, Table, Way
     from fieldscribe.targets.rust.subjects import Scope, Subject
-
-Needs = tuple[tuple[str, tuple[str, ...]], ...]
-"""Structs and their fields."""
 
 _TOKEN = re.compile(r'(?:"(?:\\.|[^"\\])*"|[^\s"])+')
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
-
-Table = tuple[str, str, tuple[str, ...]]
-"""The function that a table becomes, the runner's function behind it, and its rows."""
 
 
 def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
@@ -60,14 +56,14 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
             (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
         ),
         ("name", "name", tuple(_names((*whole, *digits)))),
-        ("special", "special", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
-        ("special_name", "special_name", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
+        ("special", "special", tuple(row_of(one, "alone") for one in scope.subjects if one.point.specials)),
+        ("special_name", "special_name", tuple(row_of(one, "alone") for one in scope.subjects if one.point.specials)),
         ("flag", "flag", tuple(_flags(whole))),
         ("flag_name", "flag_name", tuple(_flag_names(whole))),
-        ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
-        ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
-        ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
-        ("symbol", "symbol", tuple(_row(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
+        ("bits", "bits", tuple(row_of(one, "alone") for one in scope.subjects if one.point.bits)),
+        ("words", "words", tuple(row_of(one, "alone") for one in scope.subjects if _has_words(one.point))),
+        ("address", "address", tuple(row_of(one, _references(one.point)) for one in scope.subjects)),
+        ("symbol", "symbol", tuple(row_of(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
@@ -80,20 +76,18 @@ def row_lines(row: str) -> tuple[str, ...]:
 
 def _protocol(device: Device) -> Iterator[Table]:
     """The tables of the numbers of the protocol, and of commands."""
-    bus, uss = device.bus, device.family == "uss"
-    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
-    refusals = "error" if uss else "exception"
-    constants = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
-    named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
-    for kind, rows in (("constant", constants), ("constant" if device.family == "can" else "code", named)):
+    own = in_rust(device.family)
+    constants, named = [], []
+    for codes in family(device.family).codes:
+        for code in device.bus.codes(codes.section) if codes.emitted else ():
+            if codes.section == "exceptions":
+                named.append(_code(codes.kind, "exceptions", code.name, "named"))
+            else:
+                constants.append(_code(codes.kind, f"{codes.kind}s", code.name, "code"))
+    for kind, rows in (("constant", constants), (own.refusals, named)):
         if rows:
             yield kind, "code", tuple(rows)
-    carriers = {one.name for one in device.messages if one.words}
-    heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
-    if heard:
-        names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
-        yield "can_taken", "can_taken", tuple(names)
-        yield "can_carrier", "can_carrier", tuple(names)
+    yield from own.tables_of_frames(device)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
         names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]
@@ -111,20 +105,19 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
-    heard = (one for one in scope.subjects if one.form != "text" and _is_heard(one, scope))
     for kind, rows in (
-        ("place", tuple(_row(one, "alone") for one in placed)),
-        ("fixed", tuple(_row(one, "alone") for one in fixed)),
-        ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
-        ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
+        ("place", tuple(row_of(one, "alone") for one in placed)),
+        ("fixed", tuple(row_of(one, "alone") for one in fixed)),
+        ("text_decode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.readable)),
+        ("text_encode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),
         ("digits_coded", tuple(_digits(digits, "r", coded=True))),
         ("digits_encode", tuple(_digits(digits, "w", coded=False))),
         ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
-        ("can_telegram", tuple(_row(one, "frames") for one in heard)),
     ):
         if rows:
             yield kind, kind, rows
+    yield from in_rust(scope.family).tables_of_points(scope)
     ways: dict[tuple[str, str], list[str]] = {}
     for kind, run, row in _exchanges(scope):
         ways.setdefault((kind, run), []).append(row)
@@ -139,51 +132,38 @@ def _exchanges(scope: Scope) -> Iterator[tuple[str, str, str]]:
             continue
         for kind, run, needs in _ways(one, scope):
             given = "".join(f" ({_arguments(*pair)})" for pair in needs)
-            yield kind, run, _row(one, f"wire{given}")
+            yield kind, run, row_of(one, f"wire{given}")
 
 
-def _ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
-    """How a point is read and written in its family: kind, function, and the structs of what that needs."""
+def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+    """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
     point = subject.point
-    if point.telegram is not None:
-        if scope.family == "uss" and subject.form != "text" and not point.bits:
-            yield from _process_ways(subject, scope)
-        return
     text = "_text" if subject.form == "text" else ""
-    if point.readable:
+    if point.telegram is None and point.readable:
         yield "read", f"read{text}", ()
-    if point.writable:
-        yield "write", *_change(subject, "write", "update", text)
-    if point.writable and scope.family == "uss" and point.keeps != "no":
-        yield "store", *_change(subject, "store", "store_update", text)
+    if point.telegram is None and point.writable:
+        yield "write", *change_of(subject, "write", "update")
+    yield from in_rust(scope.family).ways(subject, scope)
 
 
-def _process_ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
-    """Words of process data, which go one way."""
-    point = subject.point
-    telegram, _ = scope.telegrams[point.telegram or ""]
-    if telegram.direction == "response" and point.readable:
-        yield "read", "receive", (_of_scale(subject),)
-    elif telegram.direction == "request" and point.writable:
-        needs = (_of_scale(subject), _of_all(subject))
-        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
-
-
-def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str, Needs]:
+def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
     """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
     point = subject.point
     if point.bits:
         return update, ()
     if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
-    return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
+    text = subject.form == "text"
+    return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
 
 
-def _of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    """The struct of what the scale needs, and its fields."""
     return subject.factors_type, subject.factors
 
 
-def _of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    """The struct of all that writing needs, and its fields."""
     return subject.with_type, subject.arguments
 
 
@@ -203,13 +183,9 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
             yield f"{whole[-1]},"
 
 
-def _row(subject: Subject, how: str) -> str:
+def row_of(subject: Subject, how: str) -> str:
+    """What a table says of one point."""
     return f"{rust_string(subject.point.item)} {subject.name} ({how})"
-
-
-def _is_heard(subject: Subject, scope: Scope) -> bool:
-    """Whether the point comes in frames of a telegram."""
-    return any("can::Received" in line for line in family_traits(subject, scope))
 
 
 def _sizes(point: Point) -> str:
@@ -219,7 +195,7 @@ def _sizes(point: Point) -> str:
 def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[str]:
     for one in subjects:
         if access in one.point.access and bool(one.point.specials) == coded:
-            yield _row(one, _counted(one))
+            yield row_of(one, _counted(one))
 
 
 def _counted(subject: Subject) -> str:
@@ -245,13 +221,13 @@ def _references(point: Point) -> str:
 def _reads(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if "r" in one.point.access:
-            yield _row(one, _arguments(one.factors_type, one.factors))
+            yield row_of(one, _arguments(one.factors_type, one.factors))
 
 
 def _writes(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if "w" in one.point.access:
-            yield _row(one, _arguments(one.with_type, one.arguments))
+            yield row_of(one, _arguments(one.with_type, one.arguments))
 
 
 def _arguments(struct: str, names: tuple[str, ...]) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.families import family_context
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_view
@@ -74,7 +74,8 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "package_version": device.version if _SEMANTIC.fullmatch(device.version) else "0.0.0",
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
-        **family_context(device),
+        "family": device.family,
+        **in_rust(device.family).context(device),
     }
 
 

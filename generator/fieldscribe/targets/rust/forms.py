@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import gcd
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import count_line
+from fieldscribe.arithmetic.words import fits
 from fieldscribe.targets.rust.literals import integer, type_name, type_range
 from fieldscribe.targets.rust.rules import rule_lines
-from fieldscribe.wording.exact import inverse
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear
@@ -78,7 +78,7 @@ def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
     if point.most_raw is not None:
         low = "0" if subject.raw.startswith("u") else integer(-point.most_raw)
         within = f"; within [{low}..={integer(point.most_raw)}]"
-    lines = rule_lines(point, scope.points)
+    lines = rule_lines(point, scope.lowered)
     if len(lines) == 1:
         return head, f"    {lines[0]}{wide}{within});"
     return head, *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]}{wide}{within});"
@@ -86,13 +86,11 @@ def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=4096)
 def _width(rule: Linear, decimals: int, raw: str) -> int:
-    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon."""
-    power = 10**decimals
-    multiply, add, divide = inverse(rule)
-    common = gcd(multiply * power, add * power, divide)
-    multiply, add, divide = multiply * power // common, add * power // common, divide // common
-    ends = type_range(raw)
-    products = [end * multiply for end in ends]
-    numbers = (*ends, *products, *(product + add for product in products), multiply, add, divide)
-    fitting = (bits for bits in (32, 64) if all(-(1 << (bits - 1)) <= one < 1 << (bits - 1) for one in numbers))
-    return next(fitting, 128)
+    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon.
+
+    That is linear in the raw number, so that the ends of its type come upon the largest. How the quotient is rounded is
+    the runtime's affair, which proves its own steps (`path.rs`).
+    """
+    line = count_line(rule, decimals).inverse
+    numbers = (*line, *line.meets(type_range(raw)))
+    return next((bits for bits in (32, 64) if fits(numbers, bits)), 128)

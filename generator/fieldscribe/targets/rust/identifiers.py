@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import RUST_CONSTANTS, upper
 from fieldscribe.targets.identifiers import Identifier, Owner
-from fieldscribe.targets.rust.families import family_identifiers
+from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import type_name, variant_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
 from fieldscribe.targets.rust.words import constant_name, getter_name
@@ -38,7 +38,7 @@ def identifiers(device: Device) -> Iterator[Identifier]:
         yield Identifier("Rust, blocks", group.upper(), Owner("group", group))
     for code in device.bus.exceptions:
         yield Identifier("Rust, exceptions", code.name.upper(), Owner("code", code.name))
-    yield from family_identifiers(device)
+    yield from in_rust(device.family).identifiers(device)
 
 
 def _of_point(subject: Subject) -> Iterator[Identifier]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import struct
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.names import RUST_RESERVED, pascal
 
 if TYPE_CHECKING:
@@ -51,8 +52,7 @@ def type_range(rust_type: str) -> tuple[int, int]:
     """The least and the greatest number of a Rust integer type or `bool`."""
     if rust_type == "bool":
         return 0, 1
-    bits = int(rust_type[1:])
-    return (-(1 << (bits - 1)), (1 << (bits - 1)) - 1) if rust_type[0] == "i" else (0, (1 << bits) - 1)
+    return ends_of(int(rust_type[1:]), signed=rust_type[0] == "i")
 
 
 @lru_cache(maxsize=65536)
@@ -101,10 +101,9 @@ def nearest_float(number: float, bits: int) -> float:
     if bits == 64:
         return number
     try:
-        result: float = struct.unpack("<f", struct.pack("<f", number))[0]
+        return float_of(pattern_of(number, 32), 32)
     except OverflowError:
         return FLOAT_GREATEST[32] if number > 0 else -FLOAT_GREATEST[32]
-    return result
 
 
 @lru_cache(maxsize=4096)

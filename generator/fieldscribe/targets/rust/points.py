@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.rust.access import read_lines, write_lines
 from fieldscribe.targets.rust.documentation import point_doc
-from fieldscribe.targets.rust.families import family_traits, space
+from fieldscribe.targets.rust.families import in_rust
+from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.layout import binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
@@ -54,7 +56,7 @@ def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from family_traits(subject, scope)
+    yield from in_rust(scope.family).traits(subject, scope)
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
@@ -70,9 +72,7 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
-        high, low = point.bits
-        bits = mask(((1 << (high - low + 1)) - 1) << low, "u16")
-        yield f"bits {low} {bits} {'signed_' if point.info.signed else ''}group;"
+        yield f"bits {point.bits[1]} {mask(group_mask(point), 'u16')} {'signed_' if point.info.signed else ''}group;"
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"

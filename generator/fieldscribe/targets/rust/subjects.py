@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import lower
 from fieldscribe.names import pascal
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Enum, Linear, Message, Point, Telegram
 
 
@@ -55,13 +57,13 @@ class Subject:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What the points of one device share: points, raw types and enums' raw types by name, the device's functions.
+    """What the points of one device share: its lowered model, raw types and enums' raw types by name, its functions.
 
-    Points are found by item and by name; the telegrams are by name, with the messages that carry them. The errata are
+    The telegrams are by name, with the messages that carry them. The errata are
     those that change a fact.
     """
 
-    points: Mapping[str, Point]
+    lowered: Lowered
     raw_types: Mapping[str, str]
     enums: Mapping[str, str]
     functions: frozenset[int]
@@ -73,22 +75,19 @@ class Scope:
 
 def scope_of(device: Device) -> Scope:
     """The scope of a device, with its generated points."""
-    points: dict[str, Point] = {}
+    lowered = lower(device)
     enums: dict[str, str] = {}
     for point in device.points:
-        points.setdefault(point.item, point)
         enum = _enum(point)
         if point.generated and enum is not None:
             raw = "u16" if point.form == "digits" else raw_type(point)
             known = enums.setdefault(enum.name, raw)
             if known != raw:
                 enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
-    for point in device.points:
-        points.setdefault(point.name, point)
     messages = {message.name: message for message in device.messages}
     return Scope(
-        points,
-        {name: raw_type(point) for name, point in points.items()},
+        lowered,
+        {name: raw_type(point) for name, point in lowered.points.items()},
         enums,
         frozenset(code.number for code in device.bus.functions),
         tuple(_subject(point, enums) for point in device.points if point.generated),
@@ -99,15 +98,19 @@ def scope_of(device: Device) -> Scope:
 
 
 def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
-    form = point.form
-    enum = _enum(point)
-    raw = raw_type(point)
-    factors = point.scale_arguments if point.scale is not None else ()
-    limits = point.limit_arguments
-    arguments = tuple(dict.fromkeys((*factors, *limits))) if factors or limits else ()
-    rule = point.scale[0].rule if point.scale is not None and len(point.scale) == 1 and not factors else None
-    carried = enums[enum.name] if enum is not None else raw
-    return Subject(point, form, raw, type_name(point.item), arguments, factors, limits, rule, enum, carried)
+    enum, raw = _enum(point), raw_type(point)
+    return Subject(
+        point,
+        point.form,
+        raw,
+        type_name(point.item),
+        point.arguments,
+        point.scale_arguments,
+        point.limit_arguments,
+        point.fixed_scale,
+        enum,
+        carried=enums[enum.name] if enum is not None else raw,
+    )
 
 
 def _enum(point: Point) -> Enum | None:

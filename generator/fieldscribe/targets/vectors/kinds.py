@@ -38,7 +38,8 @@ def _kind(row: str) -> Kind:
     return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional, only)
 
 
-def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
+def table(rows: Mapping[str, str]) -> dict[str, Kind]:
+    """Kinds by name, out of the fields of their lines."""
     return {name: _kind(row) for name, row in rows.items()}
 
 
@@ -46,7 +47,7 @@ _REQUEST = "framing:word unit:int transaction:int function:int address:int count
 
 _EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
 
-SETS = _table(
+SETS = table(
     {
         "unit": "unit:int framing:word?",
         "link": "pkw:int pzd:int single_first:int?",
@@ -60,7 +61,7 @@ SETS = _table(
 )
 """What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
 
-KINDS = _table(
+KINDS = table(
     {
         # a raw number to a value in binary64 and back, to a count and back, and whether it may be written
         "decode": "raw:int status:word value:real? special:word?",
@@ -97,7 +98,7 @@ KINDS = _table(
         "alias": "only:c.python old:word new:word",
         # the values of an axis of variants, and all that is documented only
         "variant": "only:python axis:word choices:names",
-        "left_out": "only:python names:names",
+        "left_out": "only:python names:names codes:names",
         # the symbol of the unit of a point that has one
         "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only
@@ -112,30 +113,9 @@ KINDS = _table(
         "code": "what:word number:int name:text",
         "constant": "only:c.rust what:word number:int name:text",
         "command": "command:word value:int script:script status:word",
-        # frames of Modbus, and batched reads
-        "build": "status:word bytes:bytes?",
-        "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
-        "printed_build": "frame:note status:word bytes:bytes?",
-        "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
-        "block": "group:word index:int space:word function:int address:int count:int",
-        # frames of a maker's own CAN protocol
-        "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
-        "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
-        "can_taken": "frames:frames taken:ints",
-        "can_bus": "only:rust identifier_bits:int bitrate:int?",
-        "can_carrier": "only:rust carrier:word",
-        "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
-        "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
-        # telegrams of USS
-        "uss_build": "status:word bytes:bytes?",
-        "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
-        "uss_reply": "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?",
-        "uss_printed_build": "frame:note status:word bytes:bytes?",
-        "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
-        "words:ints?",
     }
 )
-"""What a line asks and answers. Its own fields come before those of the sets that hold for it."""
+"""What a line asks and answers, for all families. Its own fields come before those of the sets that hold for it."""
 
 
 def _int(value: object) -> str:

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.kinds import KINDS, SETS, Shape
+from fieldscribe.targets.vectors.kinds import KINDS, SETS, Shape, table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 FORMAT = 2
 
-_SHAPES = {name: Shape(name, kind) for name, kind in KINDS.items()}
 _SETS = {name: Shape(name, kind) for name, kind in SETS.items()}
 
 
 class Lines:
     """Collects vectors in order, and counts them."""
 
-    def __init__(self) -> None:
-        self.counts: dict[str, int] = dict.fromkeys(KINDS, 0)
+    def __init__(self, further: Mapping[str, str] = MappingProxyType({})) -> None:
+        """`further` are kinds that only the family of the device has."""
+        self._kinds = KINDS | table(further)
+        self._shapes = {name: Shape(name, kind) for name, kind in self._kinds.items()}
+        self.counts: dict[str, int] = dict.fromkeys(self._kinds, 0)
         self._held: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._open: list[str] = []
@@ -34,7 +37,7 @@ class Lines:
         if self._wanted:
             self._settle()
         self.counts[kind] += 1
-        self._open.append(_SHAPES[kind].line(values))
+        self._open.append(self._shapes[kind].line(values))
 
     def _settle(self) -> None:
         """Writes the sets that changed. A set that is set anew ends those that stand behind it in the table."""
@@ -67,7 +70,7 @@ class Lines:
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
         for name, kind in SETS.items():
             yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in kind.fields)))
-        for name, kind in KINDS.items():
+        for name, kind in self._kinds.items():
             if self.counts[name]:
                 fields = (f"{key}:{form}" for key, form in kind.fields)
                 only = (f"only:{kind.only}",) if kind.only else ()

@@ -2,37 +2,53 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.families.can import can_context, can_identifiers, can_traits
-from fieldscribe.targets.rust.families.modbus import modbus_context
-from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.families.uss import uss_context, uss_identifiers, uss_traits
+from fieldscribe.families import family
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Identifier
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
-__all__ = ["family_context", "family_identifiers", "family_traits", "space"]
+Table = tuple[str, str, tuple[str, ...]]
+"""The function that a table of conformance becomes, the runner's function behind it, and its rows."""
 
-_CONTEXTS = {"modbus": modbus_context, "can": can_context, "uss": uss_context}
-_TRAITS = {"can": can_traits, "uss": uss_traits}
-_IDENTIFIERS = {"can": can_identifiers, "uss": uss_identifiers}
+Needs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Structs and their fields."""
 
-
-def family_context(device: Device) -> dict[str, object]:
-    """The family, and what the template of its items sees."""
-    return {"family": device.family, **_CONTEXTS[device.family](device)}
+Way = tuple[str, str, Needs]
+"""How a point travels: the kind of vector, the runner's function, and what that needs."""
 
 
-def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
-    """Each trait that a point implements for its bus, in a line."""
-    return _TRAITS[scope.family](subject, scope) if scope.family in _TRAITS else ()
+def nothing(*_: object) -> tuple[()]:
+    """For families that have none."""
+    return ()
 
 
-def family_identifiers(device: Device) -> Iterable[Identifier]:
-    """Identifiers of the family's own items: namespace, identifier, what it stands for."""
-    return _IDENTIFIERS[device.family](device) if device.family in _IDENTIFIERS else ()
+@dataclass(frozen=True, slots=True)
+class OfFamily:
+    """What the part `targets.rust` of a family offers as `IN_RUST`.
+
+    `context` is what the template of the family's items sees, `<family>.rs.j2`; `traits` are those that a point
+    implements for its bus, each in a line; `identifiers` those of the family's own items. The conformance program asks
+    for further `ways` of a point, for tables of points and of frames that only this family has, and for the kind of
+    vectors that the codes of refusals are.
+    """
+
+    context: Callable[[Device], Mapping[str, object]]
+    traits: Callable[[Subject, Scope], Iterable[str]] = nothing
+    identifiers: Callable[[Device], Iterable[Identifier]] = nothing
+    ways: Callable[[Subject, Scope], Iterable[Way]] = nothing
+    tables_of_points: Callable[[Scope], Iterable[Table]] = nothing
+    tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
+    refusals: str = "code"
+
+
+def in_rust(name: str) -> OfFamily:
+    """What the family of that name says of itself."""
+    said: OfFamily = family(name).part("targets.rust").IN_RUST
+    return said

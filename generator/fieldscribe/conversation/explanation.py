@@ -1,0 +1,218 @@
+"""Everything about one point in words: what the `explain` command shows. Pure data, no printing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.conversation.family import conversation_of
+from fieldscribe.families import family
+from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Erratum, Point, Source
+
+Row = tuple[str, str]
+
+_KINDS = {"u": "unsigned", "s": "signed, two's complement", "f": "IEEE 754 floating point"}
+_PRINTED = {
+    "wire": "Wire address",
+    "low wire": "Words",
+    "range": "Raw range",
+    "range in units": "Range",
+    "resolution": "Resolution",
+    "unit": "Unit",
+    "access": "Access",
+    "type": "Type",
+    "scale": "Scale",
+    "default": "Default",
+    "default_in_units": "Default",
+    "code": "Code",
+    "title": "Title",
+}
+"""Which row an erratum's printed fact stands in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """What is known of one point: a heading and rows of label and text, cleaned of control characters."""
+
+    heading: str
+    rows: tuple[Row, ...]
+
+    def as_text(self) -> str:
+        """Lines for a terminal, the labels aligned."""
+        width = max((len(label) for label, _ in self.rows), default=0)
+        return "\n".join((self.heading, *(f"  {label:<{width}}  {text}" for label, text in self.rows)))
+
+    def as_data(self) -> dict[str, object]:
+        """The same for JSON."""
+        return {"heading": self.heading, "rows": [{"label": label, "text": text} for label, text in self.rows]}
+
+
+def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
+    """All facts of a point; `as_documented` shows what the manual alone would say where an erratum says otherwise."""
+    errata = [one for one in device.errata if one.id in point.errata]
+    rows = [row for row in _all_rows(device, point, bool(errata) and as_documented) if row[1]]
+    if as_documented:
+        rows = _documented(rows, errata)
+    else:
+        rows += [("Erratum", _erratum_text(one)) for one in errata]
+    rows += _last_rows(device, point)
+    head = f"{point.code} {point.item}" if point.code else point.item
+    heading = line(f"{head}: {wording.title_text(point.title)}")
+    return Explanation(heading, tuple((line(label), line(text)) for label, text in rows))
+
+
+def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[Row]:
+    yield from _identity_rows(device, point)
+    conversation = conversation_of(device)
+    if point.generated and not without_requests:
+        yield "Read", conversation.read_text(device, point)
+        yield "Write", conversation.write_text(device, point)
+    yield from _meaning_rows(device, point)
+    yield from _names_rows(point)
+    yield from _behaviour_rows(device, point)
+
+
+def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
+    group = next((one for one in device.groups if one.name == point.group), None)
+    yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
+    yield "Variant", point.variant or ""
+    where = "not printed in the manual" if point.address is None else _where(device, point)
+    yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
+    for key, printed in point.references.items():
+        as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
+        yield key.capitalize(), f"{printed}{as_hex}"
+    yield "Words", wording.words_text(point) if len(point.addresses) > 1 else ""
+    for place in point.places[1:]:
+        words = ", ".join(map(wording.address_text, place.addresses))
+        yield f"Place to {place.purpose}", f"{words}, space {place.space}"
+    yield "Type", _type_text(point)
+    yield "Access", wording.access_text(point.access)
+
+
+def _where(device: Device, point: Point) -> str:
+    """The address, with the index or the telegram beside it."""
+    address = point.address or 0
+    if point.telegram is not None:
+        return f"word {address} of the telegram {point.telegram}, counted from 0"
+    first = point.addresses[0] if point.text is not None else address
+    beside = point.index is not None and point.space in family(device.family).indexed
+    index = f", index {point.index}" if beside else ""
+    return f"{wording.address_text(first)}{index}"
+
+
+def _type_text(point: Point) -> str:
+    if point.untyped is not None or point.type == "bit" or point.text is not None:
+        return wording.type_text(point)
+    kind = f"{_KINDS[point.type[0]]}, {point.width} bits"
+    if point.digits is not None:
+        return f"{wording.type_text(point)} ({kind})"
+    if point.bits is None:
+        return f"{point.type} ({kind})"
+    return f"{wording.type_text(point)} of a shared word ({kind})"
+
+
+def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
+    by_name = {name: one for one in device.points for name in (one.item, one.name)}
+    unit = point.unit
+    yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
+    yield "Scale", wording.scale_text(point, by_name)
+    yield "Resolution", wording.resolution_text(point)
+    yield "Widths", "; ".join(wording.width_texts(point))
+    yield "Range", "" if point.flags else wording.range_text(point, by_name)
+    yield "Raw range", wording.raw_range_text(point)
+    yield "Default", wording.default_text(point)
+    yield "Steps", wording.steps_text(point)
+    yield "Fixed bits", wording.fixed_text(point)
+    scale, limits = point.scale_arguments, [one for one in point.limit_arguments if one not in point.scale_arguments]
+    yield "Scale needs", _needs(scale)
+    yield "Limits need", _needs(limits)
+
+
+def _needs(names: tuple[str, ...] | list[str]) -> str:
+    return f"{', '.join(names)} (read {'it' if len(names) == 1 else 'them'} first)" if names else ""
+
+
+def _names_rows(point: Point) -> Iterator[Row]:
+    if point.enum is not None:
+        yield "Names", "only these may be written" if point.enum.closed else "the range says what may be written"
+        for entry in point.enum.entries:
+            yield f"Raw {entry.raw}", wording.entry_meaning(entry)
+    if point.digits is not None:
+        for entry in point.digits.enum.entries:
+            yield f"Digit {entry.raw}", wording.entry_meaning(entry)
+    for special in point.specials:
+        yield f"Raw {wording.special_numbers(special, point.width)}", wording.special_meaning(special)
+    for flag in point.flags:
+        label = f"Bit{'s' if flag.width > 1 else ''} {wording.flag_bits(flag, point)}"
+        yield label, wording.flag_meaning(flag)
+
+
+def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
+    yield "Kept", wording.keeps_text(device, point)
+    yield "Write only when", ", ".join(point.conditions)
+    yield "Exists when", wording.condition_text(point.when, {one.name: one for one in device.points})
+    yield "Since", point.since or ""
+    yield "Until", point.until or ""
+    yield "Changes", point.changes or ""
+    yield "Record", point.record or ""
+    alone = point.index is None or point.space in family(device.family).indexed
+    yield "Index", "" if alone else str(point.index)
+    yield "Set", "" if point.set is None else str(point.set)
+    yield "Changes with", ", ".join(point.changes_with)
+    yield "Old names", ", ".join(point.was)
+
+
+def _last_rows(device: Device, point: Point) -> Iterator[Row]:
+    if point.note:
+        yield "Note", wording.title_text(point.note)
+    if not point.generated:
+        yield "Not generated", point.reason or "no reason given"
+    yield "Source", _source_text(device, point.source)
+
+
+def _source_text(device: Device, source: Source) -> str:
+    document = next((one.title for one in device.documents if one.id == source.document), source.document)
+    parts = [document, source.section or "", f"page {source.page}" if source.page else ""]
+    parts.append("" if source.line is None else f"line {source.line} of its text")
+    return ", ".join(part for part in parts if part)
+
+
+def _erratum_text(erratum: Erratum) -> str:
+    printed, taken, why = (text.rstrip(". ") for text in (erratum.printed, erratum.taken, erratum.why))
+    return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}."
+
+
+def _documented(rows: list[Row], errata: list[Erratum]) -> list[Row]:
+    """The rows with each printed fact in the place of the taken one; what is no such fact follows as a sentence."""
+    printed: list[Row] = []
+    for erratum in errata:
+        for part in erratum.printed.split("; "):
+            label, said = _printed_fact(part)
+            remark = f"{said} (as printed; {erratum.id})"
+            at = next((place for place, row in enumerate(rows) if label and row[0].lower() == label.lower()), None)
+            if at is None:
+                printed.append((label or "The manual says", remark))
+            else:
+                rows = [*rows[:at], (rows[at][0], remark), *rows[at + 1 :]]
+    return rows + printed
+
+
+def _printed_fact(part: str) -> Row:
+    """The row that a printed fact such as `wire 4219` belongs to (empty for a sentence), and what is printed there."""
+    for key, label in sorted(_PRINTED.items(), key=lambda one: -len(one[0])):
+        if part.lower().startswith((f"{key} ", f"{key}: ")):
+            return label, part[len(key) :].lstrip(": ")
+    return _reference_fact(part)
+
+
+def _reference_fact(part: str) -> Row:
+    key, _, said = part.replace(": ", " ", 1).partition(" ")
+    is_number = bool(said) and said.replace("h", "").replace("/", "").replace(" ", "").isalnum() and " " not in key
+    return (key.capitalize(), said) if is_number and said[:1].isdigit() else ("", part)

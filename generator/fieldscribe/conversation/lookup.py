@@ -1,0 +1,177 @@
+"""Finding points by what a person has at hand: a code, a name, or an address in any notation and numbering."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families import family
+from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Point
+
+_HEX = re.compile(r"0x([0-9a-f]+)|([0-9][0-9a-f]*)h|h'([0-9a-f]+)'?", re.IGNORECASE)
+_ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
+_DECIMAL = re.compile(r"[0-9]+")
+_LONGEST = 64
+_NOT_ALONE = frozenset({"mux", "word"})
+"""Numberings whose numbers name many points: they are read only when asked for."""
+
+_NEAR = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """A point that was found: as what the question was read, and which word of the point it names (empty for all)."""
+
+    reading: str
+    point: Point
+    word: str
+
+
+def find(device: Device, what: str) -> list[Match]:
+    """Every point that `what` can mean, each reading labelled.
+
+    `what` is a code, a name, or a number (`0x1028`, `1028h`, `H'1028`, `4136`) read as wire address and in each
+    numbering of the device; `[1]` behind it chooses one element of an array. A prefix forces one reading: `code:`,
+    `name:`, `wire:`, or a numbering such as `modicon:`.
+    """
+    forced, asked = _split(device, what.strip())
+    element = _ELEMENT.fullmatch(asked[:_LONGEST])
+    if element is not None:
+        matches = find(device, f"{forced}:{element[1]}" if forced else element[1])
+        return [one for one in matches if one.point.index == int(element[2])]
+    found = [*_by_code(device, asked, forced), *_by_name(device, asked, forced)]
+    number = number_of(asked)
+    if number is not None and forced in (None, "wire"):
+        found += _by_wire(device, number)
+    for key in _numberings(device):
+        if forced == key.lower() or (forced is None and key not in _NOT_ALONE):
+            found += _by_reference(device, key, asked, number)
+    return found
+
+
+def near(device: Device, what: str) -> list[str]:
+    """Names and codes that resemble `what`; for a number, the points around that address. For when nothing matches."""
+    from difflib import get_close_matches
+
+    asked = _split(device, what.strip())[1][:_LONGEST].lower()
+    number = number_of(asked)
+    if number is not None:
+        return [point.item for point in _neighbours(device, number)]
+    known = {point.item: point.item for point in device.points}
+    known |= {point.code.lower(): point.code for point in device.points if point.code}
+    return [known[one] for one in get_close_matches(asked, list(known), _NEAR)]
+
+
+def number_of(text: str) -> int | None:
+    """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
+    if len(text) > _LONGEST or not text.isascii():
+        return None
+    if found := _HEX.fullmatch(text):
+        return int(found[1] or found[2] or found[3], 16)
+    return int(text) if _DECIMAL.fullmatch(text) else None
+
+
+def _split(device: Device, what: str) -> tuple[str | None, str]:
+    """The forced reading, if any, and what is left."""
+    prefix, colon, rest = what.partition(":")
+    prefix = prefix.strip().lower()
+    known = {"wire", "code", "name", *(key.lower() for key in _numberings(device))}
+    return (prefix, rest.strip()) if colon and prefix in known else (None, what)
+
+
+def _numberings(device: Device) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(key for point in device.points for key in point.references))
+
+
+def _by_code(device: Device, asked: str, forced: str | None) -> Iterator[Match]:
+    if forced not in (None, "code"):
+        return
+    points = [point for point in device.points if point.code and point.code.lower() == asked.lower()]
+    exactly = [point for point in points if point.code == asked]
+    for point in exactly or points:
+        yield Match(f"code {line(point.code or '')}", point, "")
+
+
+def _by_name(device: Device, asked: str, forced: str | None) -> Iterator[Match]:
+    if forced not in (None, "name"):
+        return
+    asked = asked.lower()
+    for point in device.points:
+        if asked in (point.name, point.item):
+            yield Match(f"name {asked}", point, "")
+        elif asked in point.was:
+            yield Match(f"old name {asked}", point, "")
+
+
+def _by_wire(device: Device, number: int) -> Iterator[Match]:
+    reading = f"wire address {hex_text(number)} ({number})"
+    for point in device.points:
+        for place in point.places:
+            if number in place.addresses:
+                purpose = "" if place is point.places[0] else f", to {place.purpose}"
+                told = f"{reading}, {place.space}{purpose}"
+                if point.telegram is not None:
+                    told = f"word {number} of the telegram {line(point.telegram)}"
+                elif point.index is not None and place.space in family(device.family).indexed:
+                    told += f", index {point.index}"
+                yield Match(told, point, word_text(place.addresses, number, text=point.text is not None))
+                break
+
+
+def _by_reference(device: Device, key: str, asked: str, number: int | None) -> Iterator[Match]:
+    """Points whose printed number, or that of one of their words (counted on from the lowest), is the one asked for."""
+    per_frame = _words_per_frame(device)
+    for point in device.points:
+        printed = point.references.get(key)
+        size = per_frame.get(point.telegram or "", 0)
+        if key in _NOT_ALONE and size:
+            yield from _in_frames(point, key, number, size)
+        elif isinstance(printed, int) and number is not None:
+            if printed <= number < printed + max(1, len(point.addresses)):
+                lowest = point.address or 0
+                yield Match(f"{line(key)} {number}", point, word_text(point.addresses, lowest + number - printed))
+        elif isinstance(printed, str) and printed.lower() == asked.lower():
+            yield Match(f"{line(key)} {line(printed)}", point, "")
+
+
+def _words_per_frame(device: Device) -> dict[str, int]:
+    """How many words of each telegram one of its several frames brings."""
+    parts = [one for one in device.messages if any(role.kind == "multiplexer" for role in one.roles)]
+    words = {message.name: message.words for message in parts}
+    return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}
+
+
+def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterator[Match]:
+    """A point of a multiplexed telegram by the number of its frame, or of its word (from 1) in the frame."""
+    for address in point.addresses:
+        slot, word = divmod(address, size)
+        if number == (slot if key == "mux" else word + 1):
+            yield Match(f"{key} {number}", point, word_text(point.addresses, address))
+            return
+
+
+def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -> str:
+    """Which word of a point an address is: `low word (2 of 2)`; empty for a point of one word."""
+    count = len(addresses)
+    if count < 2 or address not in addresses:
+        return ""
+    place = addresses.index(address)
+    if text:
+        return f"word {place + 1} of {count}, the first characters first"
+    name = {0: "high word", count - 1: "low word"}.get(place, "word")
+    return f"{name} ({place + 1} of {count}, the high part first)"
+
+
+def _neighbours(device: Device, number: int) -> list[Point]:
+    """The next point below and the next above an address."""
+    placed = [(point.address, point) for point in device.points if point.address is not None]
+    below = max((one for one in placed if one[0] < number), key=lambda one: one[0], default=None)
+    above = min((one for one in placed if one[0] > number), key=lambda one: one[0], default=None)
+    return [one[1] for one in (below, above) if one is not None]

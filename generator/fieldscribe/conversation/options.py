@@ -1,0 +1,62 @@
+"""What a person says of the link and of single frames, and which families have a use for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.families import families, family
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.families.contract import Family
+    from fieldscribe.model import Device
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """None is what nobody said; `own` are options by name that only some families have, as far as they were said."""
+
+    framing: str | None = None
+    unit: int | None = None
+    request: str | None = None
+    index: int | None = None
+    own: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
+
+
+def asks_for_frames(options: Options) -> bool:
+    """Whether something was said that only a whole frame has a use for."""
+    return options != Options(index=options.index)
+
+
+def framings(one: Family) -> tuple[str, ...]:
+    """How frames of a family may be wrapped, where that is a choice."""
+    return one.framings if len(one.framings) > 1 else ()
+
+
+def refuse_foreign(device: Device, options: Options) -> None:
+    """Refuse what only devices of other families have a use for. Raises UnclearError."""
+    for name in _said(options):
+        takers = [one.name for one in families() if _takes(one, name)]
+        if device.family not in takers:
+            flag = f"--{name.replace('_', '-')}"
+            message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
+            raise UnclearError(message)
+    known = framings(family(device.family))
+    if options.framing is not None and options.framing not in known:
+        message = f"--framing {options.framing} is not for {device.family} devices such as {device.id}"
+        raise UnclearError(message, f"it takes {', '.join(known)}")
+
+
+def _said(options: Options) -> Iterator[str]:
+    yield from (one.name for one in fields(options) if one.name != "own" and getattr(options, one.name) is not None)
+    yield from options.own
+
+
+def _takes(one: Family, name: str) -> bool:
+    """Whether a family has a use for an option."""
+    shared = {"framing": bool(framings(one)), "index": bool(one.indexed), "unit": True, "request": True}
+    return shared.get(name, False) or any(option.name == name for option in one.options)

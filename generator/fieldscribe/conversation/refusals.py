@@ -1,0 +1,179 @@
+"""Why a value cannot be written, or a raw number cannot be read, in words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.conversation.selection import label, points_by_name
+from fieldscribe.text import line
+from fieldscribe.wording.exact import number_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from fractions import Fraction
+
+    from fieldscribe.model import Device, Point, Special
+
+_MOST_DIGITS = 12
+_MOST_NAMES = 30
+
+
+class RefusedError(Exception):
+    """A value that must not be sent. `status` is the one that generated code gives, or `missing`, `read_only`, ...
+
+    `why` is what the message says behind the point that it is about.
+    """
+
+    def __init__(self, status: str, message: str, hint: str = "", *, why: str = "") -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+        self.hint = hint
+        self.why = why or message
+
+
+def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str = ": ") -> RefusedError:
+    """The refusal of a point for a reason, which stands behind its name."""
+    return RefusedError(status, line(f"{label(point)}{joint}{why}"), hint, why=line(why))
+
+
+Circumstances = tuple[CodecError, Settings]
+"""What failed, and with which raw numbers of other points."""
+
+
+def refusal(device: Device, point: Point, value: Fraction | None, raw: int, why: Circumstances) -> RefusedError:
+    """A codec's failure in words; `value` is what was asked for, or None and `raw` is."""
+    error, settings = why
+    if error.status in ("out_of_range", "unknown_value"):
+        return _outside(device, point, value, raw, settings)
+    if error.special is not None:
+        return _code(point, value, raw, error.special)
+    message, hint = failure(device, point, error)
+    return _refused(point, error.status, message, hint)
+
+
+def _code(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
+    """A special code where a quantity belongs, or one that is only read."""
+    title = f"`{special.name}` ({wording.title_text(special.title)})"
+    if value is not None:
+        code = wording.special_numbers(special, point.width)
+        why = f"{amount_with_unit(point, value)} would be {code}, the special code {title}"
+    else:
+        shown = wording.code_text(raw, point.width, hexadecimal=special.hexadecimal)
+        why = f"{shown} is the special code {title}, which is only read"
+    hint = "the code is no quantity, and is only read"
+    if special.writable:
+        hint = f"write `{special.name}` if that is meant"
+        hint = hint if special.low == special.high else f"if that is meant, give {point.name}.raw a raw number"
+    return _refused(point, "special", why, hint if value is not None else "give a quantity")
+
+
+def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
+    """What a failure other than a wrong range means, and what to do about it (may be empty)."""
+    blamed = names_text(device, error.missing)
+    if error.status == "missing":
+        hint = "give " + " ".join(f"--with {_short(device, name)}=VALUE" for name in error.missing)
+        part = "its scale" if set(error.missing) <= set(point.scale_arguments) else "its range"
+        return f"{part} depends on {blamed}", hint
+    return {
+        "zero_factor": (f"{blamed} is zero or no quantity, and nothing can be computed with that", ""),
+        "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
+        "overflow": (f"the exponent {blamed} is outside the range that it has", ""),
+        "special": ("this raw number is a special code and no quantity", ""),
+        "not_a_number": ("the bit pattern is no number", ""),
+    }.get(error.status, (error.status, ""))
+
+
+def names_text(device: Device, names: Iterable[str]) -> str:
+    """Points as people know them: `A062 lower_frequency_limit and A004 maximum_frequency`."""
+    points = points_by_name(device)
+    return " and ".join(_name(points[name]) if name in points else line(name) for name in names)
+
+
+def _name(point: Point) -> str:
+    """A point as rules know it: of all its variants."""
+    return f"{line(point.code)} {point.name}" if point.code else point.name
+
+
+def amount(number: Fraction) -> str:
+    """A number for people: exact where it is short, else rounded and marked so."""
+    exactly = number_text(number)
+    if "/" in exactly or (len(exactly) > _MOST_DIGITS + (exactly[0] == "-") and "." in exactly):
+        return f"about {float(number):.9g}" if abs(number) < 10**300 else exactly
+    return exactly
+
+
+def amount_with_unit(point: Point, number: Fraction) -> str:
+    """A number for people, with the point's unit."""
+    return wording.with_unit(amount(number), point)
+
+
+def _short(device: Device, name: str) -> str:
+    point = points_by_name(device).get(name)
+    return line(point.code) if point is not None and point.code else name
+
+
+def _outside(device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings) -> RefusedError:
+    if point.enum is not None and all(isinstance(one.low, int) for one in point.allowed.intervals):
+        known = ", ".join(f"{one.raw} {one.name}" for one in point.enum.entries[:_MOST_NAMES])
+        status = "unknown_value" if point.enum.closed else "out_of_range"
+        beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
+        return _refused(point, status, f"does not take {raw}", line(f"it has {known}{beyond}"), joint=" ")
+    if point.digits is not None and codec.strange_digits(point, raw):
+        known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
+        hint = line(f"each digit is one of {known}")
+        return _refused(point, "unknown_value", f"does not take {raw}", hint, joint=" ")
+    if with_fixed(point, raw) != raw:
+        always = wording.fixed_text(point)
+        return _refused(point, "out_of_range", f"raw {raw} breaks what is always written: {always}")
+    asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"
+    span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
+    if point.form in ("enum", "flags", "bit") or not span:
+        span = f"raw {wording.raw_range_text(point) or f'{point.least}..{point.greatest}'}"
+    span = (_range_now(point, settings) if point.limit_arguments else "") or span
+    nearest = _nearest(point, value, raw, settings)
+    return _refused(point, "out_of_range", f"{asked} is outside {line(span)}", nearest)
+
+
+def _range_now(point: Point, settings: Settings) -> str:
+    """The range with the limits of other points put in, where all of them are known."""
+    try:
+        spans = [one for one in codec.windows(point, settings) if not one.missing]
+        parts = [_span(point, one.low, one.high, settings) for one in spans if one.low <= one.high]
+    except CodecError:
+        return ""
+    if len(spans) < len(point.allowed.intervals):
+        return ""
+    return f"what is allowed here, {' or '.join(parts)}" if parts else "what is allowed: here that is nothing"
+
+
+def _span(point: Point, low: int, high: int, settings: Settings) -> str:
+    ends = sorted(codec.decode(point, raw, settings) for raw in (low, high))
+    if low == high:
+        return amount_with_unit(point, ends[0])
+    return wording.with_unit(f"{amount(ends[0])}..{amount(ends[1])}", point)
+
+
+def _nearest(point: Point, value: Fraction | None, raw: int, settings: Settings) -> str:
+    try:
+        if point.info.floating:
+            return _nearest_float(point, value)
+        wanted = raw if value is None else codec.encode(point, value, settings)
+        nearest = codec.nearest_allowed(point, wanted, settings)
+        if nearest is None:
+            return ""
+        said = _span(point, nearest, nearest, settings) if value is not None else f"raw {nearest}"
+    except CodecError:
+        return ""
+    return f"the nearest allowed value is {said}"
+
+
+def _nearest_float(point: Point, value: Fraction | None) -> str:
+    if value is None or not point.allowed.units:
+        return ""
+    ends = [min(max(value, low), high) for low, high in point.allowed.units]
+    return f"the nearest allowed value is {amount_with_unit(point, min(ends, key=lambda end: abs(end - value)))}"

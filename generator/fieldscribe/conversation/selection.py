@@ -1,0 +1,138 @@
+"""What a person chose of a device: variants and one point. Raises UnclearError with a hint."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.conversation.lookup import find, near
+from fieldscribe.existence import absent
+from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from fieldscribe.model import Device, Point
+
+
+class UnclearError(Exception):
+    """Something that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
+    """The device with only the points of the chosen variants, each given as `axis=value`, and only their values.
+
+    Points that a condition excludes then stay: what is asked of them is refused with that condition, see `absence`.
+    """
+    wanted: dict[str, str] = {}
+    for axis, value in (_variant(device, one) for one in chosen):
+        if wanted.setdefault(axis, value) != value:
+            raise UnclearError(
+                f"`{axis}` is said to be `{wanted[axis]}` and `{value}`", "choose one value of each axis"
+            )
+    if not wanted:
+        return device
+    points = tuple(point for point in device.points if _stays(point, wanted))
+    left = {axis: (wanted[axis],) if axis in wanted else values for axis, values in device.variants.items()}
+    return replace(device, points=points, variants=left)
+
+
+def absence(device: Device, point: Point) -> str:
+    """Why the chosen variants do not have a point, in words; empty where they do, or may."""
+    if not absent(point.when, device.variants):
+        return ""
+    return line(f"it exists only when {wording.condition_text(point.when, points_by_name(device))}")
+
+
+def present(device: Device, points: Iterable[Point]) -> list[Point]:
+    """Those of the points that the chosen variants have or may have; all of them where that is none."""
+    found = list(points)
+    return [point for point in found if not absent(point.when, device.variants)] or found
+
+
+def choose_point(device: Device, asked: str, *, index: int | None = None, alike: bool = False) -> Point:
+    """The one point that a code, name or address means; with `alike` also one of variants that mean the same.
+
+    `index` chooses one element of an array.
+    """
+    matches = find(device, asked if index is None else f"{asked}[{index}]")
+    if index is not None and not matches:
+        elements = [str(match.point.index) for match in find(device, asked) if match.point.index is not None]
+        hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
+        raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
+    points = present(device, {match.point.item: match.point for match in matches}.values())
+    if len(points) == 1 or (alike and points and all(same_meaning(one, points[0]) for one in points)):
+        return points[0]
+    if not points:
+        raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
+    if len({point.name for point in points}) == 1:
+        variants = [point.variant for point in points if point.variant]
+        raise UnclearError(
+            f"`{quoted(asked)}` differs between variants", "give " + " or ".join(f"--variant {one}" for one in variants)
+        )
+    if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
+        choices = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
+        raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {choices}")
+    readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
+    raise UnclearError(
+        f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
+    )
+
+
+def did_you_mean(names: list[str]) -> str:
+    """A hint that offers near names; empty when there are none."""
+    return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
+
+
+def label(point: Point) -> str:
+    """How a point is called in answers: code and name."""
+    return f"{line(point.code)} {point.item}" if point.code else point.item
+
+
+def quoted(text: str) -> str:
+    """What a person typed, as messages repeat it: clean and short."""
+    cleaned = line(text[:200])
+    return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."
+
+
+def points_by_name(device: Device) -> Mapping[str, Point]:
+    """The points as rules and limits refer to them."""
+    return {point.name: point for point in device.points}
+
+
+def same_meaning(one: Point, other: Point) -> bool:
+    """Whether points of one name differ in their place or limits only."""
+    facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (one, other)]
+    return facts[0] == facts[1]
+
+
+def _variant(device: Device, text: str) -> tuple[str, str]:
+    axis, equals, value = text.partition("=")
+    if not equals:
+        raise UnclearError(f"`{quoted(text)}` is no variant", "write --variant axis=value" + _axes(device))
+    if axis not in device.variants:
+        raise UnclearError(f"{device.id} has no variant axis `{quoted(axis)}`", _axes(device).removeprefix("; "))
+    values = device.variants[axis]
+    if value not in values:
+        near_values = get_close_matches(value, values, 1, 0.4) or list(values)
+        raise UnclearError(f"`{axis}` has no value `{quoted(value)}`", did_you_mean(near_values))
+    return axis, value
+
+
+def _axes(device: Device) -> str:
+    known = [f"{axis}={'|'.join(values)}" for axis, values in device.variants.items()]
+    return f"; {device.id} has {', '.join(map(line, known))}" if known else f"; {device.id} has no variants"
+
+
+def _stays(point: Point, wanted: Mapping[str, str]) -> bool:
+    if point.variant is None:
+        return True
+    axis, _, value = point.variant.partition("=")
+    return wanted.get(axis, value) == value

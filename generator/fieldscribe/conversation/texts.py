@@ -1,0 +1,44 @@
+"""Texts in words: two characters a word, the first in the high byte of the first word, padded with spaces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.selection import label
+from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
+
+_SENT = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF))}
+"""The characters that may be written, by encoding."""
+
+
+def text_of(pattern: int, words: int) -> str:
+    """The characters of a text as an instrument shows them, without the padding; every byte is one."""
+    return pattern.to_bytes(2 * words, "big").rstrip(b" ").decode("latin-1")
+
+
+def shown(text: str) -> str:
+    """A text from the line between quotes; what is no letter is escaped, and blanks that would run together."""
+    pairs = zip(f'"{text}', text, strict=False)
+    plain = [one.isprintable() and one not in '"\\' and before + one != "  " for before, one in pairs]
+    return '"' + "".join(one if fine else f"\\x{ord(one):02X}" for one, fine in zip(text, plain, strict=True)) + '"'
+
+
+def pattern_of_text(point: Point, typed: str) -> int:
+    """The words of a typed text as one number, the first characters highest. Raises RefusedError."""
+    layout = point.text
+    if layout is None:
+        raise RefusedError("out_of_range", f"{label(point)} is no text")
+    spans = _SENT.get(layout.encoding, _SENT["ascii"])
+    strange = next((one for one in typed if not any(low <= ord(one) <= high for low, high in spans)), None)
+    if strange is not None:
+        said = line(strange) or f"U+{ord(strange):04X}"
+        message = f"{label(point)} cannot hold `{said}`: its characters are {layout.encoding}"
+        raise RefusedError("out_of_range", message)
+    if len(typed) > layout.characters:
+        message = f"{label(point)} has {layout.characters} characters, here are {len(typed)}"
+        raise RefusedError("out_of_range", message)
+    return int.from_bytes(typed.ljust(layout.characters).encode("latin-1"), "big")

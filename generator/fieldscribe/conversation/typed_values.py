@@ -1,0 +1,238 @@
+"""What a person types as a value: a number with or without its unit, a name, on or off, flags."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.conversation.refusals import refusal
+from fieldscribe.conversation.selection import UnclearError, choose_point, did_you_mean, label, quoted
+from fieldscribe.conversation.texts import pattern_of_text
+from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.units import factor_between
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Flag, Point
+
+_MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")
+_HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
+_SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """What was typed: a quantity to be encoded, or (`value` is None) directly a raw number."""
+
+    value: Fraction | None
+    raw: int
+
+
+def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
+    """What the text means for the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
+    if as_raw and point.text is None:
+        return Typed(None, _whole(text))
+    if point.text is not None:
+        return Typed(None, pattern_of_text(point, text))
+    text = text.strip()
+    raw = _flags(point, text) if point.flags else _digits(point, text) if point.digits else None
+    raw = _named(point, text) if raw is None else raw
+    if raw is not None:
+        return Typed(None, raw)
+    try:
+        number = _number(point, text)
+    except NumberError as error:
+        names = [name for name, _ in _names(point)]
+        if names and not text[:1].isdigit():
+            raise _unknown_name(point, text, names) from error
+        raise UnclearError(error.message, error.hint) from error
+    if point.form not in ("enum", "flags", "bit", "digits"):
+        return Typed(number, 0)
+    if number.denominator != 1:
+        raise UnclearError(f"`{quoted(text)}` is not a whole number", f"{label(point)} takes names or raw numbers")
+    return Typed(None, int(number))
+
+
+def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings) -> int:
+    """The raw number to write. Raises RefusedError, which says why not in words."""
+    if point.text is not None:
+        return typed.raw
+    coded = typed.value is None and point.special(typed.raw) is not None
+    raw = typed.raw if coded else with_fixed(point, typed.raw)
+    try:
+        if typed.value is not None:
+            return codec.encode_checked(point, typed.value, settings)
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        raise refusal(device, point, typed.value, raw, (error, settings)) from error
+    return raw
+
+
+def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
+    """What rules take of points, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    settings: dict[str, int | Fraction] = {}
+    for pair in pairs:
+        name, equals, text = pair.partition("=")
+        if not equals or not text.strip():
+            raise UnclearError(f"`{quoted(pair)}` gives no value", "write --with POINT=VALUE")
+        name = name.strip()
+        point = choose_point(device, name.removesuffix(".raw"), alike=True)
+        raw = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
+        settings[point.name] = codec.setting_of(point, raw)
+    return settings
+
+
+def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
+    """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
+    if point.text is not None:
+        raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
+    typed = read_value(point, text, as_raw=as_raw)
+    try:
+        raw = typed.raw if typed.value is None else codec.quantity(point, codec.encode(point, typed.value, settings))
+        if not point.least <= raw <= point.greatest:
+            raise CodecError("out_of_range")
+    except CodecError as error:
+        raise refusal(device, point, typed.value, typed.raw, (error, settings)) from error
+    return raw
+
+
+def _whole(text: str) -> int:
+    try:
+        number = parse_number(text)
+    except NumberError as error:
+        raise UnclearError(error.message, error.hint) from error
+    if number.denominator != 1:
+        raise UnclearError(f"`{quoted(text)}` is not a whole number", "a raw number has no decimals")
+    return int(number)
+
+
+def _number(point: Point, text: str) -> Fraction:
+    """A number with or without the point's unit. Raises NumberError, UnclearError."""
+    if point.unit.symbol == "h" and _HOURS.fullmatch(text):
+        raise UnclearError(f"`{text}` could be hours or hexadecimal", f"write `{text[:-1]} h`, or 0x{text[:-1]}")
+    try:
+        return parse_number(text)
+    except NumberError:
+        found = _MEASURE.fullmatch(text)
+        if found is None:
+            raise
+    number = parse_number(found[1])
+    factor = _factor(point, found[2].strip())
+    if factor is None:
+        has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
+        raise UnclearError(
+            f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone"
+        )
+    return number * factor
+
+
+def _factor(point: Point, typed: str) -> Fraction | None:
+    """How many of the point's unit one of what was typed is. Case may differ, but not of a prefix: mW is not MW."""
+    symbol = point.unit.symbol
+    if not symbol:
+        return None
+    known = factor_between(typed, point.unit)
+    return Fraction(1) if known is None and _is_unit(point, typed) else known
+
+
+def _is_unit(point: Point, typed: str) -> bool:
+    """Whether the text spells the point's unit in another way."""
+    symbol = point.unit.symbol
+    if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
+        return True
+    typed, symbol = (
+        text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, symbol)
+    )
+    if typed == symbol:
+        return True
+    return typed.casefold() == symbol.casefold() and (typed[:1] == symbol[:1] or symbol[:1] not in "mMpP")
+
+
+def _names(point: Point) -> Iterator[tuple[str, int]]:
+    """Everything that names a raw number of the point, the plain names first."""
+    entries = point.enum.entries if point.enum else ()
+    yield from ((special.name, special.low) for special in point.specials if special.low == special.high)
+    yield from ((entry.name, entry.raw) for entry in entries)
+    for entry in entries:
+        yield from ((title, entry.raw) for title in entry.title.values())
+    yield from ((entry.quantity, entry.raw) for entry in entries if entry.quantity)
+
+
+def _named(point: Point, text: str) -> int | None:
+    wanted = " ".join(text.casefold().split())
+    for name, raw in _names(point):
+        if " ".join(name.casefold().split()) == wanted:
+            return raw
+    band = next((one for one in point.specials if one.name == wanted), None)
+    if band is not None:
+        numbers = wording.special_numbers(band, point.width)
+        raise UnclearError(f"`{band.name}` is all of {numbers}", f"say which one: {point.name}.raw, and the raw number")
+    return _SWITCH.get(wanted) if point.width == 1 else None
+
+
+def _digits(point: Point, text: str) -> int | None:
+    """Names or numbers of all digits, the highest first, with commas between; None for the number of the whole word."""
+    parts = [part.strip() for part in text.split(",")]
+    if point.digits is None or (len(parts) == 1 and point.digits.count > 1):
+        return None
+    if len(parts) != point.digits.count:
+        raise UnclearError(f"{label(point)} has {point.digits.count} digits, here are {len(parts)}", "")
+    raw = 0
+    for part in parts:
+        named = (one.raw for one in point.digits.enum.entries if part.casefold() in (one.name, one.quantity))
+        digit = next(named, None)
+        digit = _whole(part) if digit is None else digit
+        if not 0 <= digit <= 9:
+            raise UnclearError(f"`{quoted(part)}` is no digit", "each is one of 0 to 9, or a name from the list")
+        raw = 10 * raw + digit
+    return raw
+
+
+def _unknown_name(point: Point, text: str, names: list[str]) -> UnclearError:
+    close = get_close_matches(text.casefold(), names, 3)
+    known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
+    hint = did_you_mean(close) or f"it has {', '.join(list(known)[:30])}"
+    return UnclearError(f"{label(point)} has no name `{quoted(text)}`", hint)
+
+
+def _flags(point: Point, text: str) -> int | None:
+    """Names joined by `|`, or `none`: these flags are true, all others are not; None for a number."""
+    wanted = [part.strip().casefold() for part in text.split("|")]
+    if len(wanted) == 1 and wanted[0][:1].isdigit():
+        return None
+    raw = sum(1 << flag.low for flag in point.flags if flag.width == 1 and flag.active == 0)
+    if len(wanted) == 1 and any(special.name == wanted[0] for special in point.specials):
+        return None
+    for part in wanted:
+        if part in ("none", ""):
+            continue
+        flag, number = _flag(point, part)
+        mask = ((1 << flag.width) - 1) << flag.low
+        raw = raw & ~mask | number << flag.low
+    return raw
+
+
+def _flag(point: Point, part: str) -> tuple[Flag, int]:
+    name, equals, value = (one.strip() for one in part.partition("="))
+    flag = next((one for one in point.flags if one.name == name), None)
+    if flag is None:
+        names = [one.name for one in point.flags]
+        hint = did_you_mean(get_close_matches(name, names, 3)) or f"it has {', '.join(names)}"
+        raise UnclearError(f"{label(point)} has no flag `{quoted(name)}`", hint)
+    if not equals:
+        if flag.width > 1:
+            raise UnclearError(f"`{flag.name}` has {flag.width} bits", f"write {flag.name}=NUMBER or {flag.name}=NAME")
+        return flag, flag.active
+    number = next((entry.raw for entry in flag.values if entry.name == value), None)
+    number = _whole(value) if number is None else number
+    if not 0 <= number < 1 << flag.width:
+        raise UnclearError(f"`{flag.name}` has {flag.width} bits, {number} does not fit", "")
+    return flag, number

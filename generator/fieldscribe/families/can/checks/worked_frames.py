@@ -1,0 +1,133 @@
+"""The worked examples of a CAN device."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, hex_of, no_frame
+from fieldscribe.checks.subject import Printed, Subject
+from fieldscribe.families.can.facts import identifier_of
+from fieldscribe.families.can.frames import LENGTH, CanFrame, Parsed, checksum, parse
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.frames_agree import Carries
+    from fieldscribe.model import Frame, Message, Point
+    from fieldscribe.resolve.frames import OpenFrame
+
+
+@dataclass(frozen=True, slots=True)
+class _Heard:
+    """A frame as a message to or from a unit."""
+
+    message: Message
+    unit: int
+    parsed: Parsed
+
+
+def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """What the frame is; its request is the message that it was read as."""
+    frame = one.frame
+    if len(frame.printed) != LENGTH:
+        return no_frame(subject, one, f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed")
+    asked: _Heard | None = None
+    if frame.direction == "response":
+        answers_nothing(subject, one)
+        before = seen.get(frame.answers or "")
+        asked = before.request if before is not None else None
+    if identifier_of(frame) is None or (frame.direction == "response" and asked is None):
+        return Seen(replace(frame, valid=False))
+    tried = _tried(subject, frame, asked)
+    frame, heard = _summed(subject, one, tried)
+    fault = _fault(subject, frame, tried, heard, asked)
+    if fault is not None or heard is None:
+        return no_frame(subject, one, fault or "")
+    return Seen(frame, heard, _carries(subject, heard, frame))
+
+
+def _fault(
+    subject: Subject, frame: Frame, tried: list[_Heard], heard: _Heard | None, asked: _Heard | None
+) -> str | None:
+    """Why the frame is no message of the device, or does not answer what was asked."""
+    what = f"does not answer `{frame.answers}`" if asked is not None else "is no message of this device"
+    if heard is None:
+        faults = {found.parsed.status.replace("_", " ") for found in tried} or {"wrong id"}
+        return f"this {what}: {', '.join(sorted(faults))}"
+    low, high = subject.bus.units
+    if not low <= heard.unit <= high:
+        return f"there is no unit {heard.unit}"
+    if asked is not None and (heard.unit, heard.parsed.address) != (asked.unit, asked.parsed.address):
+        return f"this {what}: another unit or another parameter"
+    return None
+
+
+def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]:
+    """The frame as each of the messages that it could be."""
+    result = []
+    number = identifier_of(frame)
+    for message in subject.messages:
+        fits = message.direction == frame.direction and (asked is None or message.answers == asked.message.name)
+        if fits and number is not None:
+            unit = _unit(message, number, frame.printed, subject.bus.units[0])
+            result.append(_Heard(message, unit, parse(message, unit, CanFrame(number, frame.printed))))
+    return result
+
+
+def _unit(message: Message, number: int, data: bytes, otherwise: int) -> int:
+    """The unit that a message is to or from, if it says so."""
+    if message.adds_unit:
+        return number - message.identifier
+    found = otherwise
+    for role, byte in zip(message.roles, data, strict=True):
+        if role.kind == "unit" and role.number == 0:
+            found = byte
+    return found
+
+
+def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
+    """The frame with its checksum put right, and what it then is; None if it is none of these messages."""
+    frame, number = one.frame, identifier_of(one.frame)
+    for heard in tried:
+        if heard.parsed.status == "ok":
+            return frame, heard
+    for heard in tried:
+        if heard.parsed.status != "wrong_check" or number is None:
+            continue
+        data = bytearray(frame.printed)
+        sums = [byte for byte, role in enumerate(heard.message.roles) if role.kind == "xor"]
+        for byte in sums:
+            data[byte] = checksum(data, heard.message.roles[byte].number)
+        printed, taken = (hex_of(bytes(one[byte] for byte in sums)) for one in (frame.printed, data))
+        message = f"the checksum {printed} is printed, the bytes give {taken}"
+        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, one.raw.span("bytes"), message))
+        right = bytes(data)
+        parsed = parse(heard.message, heard.unit, CanFrame(number, right))
+        return replace(frame, corrected=right, valid=False), replace(heard, parsed=parsed)
+    return frame, None
+
+
+def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
+    """What a frame brings: the word of one parameter, or some words of a telegram."""
+    roles = heard.message.roles
+    has_raw = any(role.kind == "raw" for role in roles)
+    words: dict[int, int] = {}
+    first = sum(
+        data * heard.message.words
+        for role, data in zip(roles, frame.corrected, strict=True)
+        if role.kind == "multiplexer"
+    )
+    for role, byte in zip(roles, frame.corrected, strict=True):
+        if role.kind == "word":
+            place = first + role.number // 2
+            words[place] = words.get(place, 0) | byte << (0 if role.number % 2 else 8)
+    telegrams = {
+        name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == heard.message.name
+    }
+
+    def carries(point: Point) -> int | None:
+        if point.telegram is not None:
+            return from_words(point, tuple(map(words.get, point.addresses))) if point.telegram in telegrams else None
+        known = has_raw and point.addresses == (heard.parsed.address,)
+        return from_words(point, (heard.parsed.raw,)) if known else None
+
+    return carries

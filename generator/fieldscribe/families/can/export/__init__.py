@@ -1,0 +1,24 @@
+"""What the family adds to exports: its facts in the limits, and a form of its own, the CAN database."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.facts import CanBus, of_bus
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus, Device
+
+
+def limits(bus: Bus | None) -> dict[str, object]:
+    """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
+    own = CanBus() if bus is None else of_bus(bus)
+    return {"bitrate": own.bitrate, "identifier_bits": own.identifier_bits}
+
+
+def export(form: str, device: Device, unit: int | None) -> bytes:
+    """The device in a form that only this family has. Raises ExportError."""
+    del form  # there is one
+    from fieldscribe.families.can.export.dbc import export_dbc
+
+    return export_dbc(device, unit).encode("latin-1")

@@ -1,0 +1,222 @@
+"""Messages: which byte of a frame carries what, and under which identifier."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.facts import identifier_bits
+from fieldscribe.families.can.frames import LENGTH
+from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.numbers import NumberError, parse_integer, shown
+from fieldscribe.model import Bus, Message, Role
+from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.values import bits_named, formula_finding
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+
+_HOW = "write a number, unit, address, raw, multiplexer, words, or xor 0..5"
+_WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "words": LENGTH}
+_UNITS = 256
+_BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
+
+
+def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
+    """All messages in the order of the text; one that cannot be laid out is a finding and left out."""
+    result: dict[str, Message] = {}
+    seen: dict[str, Span] = {}
+    for raw in scope.listed("messages"):
+        name = str(raw["name"])
+        if name in seen:
+            first = [(seen[name], "first given here")]
+            message = f"two messages have the name `{name}`"
+            scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
+            continue
+        seen[name] = raw.span("name")
+        found = _message(scope, bus, raw)
+        if found is not None:
+            result[name] = found
+    _answers(scope, result)
+    return tuple(result.values())
+
+
+def _message(scope: Scope, bus: Bus, raw: Map) -> Message | None:
+    identifier = _identifier(scope, bus, raw)
+    roles = _roles(scope, raw)
+    if identifier is None or roles is None:
+        return None
+    return Message(
+        name=str(raw["name"]),
+        title=titles(raw.get("title"), humanised(raw["name"])),
+        direction=raw["direction"],
+        answers=raw.get("answers"),
+        identifier=identifier[0],
+        adds_unit=identifier[1],
+        roles=roles,
+        source=source_of(scope, raw),
+    )
+
+
+def _identifier(scope: Scope, bus: Bus, raw: Map) -> tuple[int, bool] | None:
+    """The identifier, and whether the unit is added to it; None after a finding."""
+    span, text = raw.span("can_id"), str(raw["can_id"])
+    try:
+        expression = parse_expression(text)
+        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in range(_UNITS)]
+    except FormulaError as error:
+        if "is not known" in error.message:
+            error.hint = "an identifier is a number, or a number + unit"
+        formula_finding(error, span, scope.report)
+        return None
+    slope = at[1] - at[0]
+    if at[0].denominator != 1 or slope not in (0, 1) or at != [at[0] + unit * slope for unit in range(_UNITS)]:
+        hint = "write it as `33Fh`, or `320h + unit`"
+        scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
+        return None
+    first, adds = at[0].numerator, bool(slope)
+    bits = identifier_bits(bus)
+    ends = [first + unit * adds for unit in bus.units]
+    if not 0 <= min(ends) <= max(ends) < 1 << bits:
+        outside = min(ends) if min(ends) < 0 else max(ends)
+        message = f"the identifier {outside:X}h lies outside {bits} bits"
+        hint = (
+            f"identifiers of {bits} bits are 0..{(1 << bits) - 1:X}h; `identifier_bits` and `units` stand under `bus`"
+        )
+        scope.report.error("address-outside-space", message, span, hint)
+        return None
+    return first, adds
+
+
+def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
+    """The role of each byte; None after a finding."""
+    layout: Map = raw["layout"]
+    found: dict[int, Role] = {}
+    fine = "layout" not in raw.broken and not layout.broken
+    for key, value in layout.items():
+        first, last = bits_named(key)
+        if last < first:
+            message = f"bytes `{key}` run downwards"
+            scope.report.error("range-reversed", message, layout.key_span(key), f"write {last}..{first}")
+            fine = False
+            continue
+        if last >= LENGTH:
+            message = f"byte {last} lies outside the {LENGTH} bytes of a message"
+            scope.report.error("bit-outside-word", message, layout.key_span(key), f"bytes are 0..{LENGTH - 1}")
+            fine = False
+            continue
+        roles = _Part(scope, str(value).strip(), layout.span(key), last - first + 1).roles()
+        fine = fine and roles is not None
+        for byte, role in zip(range(first, last + 1), roles or (), strict=False):
+            if byte in found:
+                message = f"byte {byte} is laid out twice"
+                scope.report.error("bits-overlap", message, layout.key_span(key), "each byte has one meaning")
+                fine = False
+            found[byte] = role
+    missing = [byte for byte in range(LENGTH) if byte not in found]
+    if missing and fine:
+        message = f"byte {missing[0]} of `{raw['name']}` means nothing"
+        hint = f"say what each of the bytes 0..{LENGTH - 1} holds; unused ones are a constant"
+        scope.report.error("missing-key", message, raw.span("layout"), hint)
+    if missing or not fine:
+        return None
+    return tuple(found[byte] for byte in range(LENGTH)) if _sums_fit(scope, raw, found) else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """Some bytes of a layout: what stands there, and how many bytes it takes."""
+
+    scope: Scope
+    text: str
+    span: Span
+    count: int
+
+    def roles(self) -> list[Role] | None:
+        """The role of each byte; None after a finding."""
+        if self.text.startswith("xor "):
+            return self._xor(self.text[4:])
+        return self._carried() if self.text in _WIDEST else self._constant()
+
+    def _carried(self) -> list[Role] | None:
+        text, count = self.text, self.count
+        if count > _WIDEST[text] or (text == "words" and count % 2):
+            hint = "each word takes two bytes" if text == "words" else f"it takes at most {_WIDEST[text]}"
+            self._refuse(f"`{text}` cannot take {count} bytes", hint)
+            return None
+        if text == "words":
+            return [Role("word", number) for number in range(count)]
+        if text == "multiplexer":
+            return [Role("multiplexer", 0)]
+        return [Role(text, 8 * below) for below in reversed(range(count))]
+
+    def _constant(self) -> list[Role] | None:
+        try:
+            number = parse_integer(self.text)
+        except NumberError:
+            self._refuse(f"`{shown(self.text)}` is nothing that a byte can hold", _HOW)
+            return None
+        if not 0 <= number < 1 << 8 * self.count:
+            bytes_ = f"{self.count} byte{'s' * (self.count > 1)}"
+            self._refuse(f"{self.text} does not fit into {bytes_}", f"0..{(1 << 8 * self.count) - 1:X}h does")
+            return None
+        return [Role("constant", byte) for byte in number.to_bytes(self.count, "big")]
+
+    def _xor(self, text: str) -> list[Role] | None:
+        """A checksum: the exclusive or of pieces of as many bytes."""
+        found = _BYTES.fullmatch(text.strip())
+        if found is None:
+            self._refuse(f"`xor {shown(text)}` names no bytes", _HOW)
+            return None
+        low, high = int(found[1]), int(found[2] or found[1])
+        if low > high or (high - low + 1) % self.count:
+            message = f"`xor {text}` cannot be made of pieces of {self.count} byte{'s' * (self.count > 1)}"
+            self._refuse(message, "name the lower byte first, and as many bytes as whole pieces have")
+            return None
+        pieces = [range(low + place, high + 1, self.count) for place in range(self.count)]
+        return [Role("xor", sum(1 << byte for byte in piece)) for piece in pieces]
+
+    def _refuse(self, message: str, hint: str) -> None:
+        self.scope.report.error("wrong-choice", message, self.span, hint)
+
+
+def _sums_fit(scope: Scope, raw: Map, found: dict[int, Role]) -> bool:
+    """Whether no checksum is made of a checksum, and each role stands there at most once."""
+    sums = sum(1 << byte for byte, role in found.items() if role.kind == "xor")
+    if any(role.kind == "xor" and role.number & sums for role in found.values()):
+        message = "a checksum cannot be made of a checksum"
+        scope.report.error("wrong-choice", message, raw.span("layout"), "name the bytes before it")
+        return False
+    carried = [role for role in found.values() if role.kind not in ("constant", "xor")]
+    twice = next((role.kind for role in carried if carried.count(role) > 1), None)
+    if twice is not None:
+        message = f"`{'words' if twice == 'word' else twice}` stands in two places"
+        scope.report.error("duplicate-name", message, raw.span("layout"), "write its bytes as one interval")
+        return False
+    return True
+
+
+def _answers(scope: Scope, found: dict[str, Message]) -> None:
+    """A response names a request that there is, and only responses answer."""
+    for raw in scope.listed("messages"):
+        name, answers = str(raw["name"]), raw.get("answers")
+        if name not in found:
+            continue
+        if answers is None:
+            if raw["direction"] == "response" and "answers" not in raw.broken:
+                message = f"the response `{name}` answers nothing"
+                scope.report.error("missing-key", message, raw.span("name"), "name the request under `answers`")
+            continue
+        if raw["direction"] != "response":
+            message = f"`{name}` answers, but is no response"
+            scope.report.error("wrong-choice", message, raw.span("direction"), "write `direction: response`")
+        asked = found.get(answers)
+        if asked is None:
+            scope.unknown("message", answers, raw.span("answers"), list(found))
+        elif asked.direction != "request":
+            message = f"`{answers}` is no request"
+            scope.report.error("wrong-choice", message, raw.span("answers"), "a response answers a request")

@@ -1,0 +1,1 @@
+"""What each target knows of the family: one module for each."""

@@ -1,0 +1,29 @@
+"""What the documentation says of the family's line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.facts import of_bus
+from fieldscribe.targets.docs.bus import span
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Code
+
+
+def facts(bus: Bus) -> Iterator[tuple[str, str]]:
+    """What people must know of the line, with what it is called."""
+    own = of_bus(bus)
+    if own.bitrate is not None:
+        yield "Bit rate", f"{own.bitrate} bit/s"
+    if own.identifier_bits is not None:
+        yield "Identifier", f"{own.identifier_bits} bits"
+    yield "Unit numbers", span(bus.units)
+
+
+def goes_to_all(function: Code) -> bool:
+    """Whether a function goes to all units at once where the description does not say it."""
+    del function  # there are no functions
+    return False

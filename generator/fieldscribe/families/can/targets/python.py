@@ -1,0 +1,62 @@
+"""CAN in generated Python: the profile with its messages and telegrams."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.facts import identifier_bits
+from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.text import python_string
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Message, Role
+    from fieldscribe.targets.python.scope import Scope
+
+
+def _profile(device: Device, scope: Scope) -> Node:
+    """What the device says and hears."""
+    scope.used.add("Profile")
+    bus = device.bus
+    arguments: list[Node] = [
+        f"units=({bus.units[0]}, {bus.units[1]})",
+        f"identifier_bits={identifier_bits(bus)}",
+        Group("messages=(", tuple([_message(one, scope) for one in device.messages])),
+    ]
+    if device.telegrams:
+        arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
+    return call("Profile", arguments)
+
+
+def _message(message: Message, scope: Scope) -> Node:
+    scope.used.update(("Message", "Role"))
+    arguments: list[Node] = [
+        python_string(message.name),
+        python_string(message.direction),
+        f"0x{message.identifier:X}",
+        Group("roles=(", tuple([_role(role) for role in message.roles])),
+    ]
+    if message.adds_unit:
+        arguments.append("adds_unit=True")
+    if message.answers is not None:
+        arguments.append(f"answers={python_string(message.answers)}")
+    return call("Message", arguments)
+
+
+def _role(role: Role) -> Node:
+    if role.kind in ("unit", "multiplexer") and role.number == 0:
+        return call("Role", (python_string(role.kind),))
+    number = f"0x{role.number:02X}" if role.kind in ("constant", "xor") else str(role.number)
+    return call("Role", (python_string(role.kind), number))
+
+
+IN_PYTHON = Family(
+    module=f"{RUNTIME}.can",
+    exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
+    blocking=Flavour("CanDevice", "CanTransport"),
+    awaiting=Flavour("AsyncCanDevice", "AsyncCanTransport"),
+    settings=(),
+    profile=_profile,
+    blocks=no_blocks,
+    maker=usual_maker,
+)

@@ -1,0 +1,166 @@
+"""What a crate of a CAN device says of its bus: messages, telegrams, which points are in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.rust.conformance import row_of
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families import OfFamily
+from fieldscribe.targets.rust.families.numbers import code_names, constants
+from fieldscribe.targets.rust.layout import array, assignment, binding
+from fieldscribe.targets.rust.literals import integer, mask, type_name
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from fieldscribe.model import Device, Message, Role, Telegram
+    from fieldscribe.targets.rust.families import Table
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
+_PLAIN = {"multiplexer": "Multiplexer"}
+
+
+@dataclass(frozen=True, slots=True)
+class MessageView:
+    """A message as a constant."""
+
+    doc: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TelegramView:
+    """A telegram: final name, the lines that say its name, its sizes, the constant of its message."""
+
+    doc: str
+    name: str
+    lines: tuple[str, ...]
+    words: int
+    slots: int
+    message: str
+
+
+def context(device: Device) -> dict[str, object]:
+    """What the template of the family's items sees."""
+    bus = device.bus
+    carriers = {message.name: message for message in device.messages}
+    return {
+        "example_link": str(bus.units[0]),
+        "exception_type": "u16",
+        "exception_names": code_names(bus.exceptions),
+        "units": f"({bus.units[0]}, {bus.units[1]})",
+        "identifier_bits": identifier_bits(bus),
+        "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
+        "dialogues": tuple(_dialogues(device.messages)),
+        "messages": tuple(map(_message, device.messages)),
+        "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
+        "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
+        "telegrams": tuple(
+            _telegram(one, carriers[one.message])
+            for one in device.telegrams
+            if one.message in carriers and carriers[one.message].words
+        ),
+    }
+
+
+def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+    """A parameter is read and written word by word; a point of a telegram is received in frames."""
+    if subject.point.telegram is None:
+        yield "impl runtime::can::Parameter {}"
+    telegram = _received(subject, scope)
+    if telegram is not None:
+        yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(telegram)}; }}"
+
+
+def _received(subject: Subject, scope: Scope) -> str | None:
+    """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
+    point = subject.point
+    _, message = scope.telegrams.get(point.telegram or "", (None, None))
+    if not point.readable or message is None or not message.words:
+        return None
+    frames = {position // message.words for position in point.addresses}
+    return point.telegram if len(frames) == 1 or len(point.addresses) == 2 else None
+
+
+def identifiers(device: Device) -> Iterator[Identifier]:
+    """The names of messages and telegrams."""
+    for message in device.messages:
+        yield Identifier("Rust, messages", message.name.upper(), Owner("message", message.name))
+    for telegram in device.telegrams:
+        yield Identifier("Rust, telegrams", type_name(telegram.name), Owner("telegram", telegram.name))
+
+
+def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
+    """The constants of the messages that read and write a parameter: names and answers, empty if there are none."""
+    requests = [one for one in messages if one.direction == "request" and _carries(one, "address")]
+    for name, writes in (("READ", False), ("WRITE", True)):
+        request = next((one for one in requests if _carries(one, "raw") is writes), None)
+        answer = next((one for one in messages if request is not None and one.answers == request.name), None)
+        if request is None or (answer is None and not writes):
+            yield name, "", ""
+        else:
+            yield name, request.name.upper(), "None" if answer is None else f"Some(&messages::{answer.name.upper()})"
+
+
+def _carries(message: Message, kind: str) -> bool:
+    return any(role.kind == kind for role in message.roles)
+
+
+def _message(message: Message) -> MessageView:
+    width = "u16" if message.identifier <= 0xFFFF else "u32"
+    roles = (f"        Role::{_role(role)}," for role in message.roles)
+    adds_unit = "true" if message.adds_unit else "false"
+    head = (f"    {one}," for one in (rust_string(message.name), mask(message.identifier, width), adds_unit))
+    literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
+    return MessageView(sentence(message.name), assignment(4, f"pub const {message.name.upper()}: Message", literal))
+
+
+def _role(role: Role) -> str:
+    if role.kind in _PLAIN:
+        return _PLAIN[role.kind]
+    if role.kind in _NUMBERED:
+        return f"{_NUMBERED[role.kind]}({role.number})"
+    if role.kind == "xor":
+        return f"Xor(0b{role.number >> 4:04b}_{role.number & 15:04b})"
+    return f"Constant(0x{role.number:02X})"
+
+
+def _telegram(telegram: Telegram, message: Message) -> TelegramView:
+    slots = -(-telegram.words // message.words)
+    name = binding(8, "const NAME: &'static str", rust_string(telegram.name))
+    return TelegramView(
+        sentence(telegram.name), type_name(telegram.name), name, telegram.words, slots, message.name.upper()
+    )
+
+
+def tables_of_points(scope: Scope) -> Iterator[Table]:
+    """The points that come in frames of a telegram."""
+    heard = [one for one in scope.subjects if one.form != "text" and _received(one, scope) is not None]
+    if heard:
+        yield "can_telegram", "can_telegram", tuple(row_of(one, "frames") for one in heard)
+
+
+def tables_of_frames(device: Device) -> Iterator[Table]:
+    """The telegrams that come in frames."""
+    carriers = {one.name for one in device.messages if one.words}
+    heard = [one for one in device.telegrams if one.message in carriers]
+    if heard:
+        names = tuple(f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard)
+        yield "can_taken", "can_taken", names
+        yield "can_carrier", "can_carrier", names
+
+
+IN_RUST = OfFamily(
+    context,
+    traits,
+    identifiers,
+    tables_of_points=tables_of_points,
+    tables_of_frames=tables_of_frames,
+    refusals="constant",
+)

@@ -1,0 +1,94 @@
+"""Functions carry what is asked of them: the printed amount of data, the points of each space, all words of a point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.subject import Printed
+from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
+
+_COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
+
+
+def check(subject: Subject) -> None:
+    """Functions whose printed bytes do not follow from their largest count, and spaces that no function reaches."""
+    bus = subject.scope.bus
+    if bus is None:
+        return
+    if subject.bus_is_whole:
+        _reached(subject, bus)
+        _at_once(subject)
+    by_name = {code.name: code for code in subject.bus.functions}
+    for key, raw in bus.get("functions", {}).items():
+        printed = raw.get("printed", {}).get("bytes") if not isinstance(raw, str) else None
+        code = by_name.get(raw if isinstance(raw, str) else raw["name"])
+        if printed is None or code is None or code.most is None:
+            continue
+        right = (code.most + 7) // 8 if code.number in _COILS else 2 * code.most
+        if printed != right:
+            message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
+            span = raw["printed"].span("bytes")
+            subject.disagrees(Printed(f"function:{code.number}", "bytes", printed, right, span, message))
+
+
+def _reached(subject: Subject, bus: Map) -> None:
+    """One finding for each space whose points could be read or written, but by no function of the device."""
+    known = {code.number for code in subject.bus.functions}
+    points = [one.point for one in subject.resolved if one.point.generated]
+    for space, functions in SPACES.items():
+        inside = [point for point in points if point.space == space]
+        writers = {functions.write_one, functions.write_many} - {None}
+        for verb, count, able in (
+            ("reads", sum(point.readable for point in inside), functions.read in known),
+            ("writes", sum(point.writable for point in inside), bool(writers & known) or not writers),
+        ):
+            if count and not able:
+                message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
+                hint = "list the function under `functions`, or correct `access` or `space`"
+                subject.report.error("no-function", message, bus.key_span("functions"), hint)
+
+
+def _at_once(subject: Subject) -> None:
+    """One finding for each function whose requests are shorter than points that only it reads or writes."""
+    most = profile_of(subject.bus).most
+    too_long: dict[tuple[str, int], list[Resolved]] = {}
+    for one in subject.resolved:
+        point = one.point
+        if not point.generated or "type" in one.draft.failed or point.space not in SPACES:
+            continue
+        functions = SPACES[point.space]
+        if point.readable and functions.read in most and _span(point) > most[functions.read]:
+            too_long.setdefault(("read", functions.read), []).append(one)
+        many = functions.write_many
+        if point.writable and many is not None and point.words > 1 and point.words > most.get(many, 1):
+            too_long.setdefault(("write", many), []).append(one)
+    for (verb, function), points in too_long.items():
+        _report_too_long(subject, verb, function, points, most.get(function))
+
+
+def _span(point: Point) -> int:
+    return max(point.addresses) - min(point.addresses) + 1
+
+
+def _report_too_long(subject: Subject, verb: str, function: int, points: list[Resolved], most: int | None) -> None:
+    first, others = points[0].point, len(points) - 1
+    also = f" (and so do {others} more points)" if others > 1 else " (and so does one more point)" if others else ""
+    if most is None:
+        message = f"no function {verb}s several words at once, and `{first.name}` has {first.words}{also}"
+        hint = f"list {function:02X}h under `functions`, or correct the type or `access`"
+    else:
+        message = f"`{first.name}` has {first.words} words, and {function:02X}h {verb}s {most} at once{also}"
+        hint = (
+            f"correct `max` of {function:02X}h or the type; what the device {verb}s in parts has a point for each part"
+        )
+        if most == PROTOCOL_MOST[function]:
+            hint = "no request of Modbus is longer: give each part a point of its own, or correct `access`"
+    draft = points[0].draft
+    key = "characters" if first.text is not None else "type"
+    subject.report.error("too-long", message, draft.span(key if draft.layer(key) is not None else None), hint)

@@ -1,0 +1,103 @@
+"""The worked examples of a Modbus device."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, hex_of, no_frame, wrong_error
+from fieldscribe.checks.subject import Printed, Subject
+from fieldscribe.families.modbus.functions import SPACES, profile_of
+from fieldscribe.families.modbus.replies import parse_reply
+from fieldscribe.families.modbus.requests import build, crc16, parse_request
+from fieldscribe.language.nodes import Map
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.frames_agree import Carries
+    from fieldscribe.model import Frame, Point
+    from fieldscribe.resolve.frames import OpenFrame
+
+
+def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """What the frame is; its request is a `Request`."""
+    return _request(subject, one) if one.frame.direction == "request" else _reply(subject, one, seen)
+
+
+def _checked(subject: Subject, one: OpenFrame) -> Frame:
+    """The frame with its checksum put right."""
+    frame = one.frame
+    if frame.framing != "rtu" or len(frame.printed) < 4:
+        return frame
+    right = crc16(frame.printed[:-2]).to_bytes(2, "little")
+    if right == frame.printed[-2:]:
+        return frame
+    printed, taken = hex_of(frame.printed[-2:]), hex_of(right)
+    message = f"the CRC {printed} is printed, the bytes give {taken}"
+    subject.disagrees(Printed(f"frame:{frame.name}", "crc", printed, taken, one.raw.span("bytes"), message))
+    return replace(frame, corrected=frame.printed[:-2] + right, valid=False)
+
+
+def _request(subject: Subject, one: OpenFrame) -> Seen:
+    frame = _checked(subject, one)
+    request = parse_request(frame.framing, frame.corrected)
+    if isinstance(request, str):
+        return _no_frame(subject, one, frame, f"this is no request: {request}")
+    profile = profile_of(subject.bus)
+    most = profile.most.get(request.function, 0)
+    if request.function in profile.most and request.count > most:
+        message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
+        span = one.raw.span("bytes")
+        subject.disagrees(Printed(f"frame:{frame.name}", "count", request.count, None, span, message))
+        request = replace(request, count=_taken(subject, frame.name, "count", most))
+        frame = replace(frame, valid=False)
+    status, rebuilt = build(profile, frame.framing, request)
+    if status != "ok":
+        return _no_frame(subject, one, frame, f"this device takes no such request: {status.replace('_', ' ')}")
+    if frame.valid and rebuilt != frame.printed:
+        frame = _no_frame(subject, one, frame, f"this request would be {hex_of(rebuilt)}").frame
+    carries = _carries(request.function, request.address, request.values)
+    return Seen(replace(frame, corrected=rebuilt), request, carries)
+
+
+def _reply(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    frame = _checked(subject, one)
+    asked = seen.get(frame.answers or "")
+    answers_nothing(subject, one)
+    if asked is None or asked.request is None:
+        return Seen(replace(frame, valid=False))
+    request = asked.request
+    reply = parse_reply(frame.framing, request, frame.corrected)
+    if reply.status not in ("ok", "exception"):
+        return _no_frame(
+            subject, one, frame, f"this does not answer `{frame.answers}`: {reply.status.replace('_', ' ')}"
+        )
+    wrong_error(subject, one, reply.exception if reply.status == "exception" else None)
+    return Seen(frame, request, _carries(request.function, request.address, reply.values or request.values))
+
+
+def _no_frame(subject: Subject, one: OpenFrame, frame: Frame, message: str) -> Seen:
+    no_frame(subject, one, message)
+    return Seen(replace(frame, valid=False))
+
+
+def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
+    """What a frame brings: the values from an address on, by which function."""
+    spaces = {space for space, by in SPACES.items() if function in (by.read, by.write_one, by.write_many)}
+
+    def carries(point: Point) -> int | None:
+        if not point.addresses or point.space not in spaces:
+            return None
+        inside = (first <= word < first + len(values) for word in point.addresses)
+        if not all(inside):
+            return None
+        return from_words(point, tuple(values[word - first] for word in point.addresses))
+
+    return carries
+
+
+def _taken(subject: Subject, name: str, key: str, otherwise: int) -> int:
+    for erratum in subject.cited.get(f"frame:{name}", ()):
+        taken = erratum.raw["taken"]
+        if isinstance(taken, Map) and isinstance(taken.get(key), int):
+            return int(taken[key])
+    return otherwise

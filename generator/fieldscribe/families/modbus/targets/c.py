@@ -1,0 +1,232 @@
+"""The view of the Modbus header: the device's profile, reads block by block, requests point by point, commands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.modbus.facts import of_bus
+from fieldscribe.families.modbus.functions import framings_of
+from fieldscribe.names import upper
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Layouts,
+    aliases_of,
+    exceptions_of,
+    kind_of,
+    lies,
+    names_of,
+    old_names_of,
+    places_of,
+    shares,
+)
+from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.identifiers import Owner
+from fieldscribe.text import c_comment
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Block, Command, Device, Place, Point
+    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
+
+_MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
+"""The functions that the frames know, with the protocol's own limits."""
+
+_BROADCAST = (5, 6, 15, 16)
+"""The functions that may be sent to all units, unless the manual says otherwise."""
+
+_READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
+
+
+NAMED_CODES: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class BlocksView:
+    """The reads that bring a group's points."""
+
+    name: str
+    array: str
+    count_name: str
+    rows: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CommandView:
+    """A named constant write."""
+
+    descriptor: Descriptor
+    comment: str
+    defines: tuple[Define, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FrameView:
+    """What one point is asked and told with, and which vectors that answers."""
+
+    descriptor: Descriptor
+    function: str
+    kind: str
+    raw_type: str
+    read: bool
+    write: bool
+    text: bool
+    shares: bool
+    lies: str
+    words: int
+
+
+@dataclass(frozen=True, slots=True)
+class BusView:
+    """The Modbus header of a device."""
+
+    guard: str
+    functions: tuple[tuple[str, str, str, str], ...]
+    units: tuple[int, int]
+    broadcast: str
+    pads: str
+    rtu: str
+    tcp: str
+    blocks: tuple[BlocksView, ...]
+    layouts: tuple[Descriptor, ...]
+    frames: tuple[FrameView, ...]
+    commands: tuple[CommandView, ...]
+    exceptions: tuple[tuple[str, str, str], ...]
+    aliases: tuple[AliasView, ...]
+
+
+def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+    """The view of `<device>_modbus.h`."""
+    bus = device.bus
+    functions = tuple(
+        (
+            hexadecimal(code.number, 2),
+            f"{min(code.most or _MOST[code.number], _MOST[code.number])}U",
+            "true" if code.number in _BROADCAST and code.broadcast is not False else "false",
+            c_comment(code.name),
+        )
+        for code in bus.functions
+        if code.number in _MOST
+    )
+    numbers = frozenset(code.number for code in bus.functions)
+    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
+    layouts = Layouts(scope)
+    frames = [
+        _frame(point, views[point.item], numbers, layouts)
+        for point in device.points
+        if point.generated and point.places
+    ]
+    return BusView(
+        guard=f"{scope.upper}_MODBUS_H",
+        functions=functions,
+        units=bus.units,
+        broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if bus.broadcast is None else f"{bus.broadcast}U",
+        pads="true" if of_bus(bus).pad_coil_bytes == "even" else "false",
+        rtu="true" if "rtu" in framings_of(bus) else "false",
+        tcp="true" if "tcp" in framings_of(bus) else "false",
+        blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),
+        layouts=layouts.descriptors,
+        frames=tuple(one for one in frames if one is not None),
+        commands=tuple(_command(command, scope) for command in device.commands),
+        exceptions=exceptions_of(device, scope),
+        aliases=aliases_of((one.descriptor for one in frames if one is not None), device, scope),
+    )
+
+
+def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
+    """Every identifier of the header, with what it belongs to."""
+    for blocks in bus.blocks:
+        yield from ((name, Owner("group", blocks.name)) for name in (blocks.array, blocks.count_name))
+    for command in bus.commands:
+        name = command.descriptor.name
+        yield from ((one, Owner("command", name)) for one in (name, *(define for define, _ in command.defines)))
+    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
+    yield from names_of((*bus.layouts, *(one.descriptor for one in bus.frames)))
+    yield from old_names_of(bus.aliases)
+
+
+def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
+    """How points answer vectors of whole exchanges."""
+    for one in bus.frames:
+        name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
+        if not one.text:
+            yield one.function, f"LIES({name}, {one.lies})"
+        if one.read:
+            yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
+        if one.write and one.text:
+            yield one.function, f"WRITE_TEXT({name}, {one.words}U)"
+        elif one.write:
+            yield one.function, f"{'UPDATE' if one.shares else 'WRITE'}({what})"
+
+
+def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
+    """None for a point that no function of the device reaches, or that needs its word read first to be written."""
+    place = point.places[0]
+    read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
+    target = point.write_place or place
+    write = _writing(point, target, functions) if point.writable else 0
+    read = read if read in functions else 0
+    if point.bits is not None and not read:
+        write = 0
+    if not read and not write:
+        return None
+    text = point.text is not None
+    parts = [_text(point, view) if text else layouts.of(point, places_of(point))]
+    parts += [_place(read, place.addresses, point.words)] if read else []
+    parts += [_place(write, target.addresses or place.addresses, point.words)] if write else []
+    access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
+    return FrameView(
+        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item),
+        function=view.function,
+        kind=kind_of(point),
+        raw_type=view.raw_type,
+        read=bool(read),
+        write=bool(write),
+        text=text,
+        shares=shares(point),
+        lies=lies(point),
+        words=point.words,
+    )
+
+
+def _place(function: int, addresses: tuple[int, ...], words: int) -> str:
+    return f"{{{hexadecimal(function, 2)}, {hexadecimal(min(addresses))}, {words}U}}"
+
+
+def _text(point: Point, view: PointView) -> str:
+    return f"{{{view.function}_addresses, {hexadecimal(min(point.addresses))}, {point.words}U}}"
+
+
+def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
+    """The function that writes a point: the manual's, else the one for a single item, else the one for several."""
+    if place.function in (5, 6, 15, 16) and place is not point.places[0]:
+        return place.function
+    if place.space == "coil":
+        wanted = (5, 15)
+    elif place.space == "holding":
+        wanted = (6, 16) if point.words == 1 else (16, 16)
+    else:
+        return 0
+    return next((number for number in wanted if number in functions), 0)
+
+
+def _blocks(group: str, blocks: tuple[Block, ...], scope: Scope) -> BlocksView:
+    rows = tuple((hexadecimal(one.function, 2), hexadecimal(one.address), unsigned(one.count)) for one in blocks)
+    name = f"{scope.upper}_{upper(group)}_BLOCKS_COUNT"
+    return BlocksView(group, f"{scope.prefix}_{group}_blocks", name, rows)
+
+
+def _command(command: Command, scope: Scope) -> CommandView:
+    macro = f"{scope.upper}_COMMAND_{upper(command.name)}"
+    value = "1U" if command.value is None else unsigned(command.value)
+    comment = c_comment(command.title["en"]) + (": any value does" if command.value is None else "")
+    if command.wears is not None:
+        comment += f"; the memory stands {command.wears} writes"
+    defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
+    write = f"{{{hexadecimal(command.function, 2)}, {macro}_ADDRESS, 1U}}"
+    name = f"{scope.prefix}_command_{command.name}"
+    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}", "")
+    return CommandView(descriptor, f"{comment}.", defines)

@@ -1,0 +1,91 @@
+"""What a crate of a Modbus device says of its bus."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.modbus.facts import of_bus
+from fieldscribe.families.modbus.functions import framings_of
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families import OfFamily
+from fieldscribe.targets.rust.families.numbers import code_names
+from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.layout import Lines, array, chain
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Code, Device
+
+_MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
+"""The functions that the frames know, with the protocol's own limits."""
+
+_COILS = 15
+"""The function that writes several coils, whose bytes a device may want padded."""
+
+
+def context(device: Device) -> dict[str, object]:
+    """What the template of the family's items sees."""
+    bus = device.bus
+    functions = [
+        f"Function::new({code.number}, {_most(code)})" + (".without_broadcast()" if code.broadcast is False else "")
+        for code in bus.functions
+    ]
+    return {
+        "example_link": f"Framing::{framings_of(bus)[0].capitalize()}, {bus.units[0]}",
+        "functions": array(functions),
+        "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
+        "exception_type": "u8",
+        "exception_names": code_names(bus.exceptions),
+        "profile": _profile(bus),
+        "exceptions": tuple(map(_exception, bus.exceptions)),
+        "blocks": tuple(_blocks(device)),
+        "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
+        "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
+        "commands": tuple(_commands(device)),
+    }
+
+
+def _exception(code: Code) -> tuple[str, str, str]:
+    """What is said of an exception code, its constant and its number."""
+    return (
+        f"{sentence(code.name).rstrip('.')}: exception {code.number:02X}h.",
+        code.name.upper(),
+        f"0x{code.number:02X}",
+    )
+
+
+def _profile(bus: Bus) -> Lines:
+    broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
+    profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
+    pads = of_bus(bus).pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
+    steps = [*([".padding_coils()"] if pads else []), *([".naming(exceptions::name)"] if bus.exceptions else [])]
+    return chain("pub static PROFILE: Profile", profile, steps)
+
+
+def _most(code: Code) -> int:
+    """The largest count of items in one request: the device's, within the protocol's."""
+    own = 65535 if code.most is None else code.most
+    return min(own, _MOST.get(code.number, own))
+
+
+def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+    """Group as constant and by name, and the lines of its array."""
+    for group, blocks in device.blocks.items():
+        items = [
+            f"Block::new({space(one.space).replace('runtime::', '')}, {one.function}, 0x{one.address:04X}, {one.count})"
+            for one in blocks
+        ]
+        yield group.upper(), group, array(items)
+
+
+def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
+    for one in device.commands:
+        value = "None" if one.value is None else f"Some({one.value})"
+        doc = sentence(one.name).rstrip(".") + (": any value does" if one.value is None else "")
+        doc += f"; the memory stands {one.wears} writes" if one.wears is not None else ""
+        yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
+
+
+IN_RUST = OfFamily(context)

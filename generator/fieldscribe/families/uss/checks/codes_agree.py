@@ -1,0 +1,93 @@
+"""The codes of USS name each other: a task its responses, a response and an error value the tasks that can get them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.subject import Printed
+from fieldscribe.families.uss.facts import FAMILY
+from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.bus import code_list
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Code
+
+_LISTS = ("answers", "refusals")
+
+
+def check(subject: Subject) -> None:
+    """Codes that name one that does not name them back, codes that do not exist, and printed lists that disagree."""
+    bus = subject.scope.bus
+    if bus is None or not subject.bus_is_whole:
+        return
+    _named_back(subject, bus)
+    _refused(subject, bus)
+    for kind in FAMILY.codes:
+        for code, raw, _ in _written(subject, bus, kind.section):
+            _printed(subject, code, raw, kind.key)
+
+
+def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, Map, Span]]:
+    """Each code that is written as a mapping, with that and the place of its number."""
+    by_name = {code.name: code for code in subject.bus.codes(section)}
+    for key, raw in bus.get(section, {}).items():
+        if isinstance(raw, Map) and raw["name"] in by_name:
+            yield by_name[raw["name"]], raw, bus[section].key_span(key)
+
+
+def _named_back(subject: Subject, bus: Map) -> None:
+    """Tasks and responses name each other, or neither."""
+    tasks = {code.number: {*code.answers, *code.refusals} for code in subject.bus.functions}
+    responses = {code.number: set(code.answers) for code in subject.bus.codes("responses")}
+    for task, raw, _ in _written(subject, bus, "functions"):
+        for key in _LISTS:
+            for number in getattr(task, key):
+                if task.number not in responses.get(number, ()):
+                    _one_sided(subject, raw.span(key), ("task", task.number), ("response", number), number in responses)
+    for response, raw, _ in _written(subject, bus, "responses"):
+        for number in response.answers:
+            if response.number not in tasks.get(number, ()):
+                names = ("response", response.number), ("task", number)
+                _one_sided(subject, raw.span("answers"), *names, number in tasks)
+
+
+def _one_sided(subject: Subject, span: Span, one: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
+    what = "which does not name it back" if exists else "which does not exist"
+    message = f"the {one[0]} {one[1]} names the {other[0]} {other[1]}, {what}"
+    hint = "take one of them in both lists, and give what is printed under `printed` with an erratum"
+    subject.report.error("codes-disagree", message, span, hint if exists else f"declare it, or leave it out; {hint}")
+
+
+def _refused(subject: Subject, bus: Map) -> None:
+    """An error value belongs to tasks that can be refused."""
+    tasks = {code.number: code for code in subject.bus.functions}
+    for error, raw, _ in _written(subject, bus, "exceptions"):
+        for number in error.answers:
+            task = tasks.get(number)
+            if task is None or not task.refusals:
+                what = "which does not exist" if task is None else "which is never refused"
+                message = f"the error {error.number} names the task {number}, {what}"
+                hint = "correct one of them, and give what is printed under `printed` with an erratum"
+                subject.report.error("codes-disagree", message, raw.span("answers"), hint)
+
+
+def _printed(subject: Subject, code: Code, raw: Map, about: str) -> None:
+    """The lists as printed, where they are not what was taken."""
+    printed: Map = raw.get("printed") or Map(raw.file, raw.at)
+    for key in _LISTS:
+        if key not in printed:
+            continue
+        taken = sorted(getattr(code, key))
+        said = sorted(code_list(subject.scope, printed, key))
+        if said != taken:
+            message = f"the {key} {_list(said)} are printed for the {about} {code.number}, taken are {_list(taken)}"
+            found = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
+            subject.disagrees(found)
+
+
+def _list(numbers: list[int]) -> str:
+    return ", ".join(map(str, numbers)) or "none"

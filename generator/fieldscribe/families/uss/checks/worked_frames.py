@@ -1,0 +1,195 @@
+"""The worked examples of a USS device: whole telegrams, or the words of one part alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, no_frame, wrong_error
+from fieldscribe.checks.subject import Printed, Subject
+from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.uss.telegrams import (
+    VARIABLE,
+    Link,
+    Request,
+    broadcast,
+    build,
+    check_byte,
+    parse,
+    telegram,
+)
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.frames_agree import Carries
+    from fieldscribe.model import Frame, Point
+    from fieldscribe.resolve.frames import OpenFrame
+
+_SINGLE_TASKS = frozenset({2, 7, 12, 14})
+_DOUBLE_TASKS = frozenset({3, 8, 11, 13})
+_MASKS = 4
+_SHORT = 3
+_PAGE_BITS = (15, 12, 13, 14)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A request with the link that it was sent over."""
+
+    link: Link
+    request: Request
+
+
+def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """What the frame is; its request is the request and its link."""
+    frame = one.frame
+    if frame.framing == "broadcast":
+        return _broadcast(subject, one)
+    if frame.framing == "uss":
+        frame = _checked(subject, one)
+        if len(frame.corrected) < 4 or len(frame.corrected) % 2:
+            return no_frame(subject, one, "this is no telegram: STX, LGE, ADR, words and BCC")
+        return _telegram(subject, replace(one, frame=frame), _words(frame.corrected[3:-1]), seen)
+    if len(frame.printed) % 2:
+        return no_frame(subject, one, "the part is made of words")
+    words = _words(frame.printed)
+    if frame.framing == "pzd":
+        return _process_data(subject, one, words)
+    return _telegram(subject, one, words, seen)
+
+
+def _words(data: bytes) -> tuple[int, ...]:
+    return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2))
+
+
+def _checked(subject: Subject, one: OpenFrame) -> Frame:
+    """The frame with its length and its check byte put right."""
+    frame, span = one.frame, one.raw.span("bytes")
+    data = bytearray(frame.printed)
+    if len(data) < 4:
+        return frame
+    about = f"frame:{frame.name}"
+    if data[1] + 2 != len(data):
+        printed, taken = f"{data[1]:02X}", f"{len(data) - 2 & 0xFF:02X}"
+        message = f"the LGE {printed} is printed, the bytes give {taken}"
+        subject.disagrees(Printed(about, "lge", printed, taken, span, message))
+        data[1] = len(data) - 2 & 0xFF
+    right = check_byte(bytes(data[:-1]))
+    if data[-1] != right:
+        printed, taken = f"{data[-1]:02X}", f"{right:02X}"
+        message = f"the BCC {printed} is printed, the bytes give {taken}"
+        subject.disagrees(Printed(about, "bcc", printed, taken, span, message))
+        data[-1] = right
+    return replace(frame, corrected=bytes(data), valid=bytes(data) == frame.printed)
+
+
+def _telegram(subject: Subject, one: OpenFrame, words: tuple[int, ...], seen: dict[str, Seen]) -> Seen:
+    """A telegram, or its parameter part alone, which is read as a telegram without process data."""
+    frame = one.frame
+    if frame.direction == "request":
+        return _request(subject, one, words)
+    answers_nothing(subject, one)
+    asked = seen.get(frame.answers or "")
+    if asked is None or not isinstance(asked.request, _Asked):
+        return Seen(replace(frame, valid=False))
+    link, request = asked.request.link, asked.request.request
+    data = frame.corrected if frame.framing == "uss" else telegram(request.unit, words)
+    reply = parse(subject.bus, link, request, data)
+    if reply.status not in ("ok", "refused", "no_rights"):
+        return no_frame(subject, one, f"this does not answer `{frame.answers}`: {reply.status.replace('_', ' ')}")
+    wrong_error(subject, one, reply.error if reply.status == "refused" else None)
+    known = {code.number: code for code in subject.bus.exceptions}
+    if reply.status == "refused" and known:
+        error = known.get(reply.error)
+        if error is None or (error.answers and request.task not in error.answers):
+            what = "does not exist" if error is None else f"is not for the task {request.task}"
+            return no_frame(subject, one, f"the error {reply.error} {what}")
+    value = (reply.width, reply.value) if reply.status == "ok" and reply.width else None
+    return Seen(frame, asked.request, _carries(subject, request, value, reply.words, "response"))
+
+
+def _request(subject: Subject, one: OpenFrame, words: tuple[int, ...]) -> Seen:
+    frame = one.frame
+    unit = frame.corrected[2] if frame.framing == "uss" else subject.bus.units[0]
+    setting = _setting(frame)
+    short = frame.framing == "pkw" and setting == VARIABLE and len(words) == _SHORT
+    sent = len(words) if short else Link(setting, 0).sent
+    if len(words) < sent or (frame.framing == "pkw" and len(words) != sent):
+        return no_frame(subject, one, f"the parameter part has {sent} words, {len(words)} are printed")
+    part, rest = words[:sent], words[sent:]
+    link = Link(setting, len(rest))
+    request = _asked(part, link, unit, rest) if part else Request(unit, 0, words=rest)
+    status, data = build(subject.bus, link, request)
+    if status != "ok":
+        return no_frame(subject, one, f"this device takes no such request: {status.replace('_', ' ')}")
+    built = _words(data[3:-1])[: len(words)] if short else _words(data[3:-1])
+    if built != words:
+        return no_frame(subject, one, f"this request would be {' '.join(f'{word:04X}' for word in built)}")
+    value = (request.width, request.value) if request.width else None
+    return Seen(frame, _Asked(link, request), _carries(subject, request, value, rest, "request"))
+
+
+def _setting(frame: Frame) -> int:
+    """The length of the parameter part that the link is set to."""
+    said = of_frame(frame).pkw
+    return VARIABLE if said is None else said
+
+
+def _asked(part: tuple[int, ...], link: Link, unit: int, rest: tuple[int, ...]) -> Request:
+    """What the words of a parameter part ask for."""
+    identification, place = part[:2]
+    values = (*part[2:], 0, 0)
+    task = identification >> 12
+    page = sum((place >> bit & 1) << weight for weight, bit in enumerate(_PAGE_BITS))
+    parameter = (identification & 0x07FF) + 2000 * page
+    width = 1 if task in _SINGLE_TASKS else 2 if task in _DOUBLE_TASKS else 0
+    value = 0
+    if width == 2:
+        value = values[0] << 16 | values[1]
+    elif width == 1:
+        value = values[1] if link.single_last else values[0]
+    return Request(unit, task, parameter, place & 0xFF, width, value, rest)
+
+
+def _process_data(subject: Subject, one: OpenFrame, words: tuple[int, ...]) -> Seen:
+    low, high = of_bus(subject.bus).pzd
+    if not low <= len(words) <= high:
+        return no_frame(subject, one, f"there are {low}..{high} words of process data, not {len(words)}")
+    return Seen(one.frame, None, _carries(subject, None, None, words, one.frame.direction))
+
+
+def _broadcast(subject: Subject, one: OpenFrame) -> Seen:
+    """Four words of masks, then the process data."""
+    words = _words(one.frame.printed)
+    if len(one.frame.printed) % 2 or len(words) < _MASKS:
+        return no_frame(subject, one, "a broadcast starts with four words of masks")
+    link = Link(_MASKS, len(words) - _MASKS)
+    status, _ = broadcast(subject.bus, link, words[:_MASKS], words[_MASKS:])
+    if status != "ok":
+        return no_frame(subject, one, f"this device takes no such broadcast: {status.replace('_', ' ')}")
+    return Seen(one.frame, None, _carries(subject, None, None, words[_MASKS:], "request"))
+
+
+def _carries(
+    subject: Subject,
+    request: Request | None,
+    value: tuple[int, int] | None,
+    words: tuple[int, ...],
+    direction: str,
+) -> Carries:
+    """What a telegram brings: the value (its words and its number) of one parameter, and words of process data."""
+    telegrams = {name for name, (telegram, _) in subject.places.telegrams.items() if telegram.direction == direction}
+
+    def carries(point: Point) -> int | None:
+        if not point.addresses:
+            return None
+        if point.telegram is not None:
+            known = point.telegram in telegrams and max(point.addresses) < len(words)
+            return from_words(point, tuple(words[place] for place in point.addresses)) if known else None
+        if request is None or value is None:
+            return None
+        if (point.addresses[0], point.index or 0) != (request.parameter, request.index) or value[0] != point.words:
+            return None
+        number = value[1]
+        return from_words(point, (number >> 16, number & 0xFFFF) if value[0] == 2 else (number,))
+
+    return carries

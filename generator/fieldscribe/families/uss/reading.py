@@ -1,0 +1,92 @@
+"""The family's own facts out of the text, and what its telegrams cannot carry."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss.facts import UssBus, UssFrame, of_bus
+from fieldscribe.families.uss.telegrams import VARIABLE
+from fieldscribe.resolve.bus import codes_under, ends_of
+from fieldscribe.resolve.families import Reading
+from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Bus, Code, Telegram
+    from fieldscribe.resolve.scope import Scope
+
+_MOST_PZD = 16
+
+
+class UssReading(Reading):
+    """Telegrams have a parameter part and process data of known lengths."""
+
+    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> UssBus:
+        """The response ids, and the lengths of the parts."""
+        del functions
+        return UssBus(
+            responses=codes_under(scope, raw, "responses"),
+            pkw=tuple(dict.fromkeys(raw.get("pkw", ()))),
+            pzd=ends_of(scope, raw, "pzd", "is no count of words", _MOST_PZD),
+            variant_pzd=tuple(_variant_pzd(scope)) if "pzd" in raw else (),
+            bitrate=raw.get("bitrate"),
+        )
+
+    def frame(self, scope: Scope, raw: Map, framing: str) -> UssFrame:
+        """The length of the parameter part that the link is set to."""
+        del scope
+        return UssFrame(None if framing in ("pzd", "broadcast") else raw.get("pkw", VARIABLE))
+
+    def refuses(self, scope: Scope, bus: Bus, raw: Map) -> bool:
+        """Whether the parameter part cannot have the length that is said; a finding if so."""
+        lengths = of_bus(bus).pkw
+        if not lengths or raw.get("pkw", lengths[0]) in lengths:
+            return False
+        message = f"the parameter part cannot have the length {raw['pkw']}"
+        hint = f"known under `bus`: {', '.join(map(str, lengths))}"
+        scope.report.error("wrong-choice", message, raw.span("pkw"), hint)
+        return True
+
+    def telegram(self, scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
+        """Findings for what process data cannot be."""
+        _known_way(scope, raw, before)
+        bus = scope.bus
+        longest = "" if bus is None else str(bus.get("pzd", "")).rpartition("..")[2].strip()
+        if longest.isdecimal() and raw["words"] > int(longest):
+            text = f"`{raw['name']}` has {raw['words']} words, the process data at most {longest}"
+            scope.report.error("too-many-items", text, raw.span("words"), "correct `words`, or `pzd` under `bus`")
+
+
+def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
+    """Process data go one way or the other, once each, in frames that are known."""
+    name, direction = str(raw["name"]), raw["direction"]
+    if "message" in raw:
+        hint = "leave it out: the frames of uss are known"
+        scope.report.error("family-key", "messages are for the family can", raw.key_span("message"), hint)
+    if direction not in ("request", "response"):
+        hint = "write `direction: request` for what the master sends, `response` for what the device sends"
+        scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
+    other = next((one for one in before if one.direction == direction), None)
+    if other is not None:
+        text = f"`{other.name}` and `{name}` are both of direction {direction}"
+        hint = "a telegram has process data once in each direction: make them one, or points with `when`"
+        scope.report.error("two-meanings", text, raw.span("direction"), hint)
+
+
+def _variant_pzd(scope: Scope) -> Iterator[tuple[str, int]]:
+    """The variants whose property `pzd` says that they take fewer words of process data than the product as a whole."""
+    for axis, entry in scope.axes.items():
+        for value, properties in entry["values"].items():
+            if "pzd" not in properties:
+                continue
+            most = integer(properties["pzd"], properties.span("pzd"), scope.report)
+            if most is not None and not 0 <= most <= _MOST_PZD:
+                message = f"{most} is no count of words"
+                scope.report.error("address-outside-space", message, properties.span("pzd"), f"write 0..{_MOST_PZD}")
+            elif most is not None:
+                yield f"{axis}={value}", most
+
+
+READING = UssReading()

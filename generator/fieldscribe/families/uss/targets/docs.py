@@ -1,0 +1,33 @@
+"""What the documentation says of the family's line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.families.uss.telegrams import VARIABLE
+from fieldscribe.targets.docs.bus import span
+from fieldscribe.targets.docs.cells import cell
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Code
+
+
+def facts(bus: Bus) -> Iterator[tuple[str, str]]:
+    """What people must know of the line, with what it is called."""
+    own = of_bus(bus)
+    yield "Unit numbers", span(bus.units)
+    if bus.broadcast is not None:
+        yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
+    lengths = (f"variable ({VARIABLE})" if one == VARIABLE else str(one) for one in own.pkw)
+    yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
+    yield "Words of process data (PZD)", span(own.pzd)
+
+
+def goes_to_all(function: Code) -> bool:
+    """Whether a function goes to all units at once where the description does not say it."""
+    del function  # broadcasts are telegrams of their own
+    return False

@@ -1,0 +1,74 @@
+"""USS in generated Python: the profile with its tasks and telegrams, and parameters that may be kept in EEPROM."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.text import python_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from fieldscribe.model import Device, Point
+    from fieldscribe.targets.python.scope import Scope
+
+_STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
+
+
+def _profile(device: Device, scope: Scope) -> Node:
+    """What the device takes from the line."""
+    scope.used.add("Profile")
+    bus = device.bus
+    arguments: list[Node] = [
+        f"units=({bus.units[0]}, {bus.units[1]})",
+        _numbers("pkw=(", of_bus(bus).pkw),
+        f"pzd=({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})",
+        Group("tasks={", tuple([_numbers(f"{one.number}: (", one.answers) for one in bus.functions]), "}"),
+    ]
+    if bus.broadcast is not None:
+        arguments.append(f"broadcast={bus.broadcast}")
+    if bus.exceptions:
+        errors = [f"{one.number}: {python_string(one.name)}" for one in bus.exceptions]
+        arguments.append(Group("errors={", tuple(errors), "}"))
+    if device.telegrams:
+        arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
+    if fewer := _variant_pzd(device):
+        pairs = [
+            _numbers(f"({python_string(axis)}, {python_string(value)}): (", limits)
+            for (axis, value), limits in fewer.items()
+        ]
+        arguments.append(Group("variant_pzd={", tuple(pairs), "}"))
+    return call("Profile", arguments)
+
+
+def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
+    """How many words of process data variants take that take fewer than the whole product."""
+    low, high = of_bus(device.bus).pzd
+    found = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
+    return {(axis, value): (low, most) for (axis, value), most in found.items()}
+
+
+def _numbers(head: str, numbers: Iterable[int]) -> Group:
+    return Group(head, tuple([str(number) for number in numbers]))
+
+
+def _maker(point: Point) -> str:
+    """Parameters can be written so that they survive power-off, where the description leaves that to the caller."""
+    usual = usual_maker(point)
+    stored = point.telegram is None and point.keeps in (None, "choice")
+    return _STORED.get(usual, usual) if stored else usual
+
+
+IN_PYTHON = Family(
+    module=f"{RUNTIME}.uss",
+    exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
+    blocking=Flavour("UssDevice", "UssTransport"),
+    awaiting=Flavour("AsyncUssDevice", "AsyncUssTransport"),
+    settings=(("link", "Link"),),
+    profile=_profile,
+    blocks=no_blocks,
+    maker=_maker,
+)

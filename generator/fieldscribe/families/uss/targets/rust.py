@@ -1,0 +1,98 @@
+"""What a crate of a USS drive says of its bus: tasks, lengths, numbers with names, which points travel how."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
+from fieldscribe.targets.rust.families import OfFamily
+from fieldscribe.targets.rust.families.numbers import code_names, constants
+from fieldscribe.targets.rust.layout import array, binding
+from fieldscribe.targets.rust.literals import type_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Device
+    from fieldscribe.targets.rust.families import Way
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+
+def context(device: Device) -> dict[str, object]:
+    """What the template of the family's items sees."""
+    bus = device.bus
+    return {
+        "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
+        "exception_type": "u16",
+        "exception_names": code_names(bus.exceptions),
+        "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
+        "pkw": ", ".join(map(str, of_bus(bus).pkw)),
+        "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
+        "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
+        "numbers": (
+            ("tasks", "Task ids.", constants(bus.functions, "u8")),
+            ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),
+            (
+                "exceptions",
+                "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.",
+                constants(bus.exceptions, "u16", "error"),
+            ),
+        ),
+    }
+
+
+def _profile(bus: Bus) -> str:
+    units, pzd = f"({bus.units[0]}, {bus.units[1]})", f"({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})"
+    broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
+    naming = ".naming(exceptions::name)" if bus.exceptions else ""
+    return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
+
+
+def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+    """A point is a parameter, or is sent, or is received in the process data."""
+    point = subject.point
+    if point.telegram is None:
+        trait = "Parameter"
+    else:
+        telegram, _ = scope.telegrams[point.telegram]
+        trait = "Sent" if telegram.direction == "request" else "Received"
+    yield f"impl runtime::uss::{trait} {{}}"
+
+
+def identifiers(device: Device) -> Iterator[Identifier]:
+    """The names of tasks and responses."""
+    for module, codes in (("tasks", device.bus.functions), ("responses", of_bus(device.bus).responses)):
+        for code in codes:
+            yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
+
+
+def _fixed(device: Device) -> Iterator[str]:
+    """The points that are sent with bits that are always 1."""
+    sent = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
+    for point in device.points:
+        if point.generated and point.telegram in sent and point.fixed is not None and point.fixed.bits:
+            yield point.item
+
+
+def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+    """Words of process data go one way; parameters can be written for good."""
+    point = subject.point
+    if point.telegram is None:
+        if point.writable and point.keeps != "no":
+            yield "store", *change_of(subject, "store", "store_update")
+    elif subject.form != "text" and not point.bits:
+        yield from _process_ways(subject, scope.telegrams[point.telegram][0].direction)
+
+
+def _process_ways(subject: Subject, direction: str) -> Iterator[Way]:
+    point = subject.point
+    if direction == "response" and point.readable:
+        yield "read", "receive", (of_scale(subject),)
+    elif direction == "request" and point.writable:
+        needs = (of_scale(subject), of_all(subject))
+        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
+
+
+IN_RUST = OfFamily(context, traits, identifiers, ways)

@@ -1,0 +1,357 @@
+"""Vectors of USS telegrams: requests, broadcasts, answers good and bad, and the manual's own examples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.uss.telegrams import (
+    DOUBLE_RESPONSES,
+    LAST_PARAMETER,
+    START,
+    VARIABLE,
+    Link,
+    Request,
+    broadcast,
+    build,
+    parameter_words,
+    parse,
+    telegram,
+)
+from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Device, Frame, Point
+    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {
+    "uss_build": "status:word bytes:bytes?",
+    "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
+    "uss_reply": "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?",
+    "uss_printed_build": "frame:note status:word bytes:bytes?",
+    "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
+    "words:ints?",
+}
+"""Telegrams."""
+
+_TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
+"""How many words of value the tasks that change something carry."""
+
+
+_RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
+_EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
+"""The tasks that change a parameter of so many words, or an element of an array."""
+
+
+class UssWire:
+    """Exchanges over the link that carries the most that every variant takes."""
+
+    def __init__(self, device: Device) -> None:
+        self.bus = device.bus
+        self.unit = device.bus.units[0]
+        pkw = next((one for one in (VARIABLE, 4, 3) if one in of_bus(device.bus).pkw), 0)
+        self.link = Link(
+            pkw, min(of_bus(device.bus).pzd[1], *(most for _, most in of_bus(device.bus).variant_pzd), 255)
+        )
+        self.directions = {one.name: one.direction for one in device.telegrams}
+        self.tasks = {code.number: code.answers for code in device.bus.functions}
+
+    def opens(self, lines: Lines) -> None:
+        """The unit and the link."""
+        lines.set("unit", self.unit)
+        lines.set("link", self.link.pkw, self.link.pzd)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """A parameter by its task; a word of process data with the answer to no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            return self._change(point, 1, words, len(words), asks=True)
+        if self.directions.get(point.telegram) != "response" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process((0,) * self.link.pzd, self._placed(point, words))
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """A parameter by its task for RAM or EEPROM; a word of process data with no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            tasks = _EEPROM if keep else _RAM
+            if keep and point.keeps == "no":
+                return None
+            return self._change(point, tasks[len(words), point.index is not None], words, 0, asks=False)
+        if keep or self.directions.get(point.telegram) != "request" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process(self._placed(point, words), (0,) * self.link.pzd)
+
+    def _placed(self, point: Point, words: tuple[int, ...]) -> tuple[int, ...]:
+        placed = dict(zip(sorted(point.addresses), words, strict=True))
+        return tuple(placed.get(at, 0) for at in range(self.link.pzd))
+
+    def _process(self, sent: tuple[int, ...], heard: tuple[int, ...]) -> Script | None:
+        status, data = build(self.bus, self.link, Request(self.unit, 0, words=sent))
+        empty = (0,) * (3 if self.link.pkw == VARIABLE else self.link.pkw)
+        return [(data, telegram(self.unit, (*empty, *heard)))] if status == "ok" else None
+
+    def _change(self, point: Point, task: int, words: tuple[int, ...], width: int, *, asks: bool) -> Script | None:
+        """One task for a parameter; `words` with the high one first are what it holds or is given."""
+        number = 0
+        for word in words:
+            number = number << 16 | word
+        quiet = (0,) * self.link.pzd
+        place = point.places[0] if asks else writing_place(point)
+        given = (0, 0) if asks else (len(words), number)
+        request = Request(self.unit, task, place.addresses[0], point.index or 0, *given, quiet)
+        status, data = build(self.bus, self.link, request)
+        answers = self.tasks.get(task, ())
+        double = [one for one in answers if (one in DOUBLE_RESPONSES) == (len(words) == 2)]
+        if status != "ok" or not double or (len(words) == 2 and self.link.pkw == 3):
+            return None
+        head = parameter_words(double[0], request.parameter, request.index)
+        part = list(head) + (list(words) if len(words) == 2 else [words[0]])
+        if self.link.pkw == 4 and len(words) == 1:
+            part = [*head, 0, words[0]]
+        return [(data, telegram(self.unit, (*part, *quiet)))]
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """A refusal, a wrong check byte, another unit, and a telegram that is cut."""
+        del writes
+        [(sent, good)] = script
+        if point.telegram is not None:
+            return
+        words = [int.from_bytes(good[at : at + 2], "big") for at in range(3, len(good) - 1, 2)]
+        refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 17, *words[-self.link.pzd :]))
+        if self.link.pkw == 4:
+            refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 0, 17, *words[4:]))
+        yield "refused", [(sent, refused)]
+        yield "wrong_check", [(sent, good[:-1] + bytes((good[-1] ^ 1,)))]
+        yield "wrong_unit", [(sent, telegram(self.unit ^ 1, tuple(words)))]
+        yield "wrong_length", [(sent, good[:-1])]
+        yield "wrong_start", [(sent, bytes((START ^ 1,)) + good[1:])]
+
+
+def wires(device: Device) -> list[UssWire]:
+    """Points travel in one way."""
+    return [UssWire(device)]
+
+
+def frames(lines: Lines, device: Device) -> None:
+    """Everything about the telegrams of a USS device."""
+    codes(lines, "constant", "task", device.bus.functions)
+    codes(lines, "constant", "response", of_bus(device.bus).responses)
+    codes(lines, "code", "error", device.bus.exceptions)
+    for link in _links(device.bus):
+        dialogue = _Dialogue(lines, device.bus, link)
+        _builds(dialogue)
+        _broadcasts(dialogue)
+        _replies(dialogue)
+        lines.gather()
+    _printed(lines, device)
+
+
+class _Dialogue:
+    """Telegrams over a link that is set in one way."""
+
+    def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
+        self.lines, self.bus, self.link = lines, bus, link
+        self.words = tuple(0x047F + 0x3333 * place & 0xFFFF for place in range(link.pzd))
+
+    def _ask(self, request: Request) -> None:
+        self._on_link()
+        asked = request.unit, request.task, request.parameter, request.index
+        self.lines.set("task", *asked, request.width, request.value, request.words)
+
+    def _on_link(self) -> None:
+        self.lines.set("link", self.link.pkw, self.link.pzd, 1 if self.link.single_first else None)
+
+    def built(self, request: Request, frame: str | None = None) -> None:
+        """The bytes of a request; `frame` names the manual's example that it is."""
+        kind, lead = _kind("build", frame)
+        self._ask(request)
+        self.lines.add(kind, *lead, *build(self.bus, self.link, request))
+
+    def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
+        """What bytes say as the answer to a request."""
+        found = parse(self.bus, self.link, request, data)
+        kind, lead = _kind("reply", frame)
+        self._ask(request)
+        parts: dict[str, tuple[object, ...]] = {"ok": (found.response, found.width, found.value, 0, found.words)}
+        parts["refused"] = (found.response, 0, 0, found.error)
+        self.lines.add(kind, *lead, data, found.status, *parts.get(found.status, ()))
+
+    def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
+        """A telegram to all units."""
+        self._on_link()
+        self.lines.add("uss_broadcast", mask, words, *broadcast(self.bus, self.link, mask, words))
+
+    def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
+        """That of an answer, with recognisable values; of variable length as long as it must be."""
+        if self.link.pkw == 0:
+            return ()
+        number, index = parameter_words(response, request.parameter, request.index)
+        size = self.link.pkw if self.link.pkw != VARIABLE else 4 if response in DOUBLE_RESPONSES else 3
+        return (number, index, 0x4248, 0x0006)[:size]
+
+
+def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
+    return (f"uss_{what}", ()) if frame is None else (f"uss_printed_{what}", (frame,))
+
+
+def _links(bus: Bus) -> Iterator[Link]:
+    """Every length of the parameter part with two words of process data, and the ends of these."""
+    least, most = of_bus(bus).pzd
+    usual = min(max(2, least), most)
+    for pkw in of_bus(bus).pkw:
+        yield Link(pkw, usual)
+        if pkw == 4:
+            yield Link(pkw, usual, single_first=True)
+    for pzd in dict.fromkeys((least, most, most + 1)):
+        if pzd != usual:
+            yield Link(of_bus(bus).pkw[-1], pzd)
+    if 0 in of_bus(bus).pkw and least == 0:
+        yield Link(0, 0)
+    yield Link(5, usual)
+
+
+def _requests(bus: Bus, words: tuple[int, ...]) -> Iterator[Request]:
+    low, high = bus.units
+    for code in bus.functions:
+        width = _TASK_WIDTHS.get(code.number, 0)
+        yield Request(low, code.number, 700, 0, width, 5 if width else 0, words)
+    base = Request(high, 1, 1082, 0, 0, 0, words)
+    yield from (base, replace(base, unit=high + 1), replace(base, unit=max(0, low - 1)), replace(base, unit=255))
+    yield from (replace(base, task=16), replace(base, task=0, parameter=0))
+    for parameter in (0, 1, 1999, 2000, 2010, 3999, 4000, 6000, 8000, 16000, 30000, LAST_PARAMETER, LAST_PARAMETER + 1):
+        yield replace(base, parameter=parameter)
+    yield from (replace(base, parameter=2010, index=index) for index in (1, 2, 254, 255, 256))
+    change = replace(base, task=2, width=1, value=0xFFFF)
+    yield from (change, replace(change, value=0x10000), replace(change, value=0x8001, index=3, parameter=2016))
+    double = replace(base, task=3, width=2, value=0x42200000)
+    yield from (double, replace(double, value=0xFFFFFFFF), replace(double, value=0x100000000), replace(double, value=1))
+    yield from (replace(base, words=(*words, 1)), replace(base, words=words[1:] if words else (1,)))
+
+
+def _builds(dialogue: _Dialogue) -> None:
+    for request in dict.fromkeys(_requests(dialogue.bus, dialogue.words)):
+        dialogue.built(request)
+
+
+def _broadcasts(dialogue: _Dialogue) -> None:
+    if dialogue.link.pkw not in of_bus(dialogue.bus).pkw:
+        return
+    for mask in ((6, 0xFFFF, 0, 0), (2, 0xFFFF, 0, 0), (6, 0x0401, 0, 0), (0xFFFF,) * 4):
+        dialogue.sent(mask, dialogue.words)
+    dialogue.sent((6, 0xFFFF, 0, 0), (*dialogue.words, 0))
+
+
+def _replies(dialogue: _Dialogue) -> None:
+    bus, link, words = dialogue.bus, dialogue.link, dialogue.words
+    if link.pkw not in of_bus(bus).pkw or not of_bus(bus).pzd[0] <= link.pzd <= of_bus(bus).pzd[1]:
+        return
+    unit = bus.units[1]
+    tasks = [0] if link.pkw == 0 else sorted(code.number for code in bus.functions)
+    for task in tasks:
+        request = Request(unit, task, 2010, 1)
+        responses = range(16) if task in (0, 1, 2, 3, 6) else (*_answers(bus, task), 7, 8)
+        parts = dict.fromkeys(dialogue.parameter_part(request, response) for response in responses)
+        for part in parts:
+            dialogue.answered(request, telegram(unit, (*part, *words)))
+    request = Request(unit, 0 if link.pkw == 0 else 1, 1082, 0)
+    response = 1 if link.pkw == 3 else 2
+    for data in dict.fromkeys(_spoiled(dialogue, request, response)):
+        dialogue.answered(request, data)
+
+
+def _answers(bus: Bus, task: int) -> tuple[int, ...]:
+    return next(code.answers for code in bus.functions if code.number == task)
+
+
+def _spoiled(dialogue: _Dialogue, request: Request, response: int) -> Iterator[bytes]:
+    """Cut, too long, with other marks, with every single bit turned, and whole telegrams that answer something else."""
+    unit, words = request.unit, (*dialogue.parameter_part(request, response), *dialogue.words)
+    good = telegram(unit, words)
+    yield b""
+    yield from (good[:length] for length in range(1, len(good)))
+    yield from (good, good + b"\x00", good + good, bytes((START ^ 1,)) + good[1:])
+    for bit in range(8 * len(good)):
+        data = bytearray(good)
+        data[bit >> 3] ^= 1 << (bit & 7)
+        yield bytes(data)
+    yield telegram(unit ^ 1, words)
+    yield telegram(unit, (*words, 0))
+    yield telegram(unit, words[1:])
+    yield telegram(unit, ())
+    if dialogue.link.pkw:
+        yield telegram(unit, (words[0] ^ 0x0800, *words[1:]))
+        yield telegram(unit, (words[0] ^ 1, *words[1:]))
+        yield telegram(unit, (words[0], words[1] ^ 0x8000, *words[2:]))
+        yield telegram(unit, (words[0], words[1] ^ 1, *words[2:]))
+        yield telegram(unit, (0x7000 | words[0] & 0x0FFF, words[1], 17, *words[3:]))
+        yield telegram(unit, (0x2000 | words[0] & 0x0FFF, *words[1:3], *dialogue.words))
+        yield telegram(unit, (*words[:2], *dialogue.words))
+
+
+def _printed(lines: Lines, device: Device) -> None:
+    """The manual's examples, each in a whole telegram: parameter parts, process data, masks for all units."""
+    asked: dict[str, tuple[_Dialogue, Request]] = {}
+    bus, unit = device.bus, device.bus.units[0]
+    for one in device.frames:
+        words = _frame_words(one)
+        if one.framing == "pkw" and one.direction == "request":
+            dialogue = _Dialogue(lines, bus, Link(of_frame(one).pkw or VARIABLE, of_bus(bus).pzd[0]))
+            request = replace(_request_of(unit, words, dialogue.link), words=dialogue.words)
+            asked[one.name] = (dialogue, request)
+            dialogue.built(request, one.name)
+        elif one.framing == "pkw" and one.answers in asked:
+            dialogue, request = asked[one.answers]
+            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), one.name)
+        elif one.framing == "pzd":
+            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), one, words)
+        elif one.framing == "broadcast":
+            _Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
+
+
+def _printed_words(dialogue: _Dialogue, one: Frame, words: tuple[int, ...]) -> None:
+    """Words of process data alone: sent without a task, or come without an answer."""
+    request = Request(dialogue.bus.units[0], 0, words=words)
+    if one.direction == "request":
+        dialogue.built(request, one.name)
+    else:
+        empty = (0,) * (3 if dialogue.link.pkw == VARIABLE else dialogue.link.pkw)
+        dialogue.answered(request, telegram(request.unit, (*empty, *words)), one.name)
+
+
+def _frame_words(one: Frame) -> tuple[int, ...]:
+    data = one.corrected
+    return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data) - 1, 2))
+
+
+def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
+    """The request that the words of a parameter part are."""
+    number, pages = words[0], words[1]
+    page = sum((pages >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
+    task, parameter = number >> 12, (number & 0x07FF) + 2000 * page
+    first, second = (*words[2:], 0, 0)[:2]
+    width = _TASK_WIDTHS.get(task, 0)
+    value = (0, second if link.single_last else first, first << 16 | second)[width]
+    return Request(unit, task, parameter, pages & 0xFF, width, value)
+
+
+def limits(lines: Lines, bus: Bus) -> None:
+    """What answers tasks, and how long the parts may be."""
+    own = of_bus(bus)
+    for index, code in enumerate(bus.functions):
+        lines.add("function", index, code.number, None, None, sum(1 << answer for answer in set(code.answers)))
+    add_limits(lines, functions=len(bus.functions), parameter_parts=len(own.pkw))
+    add_limits(lines, broadcast=NO_BROADCAST if bus.broadcast is None else bus.broadcast, no_broadcast=NO_BROADCAST)
+    add_limits(lines, telegram_bytes=_TELEGRAM_BYTES, last_parameter=LAST_PARAMETER)
+    add_limits(lines, least_process_words=own.pzd[0], most_process_words=own.pzd[1])
+
+
+_TELEGRAM_BYTES = 256
+"""The longest telegram that the protocol allows."""

@@ -1,0 +1,17 @@
+"""What somebody asked for on the command line, as the commands hand it on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fieldscribe.conversation.options import Options
+
+_SHARED = ("framing", "unit", "request", "index")
+
+
+def asked(**given: Any) -> Options:
+    """Options, those that only some families have among them."""
+    shared = {name: value for name, value in given.items() if name in _SHARED}
+    return Options(
+        **shared, own={name: given[name] for name in given if name not in _SHARED and given[name] is not None}
+    )

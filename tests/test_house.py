@@ -1,0 +1,146 @@
+"""The house: imports go down, no room knows one above it, and nothing outside a family's folder names a family.
+
+What still breaks it stands in the lists below with the reason. The lists may only shrink: an entry that is no longer
+needed fails, too.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import fieldscribe
+from fieldscribe.families import FAMILIES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+HOUSE = Path(fieldscribe.__file__).parent
+
+ROOMS = (
+    ("words, places, files of the package", "__init__ text names diagnostics kinds reading report resources render"),
+    ("the neutral model", "existence model plain"),
+    ("exact arithmetic", "arithmetic"),
+    ("words for people", "wording"),
+    ("the registry of families", "families families.contract"),
+    ("facts and frames of a family", "families.*"),
+    ("the table of keys", "language.keys"),
+    ("a family's own keys", "families.*.keys"),
+    ("text to nodes", "language"),
+    ("nodes to the model", "resolve"),
+    ("what a family reads of its own keys", "families.*.reading families.*.messages"),
+    ("what compiled languages need alike", "lowered"),
+    ("the registry of targets", "targets targets.identifiers"),
+    ("targets", "targets.*"),
+    ("what a target knows of a family", "families.*.targets"),
+    ("checks", "checks"),
+    ("a family's own checks", "families.*.checks"),
+    ("the table of contents", "pipeline"),
+    ("what talks to people", "conversation audit export"),
+    ("what must be known of a family to talk about it", "families.*.conversation families.*.export"),
+    ("output", "output"),
+    ("the command line", "cli __main__"),
+)
+"""The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""
+
+UPWARDS = {
+    ("resolve.device", "checks.subject"): "the parts of a device are put together as the checks see them",
+}
+"""Imports that go up, with the reason."""
+
+NAMES_A_FAMILY = {
+    "checks.prefixes": "it lists what the C header defines, which the target itself should say",
+    "export": "`can_id` is a key of the published contract",
+    "language.keys.files": "an example of a whole file",
+    "language.keys.meaning": "an example of an enum",
+    "language.keys.places": "examples of whole files and messages",
+}
+"""Modules outside the folders of families that name one, with the reason."""
+
+
+def modules() -> dict[str, Path]:
+    """Every module by its name below the package."""
+    found = {}
+    for path in sorted(HOUSE.rglob("*.py")):
+        parts = list(path.relative_to(HOUSE).with_suffix("").parts)
+        found[".".join(parts[:-1] if parts[-1] == "__init__" and len(parts) > 1 else parts)] = path
+    return found
+
+
+MODULES = modules()
+
+
+def imports(name: str) -> Iterator[str]:
+    """The modules of the package that a module imports, also late and for types alone."""
+    for node in ast.walk(ast.parse(MODULES[name].read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "fieldscribe":
+            source = str(node.module).partition(".")[2]
+            for one in node.names:
+                inner = f"{source}.{one.name}" if source else one.name
+                yield inner if inner in MODULES else source or "__init__"
+
+
+def room_of(name: str) -> int:
+    """The number of the room that a module lies in."""
+    fitting = [
+        (pattern.count("."), "*" not in pattern, number)
+        for number, (_, patterns) in enumerate(ROOMS)
+        for pattern in patterns.split()
+        if re.fullmatch(pattern.replace(".", r"\.").replace("*", r"\w+") + r"(\.\w+)*", name)
+    ]
+    assert fitting, f"{name} lies in no room: say in ROOMS where it belongs"
+    return max(fitting)[2]
+
+
+def named_families(name: str) -> set[str]:
+    """The families that a module names: in imports, in other names, or as a text that is nothing else."""
+    words: set[str] = set()
+    for node in ast.walk(ast.parse(MODULES[name].read_text("utf-8"))):
+        words.update(_identifiers(node))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.fullmatch(r"[\w./-]+", node.value):
+            words.add(node.value)
+    return {family for word in words for family in FAMILIES if _names(word, family)}
+
+
+def _identifiers(node: ast.AST) -> Iterator[str]:
+    for field in ("name", "id", "attr", "arg", "asname"):
+        value = getattr(node, field, None)
+        if isinstance(value, str):
+            yield value
+    if isinstance(node, ast.ImportFrom) and node.module:
+        yield from node.module.split(".")
+
+
+def _names(word: str, family: str) -> bool:
+    """Whether a word has a family in it; `can` stands for one at the beginning only, else it is the verb."""
+    parts = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", word)
+    lowered = [part.lower() for part in parts]
+    return family in (lowered[:1] if family == "can" else lowered)
+
+
+def test_every_import_goes_down() -> None:
+    found = {(name, other) for name in MODULES for other in imports(name) if room_of(other) > room_of(name)}
+    assert found == set(UPWARDS)
+
+
+def test_no_family_knows_another() -> None:
+    for name in MODULES:
+        own = name.split(".")[1] if name.startswith("families.") and name.split(".")[1] in FAMILIES else None
+        others = {other.split(".")[1] for other in imports(name) if other.startswith("families.")} & set(FAMILIES)
+        assert own is None or others <= {own}, name
+
+
+def test_only_its_folder_names_a_family() -> None:
+    outside = [name for name in MODULES if not (name.startswith("families.") and name.split(".")[1] in FAMILIES)]
+    found = {name for name in outside if name != "families" and named_families(name)}
+    assert found == set(NAMES_A_FAMILY)
+
+
+def test_a_word_names_a_family() -> None:
+    assert _names("modbus_view", "modbus")
+    assert _names("CanFrame", "can")
+    assert _names("UssReading", "uss")
+    assert not _names("fixed_bits_can_be_written", "can")
+    assert not _names("discussed", "uss")

@@ -1,0 +1,26 @@
+"""How a bell's own keys are read: how often it may be struck."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.resolve.families import Reading
+
+from toy_family.facts import BellBus
+
+if TYPE_CHECKING:
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Code
+    from fieldscribe.resolve.scope import Scope
+
+
+class BellReading(Reading):
+    """Bells have one fact of their own."""
+
+    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> BellBus:
+        """How often a bell may be struck."""
+        del scope, functions
+        return BellBus(raw.get("strikes", 60))
+
+
+READING = BellReading()

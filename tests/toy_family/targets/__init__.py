@@ -1,0 +1,1 @@
+"""What targets know of bells: the documentation and the vectors do."""

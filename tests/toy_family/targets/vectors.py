@@ -1,0 +1,35 @@
+"""Vectors of strikes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.bus import add_limits
+
+from toy_family.facts import of_bus
+from toy_family.frames import strike
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus, Device
+    from fieldscribe.targets.vectors.lines import Lines
+
+KINDS = {"strike": "unit:int tone:int bytes:bytes"}
+"""What rings each tone."""
+
+
+def limits(lines: Lines, bus: Bus) -> None:
+    """How often a bell may be struck."""
+    add_limits(lines, strikes=of_bus(bus).strikes)
+
+
+def frames(lines: Lines, device: Device) -> None:
+    """Every tone struck once."""
+    for point in device.points:
+        for tone in point.addresses:
+            lines.add("strike", device.bus.units[0], tone, strike(device.bus.units[0], tone))
+
+
+def wires(device: Device) -> tuple[()]:
+    """Points do not travel: a bell only rings."""
+    del device
+    return ()
