@@ -465,7 +465,7 @@ bus: {units: 1..9}
 messages:
 - {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
 - {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
-- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: words}}
+- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}
 telegrams: [{name: cells, direction: cyclic, words: 6, message: cells}]
 parts: [limits.yaml]
 group:

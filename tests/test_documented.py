@@ -28,7 +28,7 @@ documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}
 group: {name: main, space: holding, source: {document: manual, section: "1"}}
 points:
-- {name: energy, at: 10, untyped: "48-bit counter, the high word first", takes: 3}
+- {name: energy, at: 10, untyped: "48-bit counter, the high word first", words: 3}
 - {name: open_size, at: 20, type: ~, unit: W}
 - {name: open_scale, at: 21, scale: ~, type: u32}
 - {name: nowhere, at: ~}
@@ -103,6 +103,9 @@ def test_python_says_why(package: Any, name: str, message: str) -> None:
 
     class Nowhere:
         framing = "rtu"
+
+        def exchange(self, request: bytes) -> bytes:
+            raise AssertionError(request)
 
     drive = package.MadeUp(Nowhere(), 1)
     with pytest.raises(AttributeError) as caught:

@@ -168,7 +168,7 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    row = "points:\n- {name: a, at: 77h, type: f32, word_order: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
     assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 
@@ -408,3 +408,17 @@ def test_points_are_found(device: str, what: str, items: list[str]) -> None:
     """By address, index and printed number."""
     found = dict.fromkeys(match.point.item for match in find(kitchen(device), what))
     assert list(found) == items
+
+
+def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
+    """Whether it is yes or no, or the name of a command."""
+    rows = """  keeps: yes
+points:
+- {name: by_command, at: 1, keep_with: enter}
+- {name: by_itself, at: 2}
+commands:
+- {name: enter, at: 25, function: 06h, value: any}
+"""
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
+    rows = rows.replace("  keeps: yes", "  keep_with: enter").replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]

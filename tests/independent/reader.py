@@ -40,7 +40,7 @@ def read(folder: Path) -> Description:
     parts = [device, *(_load(folder / part) for part in device.get("parts", ()))]
     found = Description(device["family"])
     for part in parts:
-        found.words = part.get("bus", {}).get("words", found.words)
+        found.words = part.get("bus", {}).get("word_order", found.words)
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
     for part in parts:

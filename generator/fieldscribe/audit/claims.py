@@ -11,7 +11,7 @@ from fieldscribe.families import families
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -445,7 +445,7 @@ def _lines(value: Any) -> Iterator[tuple[int, int]]:
     """`780`, `[780, 790]` or `780..790` as spans of lines."""
     for one in value if isinstance(value, Seq) else (value,):
         first, dots, last = str(one).partition("..")
-        yield int(first), int(last) if dots else 0
+        yield parse_integer(first), parse_integer(last) if dots else 0
 
 
 def _numbers(value: Any) -> list[Fraction]:

@@ -17,7 +17,7 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(subject: Subject) -> None:
-    """A telegram whose words no point is, and a rule of addresses that is none, also where no point uses it."""
+    """Findings for a telegram that no point is a word of, and for a rule of addresses that is none."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     for one in subject.resolved:

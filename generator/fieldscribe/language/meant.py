@@ -53,7 +53,7 @@ def _word_hint(key: str, value: Any) -> str | None:
     found = known.get(spelled) or ((bare if bare in TYPE_WORDS else known.get(bare)) if key == "type" else None)
     if found is None:
         return None
-    order = "" if key != "type" or spelled in known else "; the order of words goes under `words`"
+    order = "" if key != "type" or spelled in known else "; the order of words goes under `word_order`"
     return f"write `{key}: {found}`{order}{ALSO.get(found, '') if key == 'type' else ''}"
 
 
@@ -65,7 +65,7 @@ def _type(_: str, value: Any) -> str | None:
     if word in TYPE_WORDS:
         return f"write `type: {word}`"
     if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or re.search("(^|[^a])bcd", word):
-        words = '`untyped: "48-bit counter"` with `takes: 3` words'
+        words = '`untyped: "48-bit counter"` with `words: 3`'
         return f"no type here is like this: leave `type` out and say it in words, as {words}"
     return None
 
@@ -278,6 +278,19 @@ def _bytes(key: str, value: Any) -> str | None:
     return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
 
 
+def _words(_: str, value: Any) -> str | None:
+    """Their order, where their count belongs."""
+    order = _word_hint("word_order", value)
+    return f"write `word_order: {value}`" if value in ("high first", "low first") else order
+
+
+def _keeps(_: str, value: Any) -> str | None:
+    """A command's name."""
+    if not isinstance(value, str) or value.lower() in WORDS["keeps"] or not re.fullmatch("[a-z][a-z0-9_]*", value):
+        return None
+    return f"write no, yes or choice; the command that keeps what is written is named as `keep_with: {value}`"
+
+
 def _group(_: str, value: Any) -> str | None:
     """Its name alone."""
     return f"write `group: {{name: {value}, space: …, source: …}}`" if isinstance(value, str) and value else None
@@ -315,5 +328,7 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
     "family": _family,
     "group": _group,
+    "keeps": _keeps,
+    "words": _words,
 }
 """What makes the hint, by key; words alone stand in the table above."""

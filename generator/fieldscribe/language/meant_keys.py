@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _SCALE = "a scale is one formula: `scale: value = raw {} {}`"
 _SPACE = "the `space` says what is read and written; function codes stand under `functions` of the `bus`"
 _WIDTH = "the `type` says how wide a number is (u16, u32, ...), `characters` how long a text is"
-_ORDER = "the order of words is `words: high first` or `words: low first`; the bytes of a word have one order"
+_ORDER = "the order of words is `word_order: high first` or `word_order: low first`; the bytes of a word have one order"
 _GROUP = "a file holds one group: `group: {name: …, space: …, source: …}` with its `points` beside it; more are `parts`"
 _MEANT: Mapping[str, tuple[str, str]] = {
     word: (ours, hint)
@@ -28,7 +28,8 @@ _MEANT: Mapping[str, tuple[str, str]] = {
         ("range", "both ends are one range: `range: low..high`", "min max minimum maximum min_value max_value"),
         ("type", "", "datatype data_type format encoding_type dtype"),
         ("type", _WIDTH, "size length len count quantity width bytes nwords word_count"),
-        ("words", _ORDER, "byte_order byteorder endianness endian word_order wordorder swap byteswap"),
+        ("words", "", "takes"),
+        ("word_order", _ORDER, "byte_order byteorder endianness endian wordorder swap byteswap words"),
         ("title", "", "description label text desc caption"),
         ("note", "", "comment comments remark remarks info help"),
         ("enum", "", "choices options states map mapping lookup value_map values_map enumeration"),

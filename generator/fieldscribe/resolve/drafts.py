@@ -83,6 +83,14 @@ class Draft:
             return str(words["untyped"])
         return "" if typed is not None and typed["type"] is None else None
 
+    @property
+    def keeps(self) -> str | None:
+        """What happens to a written value, or the command that keeps it: the word of the nearer layer."""
+        kept, command = self.layer("keeps"), self.layer("keep_with")
+        if kept is None or (command is not None and self._rank(command) < self._rank(kept)):
+            return None if command is None else str(command["keep_with"])
+        return str(kept["keeps"])
+
     def _rank(self, layer: Map) -> int:
         """Whose word it is: own facts come before those of formats and of the group."""
         return next((place for place, one in enumerate(self.layers) if one is layer), len(self.layers))

@@ -118,7 +118,7 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
-        keeps=get("keeps") if shape.writable else None,
+        keeps=_keeps(scope, draft) if shape.writable else None,
         conditions=tuple(get("conditions", ())) if shape.writable else (),
         when=existence_of(scope, draft, ranges.bounds.scales),
         since=get("since"),
@@ -204,10 +204,19 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif draft.untyped is None and "takes" in draft.own and not draft.failed & {"type", "untyped"}:
-        hint = "its type says how many words it takes: leave `takes` out"
-        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
+    elif draft.untyped is None and "words" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `words` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("words"), hint)
     return draft.untyped
+
+
+def _keeps(scope: Scope, draft: Draft) -> str | None:
+    """What keeps a written value; a finding where one layer says it twice."""
+    kept, command = draft.layer("keeps"), draft.layer("keep_with")
+    if kept is not None and kept is command:
+        message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
+        scope.report.error("two-meanings", message, kept.key_span("keep_with"), hint)
+    return draft.keeps
 
 
 def _unit(scope: Scope, draft: Draft) -> Unit:

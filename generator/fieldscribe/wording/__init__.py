@@ -220,15 +220,16 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
     return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
 
 
-def default_text(point: Point) -> str:
-    """The factory setting in the unit, or the name of the special code that it is; empty where there is none."""
+def default_text(point: Point, *, unit: bool = True) -> str:
+    """The factory setting, mostly with its unit, or the name of the special code that it is; empty if there is none."""
     raw = point.default_raw
     special = None if raw is None else point.special(raw)
     if special is not None:
         return special.name
-    if point.default is not None:
-        return with_unit(number_text(point.default), point)
-    return "" if raw is None else f"raw {raw}"
+    if point.default is None:
+        return "" if raw is None else f"raw {raw}"
+    number = number_text(point.default)
+    return with_unit(number, point) if unit else number
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:

@@ -166,10 +166,18 @@ USING = (
     Key(
         "keeps",
         _EVERYWHERE,
-        "Whether a written value survives power-off: no, yes (each write wears the memory), by the command of this "
-        "name, or as the caller chooses with each write (`choice`).",
+        "Whether a written value survives power-off: no, yes (each write wears the memory), or as the caller chooses "
+        "with each write (`choice`).",
+        ["yes"],
+        one_of("no", "yes", "choice"),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "keep_with",
+        _EVERYWHERE,
+        "The command that makes a written value survive power-off, in place of `keeps`.",
         ["enter"],
-        Text(80),
+        NAMED,
         inherited=(GROUP, USE),
     ),
     Key(
