@@ -99,7 +99,7 @@ def test_its_names_are_checked(compiler: Compiler) -> None:
     assert (
         "the point `acceleration_time` and the point `acceleration_limit` would both be `ACCELERA` in the panel" in said
     )
-    assert "device.yaml:17:12" in said
+    assert "device.yaml:14:10" in said
     assert "the point `acceleration_time` stands here" in said
     compiler.describe(second="alarm")
     said = " ".join(compiler.run("check", ".").stdout.split())

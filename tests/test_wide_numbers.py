@@ -125,7 +125,7 @@ SURVIVORS = """
 )
 def test_every_raw_number_survives_its_value(scale: str, top: int, bottom: int, offset: int, tmp_path: Path) -> None:
     """What encodes values finds each raw number again, in the steps of all languages; without, it might not."""
-    head = BEYOND[: BEYOND.index("  - {name: a")]
+    head = BEYOND[: BEYOND.index("- {name: a")]
     for exponent, encodes in ((50, True), (53, False)):
         most = (1 << exponent) - 20000
         file = tmp_path / f"{exponent}.yaml"
