@@ -129,7 +129,7 @@ def _by_rule(row: Row, chosen: Mapping[str, int]) -> str:
     if "addressing" not in row or row["at"] in NOTHING:
         return str(row["at"])
     counts = {many: number(row[many]) if is_number(row.get(many, "")) else 1 for many in _CHOICES.values()}
-    names = [counts | chosen | {"number": number(end)} for end in row["at"].split("..")]
+    names = [{**counts, **chosen, "number": number(end)} for end in row["at"].split("..")]
     return "..".join(str(_whole(row["addressing"], one)) for one in names)
 
 
