@@ -46,7 +46,7 @@ points:
 
 _KINDS = (
     "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50, printed: {{wire: {at:04X}h, resolution: 0.1 Hz}}",
-    "format: percent_tenth, default: 12.5",
+    "format: percent_tenth, default_in_units: 12.5",
     "enum: contact, default: 1",
     "type: u32, range: 0..999999, scale: value = raw * 0.01, unit: s",
     "enum: {{0: stopped, 1: running, 2: tripped}}",

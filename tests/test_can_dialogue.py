@@ -473,14 +473,14 @@ space: telegram
 telegram: cells
 source: {document: manual, section: "1"}
 addressing: number + index - 1
-points: [{name: cell, at: {number: 0, indices: 6}}]
+points: [{name: cell, at: 0, indices: 6}]
 ---
 group: limits
 space: parameter
 access: r
 source: {document: manual, section: "2"}
 addressing: 100h * number + index
-points: [{name: limit, at: {number: 1, indices: 2}}]
+points: [{name: limit, at: 1, indices: 2}]
 """
 
 

@@ -203,6 +203,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("space: input_registers", "unknown-space", "write `space: input`"),
         ("format: int16", "unknown-format", "write `type: s16`"),
         ("unit: 10", "wrong-type", "a unit is a symbol such as `Hz`"),
+        ("default: 50.0, scale: value = raw * 0.1", "wrong-type", "`default_in_units: 50.0`"),
         ("default: auto, enum: {0: off, 1: on}", "bad-number", "write a number, or one of off, on"),
         ("enum: {0: off, 1-3: on}", "bad-number", "write a row for each number"),
         ("enum: {0: {name: off, title: Off}}", "unknown-key", "`{name: off, en: Off}`"),
@@ -226,7 +227,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("keeps: eeprom", "wrong-choice", "write `keeps: yes`"),
         ("keeps: enter", "wrong-choice", "is named as `keep_with: enter`"),
         ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
-        ("sets: 4", "wrong-type", "has its address"),
+        ("sets: 4", "missing-key", "`sets: {2: {at: …}}`"),
         ("title: {english: X}", "unknown-key", "write `en`"),
         (
             "keeps: choice",

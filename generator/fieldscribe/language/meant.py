@@ -172,6 +172,12 @@ def _decimals(_: str, value: Any) -> str | None:
     return f"it counts the digits behind the point: write `decimals: {digits}`"
 
 
+def _default(_: str, value: Any) -> str | None:
+    """A value where a raw number belongs."""
+    fraction = isinstance(value, Decimal) and "." in str(value)
+    return f"it is a raw number; a value in the unit is `default_in_units: {value}`" if fraction else None
+
+
 def _source(_: str, value: Any) -> str | None:
     if isinstance(value, str | int | Decimal) and len(str(value)) <= _LONGEST:
         return f'write `source: {{document: …, section: "{value}"}}`'
@@ -181,6 +187,9 @@ def _source(_: str, value: Any) -> str | None:
 def _at(_: str, value: Any) -> str | None:
     if isinstance(value, Seq) and value:
         return f"a point of several words stands once, at its first: write `at: {value[0]}`"
+    if isinstance(value, Map) and value.keys() <= {"number", "sets", "indices", "set", "index"}:
+        beside = ", ".join(f"{key}: {one}" for key, one in value.items() if key != "number")
+        return f"write `at: {value.get('number', '…')}`" + (f", and `{beside}` beside it" if beside else "")
     return None
 
 
@@ -216,11 +225,9 @@ def _index(key: str, value: Any) -> str | None:
 
 
 def _sets(key: str, value: Any) -> str | None:
-    """How many sets there are, where each needs its address."""
-    if isinstance(value, int | Seq):
-        return (
-            f"each set has its address: `{key}: {{2: {{at: …}}}}`; by a rule of the group: `at: {{number: …, sets: 4}}`"
-        )
+    """Sets as a list."""
+    if isinstance(value, Seq):
+        return f"write a count, or each with its row: `{key}: 4`, `{key}: {{2: {{at: …}}}}`"
     return None
 
 
@@ -315,6 +322,7 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "values": _values,
     "steps": _steps,
     "decimals": _decimals,
+    "default": _default,
     "source": _source,
     "at": _at,
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),

@@ -81,8 +81,8 @@ HEADS = (
     Key(
         "addressing",
         GROUP,
-        "How addresses follow from `at: {number: …, sets: …, indices: …}`: a formula of number, index, set, sets, "
-        "indices.",
+        "How addresses follow from `at`, which is the `number`, and what stands beside it: a formula of number, index, "
+        "set, sets, indices.",
         ["number * 64 + (index - 1) * sets + (set - 1)"],
         Text(200),
     ),

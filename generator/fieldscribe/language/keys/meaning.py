@@ -163,12 +163,13 @@ KEYS = (
     Key(
         "default",
         FACTS,
-        "The factory setting in the unit; of an enum also by name.",
-        [50.0, "terminal"],
-        NUMBER,
+        "The factory setting as it travels: a raw number, or the name of an enum's number or of a special code.",
+        [500, "terminal"],
+        Whole(),
         Text(64),
         of=NUMBERS,
     ),
+    Key("default_in_units", FACTS, "The factory setting in the unit.", [50.0], NUMBER, Text(64), of=NUMBERS),
     Key(
         "steps",
         FACTS,

@@ -92,15 +92,6 @@ FORMAT = Place(
     "What a point means, to be shared by name.",
     [{"scale": "value = raw * 0.1", "unit": "%"}],
 )
-AT = Place(
-    "at",
-    "An address by rule, under `at`",
-    "The address on the wire; the words of a text in reading order (`739..732`); where addresses follow a rule, the "
-    "number with its sets and indices; ~ where the manual prints none.",
-    ["1028h", 4136, "739..732", {"number": 543, "sets": 4, "indices": 3}],
-    before=(Whole(), Text(200)),
-    after=(NOTHING,),
-)
 FIXED = Place(
     "fixed",
     "Fixed bits, under `fixed`",
@@ -279,7 +270,7 @@ CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
 """What has a place in the manual beside points."""
 
 PLACES = (
-    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, AT, FIXED, DIGITS, RECORD, CASE, ENTRY),
+    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, RECORD, CASE, ENTRY),
     *(SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
     *(COMMAND, FRAME, ERRATUM),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.kinds import (
+    NOTHING,
     YES_NO,
     Items,
     Key,
@@ -41,7 +42,18 @@ WHICH = (
         NAMED,
         own=True,
     ),
-    Key("at", (POINT, SET, VARIANT, USE, MEMBER), places.AT.shape, own=True),
+    Key(
+        "at",
+        (POINT, SET, VARIANT, USE, MEMBER),
+        "The number on the wire; the words of a text in reading order (`739..732`); in a record counted from its "
+        "`base`; where the group has `addressing`, the number from which its rule starts; ~ where the manual prints "
+        "none.",
+        ["1028h", 4136, "739..732", "base + 6"],
+        Whole(),
+        Text(200),
+        NOTHING,
+        own=True,
+    ),
     Key(
         "members",
         (POINT, USE),
@@ -63,9 +75,39 @@ WHICH = (
     Key(
         "sets",
         POINT,
-        "The same point in further parameter sets, by number; the point itself is in set 1.",
-        [{"2": {"code": "A220", "at": "150Eh"}}],
+        "The parameter sets that the row stands for: a count from 1, or `0..3`, by the rule of the group; or further "
+        "sets by number, each with a row of its own. Each set named here gets `_set_N`; the point's own set is not "
+        "named, and keeps its name.",
+        [4, "0..3", {"2": {"code": "A220", "at": "150Eh"}}],
+        Whole(),
+        Text(40),
         by(forms.SET, SET.shape, least=1),
+        own=True,
+    ),
+    Key(
+        "indices",
+        POINT,
+        "The elements of the array that the row stands for: a count from 1, or `0..1`. Each gets `_index_N`.",
+        [3, "0..1"],
+        Whole(),
+        Text(40),
+        own=True,
+    ),
+    Key(
+        "set",
+        (POINT, VARIANT),
+        "The one set that the row stands for, without a suffix; beside `sets` with rows the point's own set, 1 unless "
+        "said.",
+        [2],
+        Whole(0, 999),
+        own=True,
+    ),
+    Key(
+        "index",
+        (POINT, SET, VARIANT),
+        "The one element of the array that the row stands for, without a suffix.",
+        [1],
+        Whole(0, 65535),
         own=True,
     ),
     Key(
