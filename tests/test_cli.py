@@ -156,7 +156,7 @@ def test_check(run: Callable[..., Result], small: Path) -> None:
     assert "^" in wrong.out
     assert "1 error in 1 file" in wrong.out
     data = json.loads(run("check", "--format", "json").out)
-    assert data["findings"][0]["line"] == 10
+    assert data["findings"][0]["line"] == 9
     assert run("explain", "small_drive", "P1").code == 1
     assert json.loads(run("explain", "small_drive", "P1", "--format", "json").out)["findings"]
 

@@ -118,7 +118,7 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
 
 def test_a_rule_is_about_each_number_under_at(tmp_path: Path) -> None:
     """Also in records, in texts whose words run down, and in sets that have rows of their own."""
-    rows = """  addressing: 1000h + number + (index - 1)
+    rows = """addressing: 1000h + number + (index - 1)
 points:
 - {name: label, at: 7..4, type: text, characters: 8}
 - {name: trip, record: log, at: 10h}

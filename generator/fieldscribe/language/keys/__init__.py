@@ -13,8 +13,6 @@ from fieldscribe.kinds import Items, Place
 from fieldscribe.language.keys import bus, files, frames, meaning, points, within
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from fieldscribe.families.contract import Family
     from fieldscribe.kinds import Key
 
@@ -61,7 +59,7 @@ def needs(place: Place) -> dict[str, list[str]]:
     found = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
     if place.may_be is not None:
         first, *others = required(place.may_be)
-        found |= dict.fromkeys(keys_of(place.may_be), [first]) | {first: others}
+        found |= {name: [first, *found[name]] for name in keys_of(place.may_be)} | {first: others}
     return {name: needed for name, needed in found.items() if needed}
 
 
