@@ -90,8 +90,8 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
         yield from _of_enum(name, entries)
     for file in subject.scope.files:
         for key in ("commands", "messages", "telegrams"):
-            for one in file.get(key, ()):
-                yield from _of_entry(key.removesuffix("s"), one)
+            for entry in file.get(key, ()):
+                yield from _of_entry(key.removesuffix("s"), entry)
         yield from _of_frames(file)
         bus = file.get("bus")
         if isinstance(bus, Map):
@@ -102,26 +102,26 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
 
 def errata_of(subject: Subject) -> Iterator[PrintedErratum]:
     """All errata that name a line."""
-    for one in subject.errata:
-        erratum = one.erratum
+    for cited_erratum in subject.errata:
+        erratum = cited_erratum.erratum
         if erratum.source.line is None:
             continue
-        printed = one.raw.get("printed")
-        lines = one.raw.get("lines")
+        printed = cited_erratum.raw.get("printed")
+        lines = cited_erratum.raw.get("lines")
         others = [place for value in lines.values() for place in _lines(value)] if isinstance(lines, Map) else []
-        cited = (*_lines(one.raw["line"]), *others)
-        taken = frozenset(abs(number) for number in _numbers(one.raw.get("taken")))
-        about = (one.subjects, taken)
+        cited = (*_lines(cited_erratum.raw["line"]), *others)
+        taken = frozenset(abs(number) for number in _numbers(cited_erratum.raw.get("taken")))
+        about = (cited_erratum.subjects, taken)
         if isinstance(printed, Map):
             numbers = [number for key, value in printed.items() for number in _printed_numbers(key, value)]
             yield PrintedErratum(
                 erratum.id, erratum.printed, tuple(numbers), (), cited, *about, told=False, taken_text=erratum.taken
             )
             continue
-        said = str(printed)
-        named = [(int(number), 0) for places in _LINES.findall(said) for number in re.findall("[0-9]+", places)]
-        quoted = tuple(text for text in _QUOTED.findall(said) if len(text) > 1)
-        numbers = _numbers(_LINES.sub("", said))
+        sentence = str(printed)
+        named = [(int(number), 0) for places in _LINES.findall(sentence) for number in re.findall("[0-9]+", places)]
+        quoted = tuple(text for text in _QUOTED.findall(sentence) if len(text) > 1)
+        numbers = _numbers(_LINES.sub("", sentence))
         cited = (*cited, *named)
         yield PrintedErratum(
             erratum.id, erratum.printed, tuple(numbers), quoted, cited, *about, told=True, taken_text=erratum.taken
@@ -131,7 +131,10 @@ def errata_of(subject: Subject) -> Iterator[PrintedErratum]:
 def looked_through_of(subject: Subject) -> set[int]:
     """The lines that the description says hold nothing for it."""
     spans = [
-        span for file in subject.scope.files for one in file.get("looked_through", ()) for span in _lines(one["lines"])
+        span
+        for file in subject.scope.files
+        for passage in file.get("looked_through", ())
+        for span in _lines(passage["lines"])
     ]
     return {line for first, last in spans for line in range(first, max(first, last) + 1)}
 
@@ -216,10 +219,10 @@ def _of_point(point: Point, draft: Draft, enums: Mapping[str, Map], written: Wri
 
 def _codes_of(code: str, written: Written) -> tuple[str, ...]:
     """How a manual writes a code: `P601`, `P 601`, and with the words that it has for the letters."""
-    found = _CODE.fullmatch(code)
-    if found is None:
+    match = _CODE.fullmatch(code)
+    if match is None:
         return (code,)
-    letters, digits = found.groups()
+    letters, digits = match.groups()
     return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in written.code(letters)))
 
 
@@ -264,12 +267,17 @@ def _enum_of(citing: _Citing, point: Point, draft: Draft, enums: Mapping[str, Ma
     enum = point.digits.enum if point.digits else point.enum
     if not _says(draft, key) or enum is None:
         return
-    said = draft.get(key)
-    said = said["enum"] if point.digits else said
-    entries = enums.get(said, {}) if isinstance(said, str) else said
-    own = {number for key, one in entries.items() if isinstance(one, Map) and "line" in one for number in _numbers(key)}
+    enum_as_written = draft.get(key)
+    enum_as_written = enum_as_written["enum"] if point.digits else enum_as_written
+    entries = enums.get(enum_as_written, {}) if isinstance(enum_as_written, str) else enum_as_written
+    cited_themselves = {
+        number
+        for key, entry in entries.items()
+        if isinstance(entry, Map) and "line" in entry
+        for number in _numbers(key)
+    }
     for entry in enum.entries:
-        if entry.raw not in own or entries is said:
+        if entry.raw not in cited_themselves or entries is enum_as_written:
             yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),))
             yield from citing.title(entry.title, "enum")
             for number in _numbers(entry.quantity):
@@ -277,11 +285,11 @@ def _enum_of(citing: _Citing, point: Point, draft: Draft, enums: Mapping[str, Ma
 
 
 def _of_enum(name: str, entries: Map) -> Iterator[Claim]:
-    for key, one in entries.items():
-        if isinstance(one, Map) and "line" in one:
-            citing = _Citing(f"enum {name}", one["line"], None)
+    for key, entry in entries.items():
+        if isinstance(entry, Map) and "line" in entry:
+            citing = _Citing(f"enum {name}", entry["line"], None)
             yield from citing.numbers("enum", str(key), _numbers(key), anchor=True)
-            yield from citing.title({name: str(text) for name, text in one.items() if len(name) == 2})
+            yield from citing.title({name: str(text) for name, text in entry.items() if len(name) == 2})
 
 
 def _says(draft: Draft, key: str) -> bool:
@@ -330,7 +338,7 @@ def _either(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]
 
 
 def _scale_numbers(raw: Any) -> list[Fraction]:
-    texts = [raw] if isinstance(raw, str) else [one["rule"] for one in raw or ()]
+    texts = [raw] if isinstance(raw, str) else [case["rule"] for case in raw or ()]
     return [number for text in texts for number in _numbers(text) if number not in (0, 1)]
 
 
@@ -356,7 +364,7 @@ def _flags(citing: _Citing, point: Point, written: Written) -> Iterator[Claim]:
 
 def _run(point: Point, bit: int) -> tuple[int, int]:
     """The ends of the run of named bits around a bit."""
-    named = {one for flag in point.flags for one in range(flag.low, flag.low + flag.width)}
+    named = {bit for flag in point.flags for bit in range(flag.low, flag.low + flag.width)}
     low = high = bit
     while low - 1 in named:
         low -= 1
@@ -368,8 +376,8 @@ def _run(point: Point, bit: int) -> tuple[int, int]:
 def _printed(citing: _Citing, draft: Draft) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
-        told = [*value.keys(), *value.values()] if key == "pairs" else value
-        for number in _numbers(told):
+        printed_numbers = [*value.keys(), *value.values()] if key == "pairs" else value
+        for number in _numbers(printed_numbers):
             if key == "resolution" and number == 1:
                 continue  # a unit alone says it
             kind = _LINES_OF.get(key, key if key in _OWN_PRINTED else "address")
@@ -377,20 +385,20 @@ def _printed(citing: _Citing, draft: Draft) -> Iterator[Claim]:
             yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words)
 
 
-def _of_entry(kind: str, one: Map) -> Iterator[Claim]:
-    citing = _Citing(f"{kind} {one['name']}", one.get("line"), one.get("lines"))
+def _of_entry(kind: str, entry: Map) -> Iterator[Claim]:
+    citing = _Citing(f"{kind} {entry['name']}", entry.get("line"), entry.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
     for key in ("at", *identifiers, "value", "words", "wears"):
-        for number in _numbers(one.get(key)):
+        for number in _numbers(entry.get(key)):
             yield from citing.numbers(key, str(number), (number,))
-    layout = one.get("layout")
+    layout = entry.get("layout")
     for place, carried in layout.items() if isinstance(layout, Map) else ():
         for number in (*_numbers(place), *_numbers(carried)):
             yield from citing.numbers("layout", str(number), (number,), "bytes")
         first, *last = map(int, _numbers(place))
         for byte in range(first + 1, max(last, default=first)):
             yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True)
-    title = one.get("title")
+    title = entry.get("title")
     yield from citing.title({"en": title} if isinstance(title, str) else title or {})
 
 
@@ -404,33 +412,33 @@ def _of_line(bus: Map) -> Iterator[Claim]:
 
 def _of_codes(kind: str, codes: Any) -> Iterator[Claim]:
     rows: dict[int, list[Fraction]] = {}
-    for key, one in codes.items() if isinstance(codes, Map) else ():
-        if isinstance(one, Map) and "line" in one:
-            rows.setdefault(one["line"], []).extend(_numbers(key))
-    for key, one in codes.items() if isinstance(codes, Map) else ():
-        if isinstance(one, Map):
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map) and "line" in entry:
+            rows.setdefault(entry["line"], []).extend(_numbers(key))
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map):
             name = kind.removesuffix("s")
-            citing = _Citing(f"{name} {key}", one.get("line"), one.get("lines"), f"{name}:{key}")
-            row = rows.get(one.get("line", 0), [])
+            citing = _Citing(f"{name} {key}", entry.get("line"), entry.get("lines"), f"{name}:{key}")
+            row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()  # "9 - 12" is one row
             for number in _numbers(key):
                 yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
             for fact in ("max", "answers", "refusals"):
-                for number in _numbers(one.get(fact)):
+                for number in _numbers(entry.get(fact)):
                     yield from citing.numbers(fact, str(number), (number,))
-            for number in _numbers(one.get("printed", {}).get("bytes")):
+            for number in _numbers(entry.get("printed", {}).get("bytes")):
                 yield from citing.numbers("printed bytes", str(number), (number,))
 
 
 def _of_frames(file: Map) -> Iterator[Claim]:
-    for one in file.get("frames", ()):
-        citing = _Citing(f"frame {one['name']}", one.get("line"), one.get("lines"), f"frame:{one['name']}")
-        digits = "".join(str(one["bytes"]).split()).upper()
+    for frame in file.get("frames", ()):
+        citing = _Citing(f"frame {frame['name']}", frame.get("line"), frame.get("lines"), f"frame:{frame['name']}")
+        digits = "".join(str(frame["bytes"]).split()).upper()
         if citing.usual:
             yield Claim(citing.subject, "bytes", digits, frozenset(), (), citing.others.get("bytes", citing.usual))
-        for number in _numbers(one.get("says")):  # beside the bytes, or not at all
-            told = "printed" in citing.others
-            yield from citing.numbers("says", str(number), (number,), "printed", optional=not told)
+        for number in _numbers(frame.get("says")):  # beside the bytes, or not at all
+            printed_apart = "printed" in citing.others
+            yield from citing.numbers("says", str(number), (number,), "printed", optional=not printed_apart)
 
 
 def _printed_numbers(key: str, value: Any) -> list[Fraction]:
@@ -442,8 +450,8 @@ def _printed_numbers(key: str, value: Any) -> list[Fraction]:
 
 def _lines(value: Any) -> Iterator[tuple[int, int]]:
     """`780`, `[780, 790]` or `780..790` as spans of lines."""
-    for one in value if isinstance(value, Seq) else (value,):
-        first, dots, last = str(one).partition("..")
+    for place in value if isinstance(value, Seq) else (value,):
+        first, dots, last = str(place).partition("..")
         yield int(first), int(last) if dots else 0
 
 
@@ -452,13 +460,13 @@ def _numbers(value: Any) -> list[Fraction]:
     if value is None or isinstance(value, bool):
         return []
     if isinstance(value, Map):
-        return [number for one in value.values() for number in _numbers(one)]
+        return [number for item in value.values() for number in _numbers(item)]
     if isinstance(value, Seq | list | tuple):
-        return [number for one in value for number in _numbers(one)]
-    found = []
+        return [number for item in value for number in _numbers(item)]
+    literals_read = []
     for literal in _LITERAL.findall(str(value).replace("..", " ")):
         try:
-            found.append(parse_number(literal))
+            literals_read.append(parse_number(literal))
         except NumberError:
             continue
-    return found
+    return literals_read

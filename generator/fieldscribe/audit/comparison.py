@@ -30,8 +30,8 @@ def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_te
     manual = Manual(text)
     claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
     errata = list(errata_of(subject))
-    found = Audit(device, manual_name, same_text, len(manual))
-    return _Comparison(manual, claims, errata, looked_through_of(subject), found).run()
+    outcome = Audit(device, manual_name, same_text, len(manual))
+    return _Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
 
 
 class _Comparison:
@@ -43,9 +43,9 @@ class _Comparison:
         claims: list[Claim],
         errata: list[PrintedErratum],
         looked_through: set[int],
-        found: Audit,
+        outcome: Audit,
     ) -> None:
-        self.manual, self.claims, self.errata, self.found = manual, claims, errata, found
+        self.manual, self.claims, self.errata, self.found = manual, claims, errata, outcome
         self.used: set[tuple[int, int]] = set()
         self.taken: dict[str, list[PrintedErratum]] = {}
         for erratum in errata:
@@ -54,7 +54,7 @@ class _Comparison:
         self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
         self.subjects: dict[Extent, dict[str, None]] = {}
         cited = sorted({first for claim in claims for first, _ in claim.cited})
-        self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
+        self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
         self.cited = sorted(self.now)
         self.starts = sorted({self.now[line] for line in cited})
         self.empty = {self._now(line) for line in looked_through}
@@ -82,11 +82,11 @@ class _Comparison:
         if key not in self._extents:
             start = self._now(first)
             if last:
-                found = Extent(start, start + last - first, "lines")
+                extent = Extent(start, start + last - first, "lines")
             else:
                 place = bisect_right(self.starts, start)
-                found = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
-            self._extents[key] = found
+                extent = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
+            self._extents[key] = extent
         return self._extents[key]
 
     def _tokens(self, extent: Extent) -> list[Token]:
@@ -120,8 +120,8 @@ class _Comparison:
         return False
 
     def _stands(self, claim: Claim, extent: Extent) -> bool:
-        there = [self._has(word, extent) for word in claim.words]  # each marks the numbers in it
-        if any(there):
+        word_stands = [self._has(word, extent) for word in claim.words]  # each marks the numbers in it
+        if any(word_stands):
             return True
         if claim.fact == "section":
             return self._lies_in(claim.words[0], extent.first)
@@ -157,9 +157,9 @@ class _Comparison:
         wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
         hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
         self.used.update((token.line, token.column) for token in hits)
-        there = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
-        return all(int(digits[at : at + 2], 16) in there for at in range(0, len(digits), 2)) or all(
-            int(digits[at : at + 4], 16) in there for at in range(0, len(digits), 4)
+        readings = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
+        return all(int(digits[at : at + 2], 16) in readings for at in range(0, len(digits), 2)) or all(
+            int(digits[at : at + 4], 16) in readings for at in range(0, len(digits), 4)
         )
 
     def _nearest(self, claim: Claim, line: int) -> int | None:
@@ -174,13 +174,13 @@ class _Comparison:
         if not erratum.numbers and not erratum.texts:
             self.found.uncheckable += 1
             return
-        cited = [self._extent(*one) for one in erratum.cited]
+        cited = [self._extent(*lines) for lines in erratum.cited]
         extents = cited
         if erratum.told:  # a sentence may speak of what stands around, which does not make that used
             sections = [self.manual.section_of(extent.first) for extent in extents]
             extents = [
-                Extent(min(one.first, two.first), max(one.last, two.last), "section")
-                for one, two in zip(cited, sections, strict=True)
+                Extent(min(extent.first, two.first), max(extent.last, two.last), "section")
+                for extent, two in zip(cited, sections, strict=True)
             ]
         absent = False
         for number in map(abs, erratum.numbers):
@@ -204,8 +204,8 @@ class _Comparison:
 
     def _lacks(self, texts: Iterable[str], extents: list[Extent]) -> bool:
         """Whether one of the texts does not stand in the extents."""
-        there = " ".join(" ".join(self._text(extent) for extent in extents).split())
-        return any(" ".join(one.split()) not in there for one in texts)
+        printed = " ".join(" ".join(self._text(extent) for extent in extents).split())
+        return any(" ".join(text.split()) not in printed for text in texts)
 
     def _lies_in(self, section: str, line: int) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""
@@ -216,13 +216,13 @@ class _Comparison:
 
     def _unused(self) -> None:
         for extent, subjects in self.subjects.items():
-            for line in (one for one in range(extent.first, extent.last + 1) if one not in self.empty):
+            for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
                 for token in self._of_line(line):
                     if (token.line, token.column) not in self.used and token.text not in self.codes:
                         self.used.add((token.line, token.column))
-                        one = Unused(token.line, token.column, token.text, tuple(subjects))
-                        self.found.unused.append(one)
-        self.found.unused.sort(key=lambda one: (one.line, one.column))
+                        unused = Unused(token.line, token.column, token.text, tuple(subjects))
+                        self.found.unused.append(unused)
+        self.found.unused.sort(key=lambda unused: (unused.line, unused.column))
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
@@ -237,7 +237,7 @@ class _Comparison:
         for line in range(1, len(manual) + 1):
             if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
                 self.found.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
-        self.found.uncited.sort(key=lambda one: one.line)
+        self.found.uncited.sort(key=lambda uncited: uncited.line)
 
     def _moved(self, cited: list[int]) -> dict[int, int]:
         """Where each cited line stands in a manual that changed; what moved is noted."""

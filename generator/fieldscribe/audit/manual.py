@@ -86,18 +86,18 @@ class Manual:
     @cached_property
     def _chapters(self) -> set[tuple[str, str]]:
         """The number and title of each chapter in the table of contents."""
-        return {found for text in self.lines if _CONTENTS.search(text) and (found := _chapter(text)) is not None}
+        return {chapter for text in self.lines if _CONTENTS.search(text) and (chapter := _chapter(text)) is not None}
 
     @cached_property
     def numbered(self) -> dict[str, int]:
         """The line of each numbered section."""
-        found: dict[str, int] = {}
+        line_of_number: dict[str, int] = {}
         for number in self.headings:
             text = self.line(number)
             match = _NUMBERED.match(text) or _CHAPTER.match(text)
             if match:
-                found.setdefault(match[1], number)
-        return found
+                line_of_number.setdefault(match[1], number)
+        return line_of_number
 
     @cached_property
     def tokens(self) -> list[list[Token]]:
@@ -107,20 +107,20 @@ class Manual:
     @cached_property
     def lines_of(self) -> dict[Fraction, list[int]]:
         """Where each number stands, in whatever notation."""
-        found: dict[Fraction, list[int]] = {}
+        lines_of_reading: dict[Fraction, list[int]] = {}
         for number, tokens in enumerate(self.tokens, 1):
             for reading in {reading for token in tokens for reading in token.readings}:
-                found.setdefault(reading, []).append(number)
-        return found
+                lines_of_reading.setdefault(reading, []).append(number)
+        return lines_of_reading
 
     @cached_property
     def words(self) -> dict[str, list[int]]:
         """Where each word stands, in small letters."""
-        found: dict[str, list[int]] = {}
+        lines_of_word: dict[str, list[int]] = {}
         for number, text in enumerate(self.lines, 1):
             for word in {match[0].lower() for match in _WORD.finditer(text)}:
-                found.setdefault(word, []).append(number)
-        return found
+                lines_of_word.setdefault(word, []).append(number)
+        return lines_of_word
 
     def lines_with(self, word: str) -> list[int]:
         """The lines that have a word, of a numbered section its heading alone."""
@@ -189,15 +189,15 @@ class Manual:
         if not text.startswith("|"):
             return []
         empty = {place for place, cell in enumerate(text.split("|")) if not cell.strip()}
-        found: list[tuple[int, str]] = []
+        merged: list[tuple[int, str]] = []
         above = number - 1
         while empty and self.line(above).startswith("|") and not _RULE.fullmatch(self.line(above)):
             cells = self.line(above).split("|")
             for place in [place for place in empty if place < len(cells) and cells[place].strip()]:
-                found.append((above, cells[place]))
+                merged.append((above, cells[place]))
                 empty.discard(place)
             above -= 1
-        return found
+        return merged
 
 
 def tokens_of(text: str, number: int) -> list[Token]:
@@ -225,12 +225,12 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
         amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
         return {Fraction(int(bare, 16)), *amount}  # 10A may be ten ampere
     text = match["decimal"]
-    found = set(_decimals(text))
+    readings = set(_decimals(text))
     if text.isdigit() and len(text) in (2, 4, 8):
-        found.add(Fraction(int(text, 16)))
+        readings.add(Fraction(int(text, 16)))
     if set(text) <= {"0", "1"} and len(text) > 1:
-        found.add(Fraction(int(text, 2)))
-    return found
+        readings.add(Fraction(int(text, 2)))
+    return readings
 
 
 def _decimals(text: str) -> set[Fraction]:
@@ -238,12 +238,12 @@ def _decimals(text: str) -> set[Fraction]:
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}
-    found = {Fraction(int(part)) for part in parts}
+    readings = {Fraction(int(part)) for part in parts}
     if len(parts) == 2:
-        found.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
+        readings.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
     if all(len(part) == 3 for part in parts[1:]):
-        found.add(Fraction(int("".join(parts))))
-    return found
+        readings.add(Fraction(int("".join(parts))))
+    return readings
 
 
 def has_word(text: str, word: str) -> bool:

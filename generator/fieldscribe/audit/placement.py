@@ -60,9 +60,12 @@ def placement(
     """Where each cited line stands now, and each that an erratum is about, with the `numbers` printed there."""
     lines = sorted({*cited, *numbers})
     anchors = [_anchors(manual, line, claims.get(line, ()), numbers.get(line, ())) for line in lines]
-    own = [_candidates(line, one) for line, one in zip(lines, anchors, strict=True)]
-    common = [shift for shift, _ in Counter(shift for one in own for shift in one).most_common(_COMMON)]
-    states = [dict.fromkeys((0, *common, *one)) for one in own]
+    own_shifts = [_candidates(line, anchors_of_line) for line, anchors_of_line in zip(lines, anchors, strict=True)]
+    common = [
+        shift
+        for shift, _ in Counter(shift for shifts_of_line in own_shifts for shift in shifts_of_line).most_common(_COMMON)
+    ]
+    states = [dict.fromkeys((0, *common, *shifts_of_line)) for shifts_of_line in own_shifts]
     shifts = _Search(manual, lines, _lengths(lines, cited), anchors).cheapest(states)
     return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
 
@@ -74,9 +77,9 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    found = [_anchor(manual, claim, line) for claim in claims]
-    found += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
-    return [one for one in found if one is not None and one.places]
+    anchors = [_anchor(manual, claim, line) for claim in claims]
+    anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
+    return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
 
 def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
@@ -132,7 +135,7 @@ class _Search:
             least = min(now.values())
             costs = {shift: cost for shift, cost in now.items() if cost <= least + _HOPELESS}
             steps.append(step)
-        shift = min(costs, key=lambda one: (costs[one], abs(one), one), default=0)
+        shift = min(costs, key=lambda shift: (costs[shift], abs(shift), shift), default=0)
         result = []
         for step in reversed(steps):
             result.append(shift)
@@ -153,8 +156,8 @@ class _Search:
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
             at = bisect_left(anchor.places, start_of_cells)
-            there = at < len(anchor.places) and anchor.places[at] < stop
-            lost = not there and not any(low <= start <= high for low, high in anchor.spans)
+            stands = at < len(anchor.places) and anchor.places[at] < stop
+            lost = not stands and not any(low <= start <= high for low, high in anchor.spans)
             count = strong if anchor.weight == _STRONG else weak
             count[0] += lost
             count[1] += 1

@@ -30,7 +30,7 @@ def run_checks(subject: Subject) -> None:
         references_exist,
     )
 
-    own = subject.scope.family.part("checks")
+    family_part = subject.scope.family.part("checks")
     checks: tuple[Callable[[Subject], None], ...] = (
         device_name_is_free.check,
         every_point_has_a_source.check,
@@ -44,7 +44,7 @@ def run_checks(subject: Subject) -> None:
         defaults_are_allowed.check,
         references_exist.check,
         printed_facts_agree.check,
-        *(() if own is None else own.CHECKS),
+        *(() if family_part is None else family_part.CHECKS),
         frames_agree.check,
         errata_are_used.check,
         names_do_not_clash.check,

@@ -21,12 +21,12 @@ def check(subject: Subject) -> None:
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     with_rows: set[int] = set()
-    for one in subject.resolved:
-        group = one.draft.group
+    for resolved in subject.resolved:
+        group = resolved.draft.group
         groups.setdefault(id(group), group)
-        if one.point.space == SPACE or "space" in one.draft.failed:
+        if resolved.point.space == SPACE or "space" in resolved.draft.failed:
             with_words.add(id(group))
-        if one.draft.element is not None:
+        if resolved.draft.element is not None:
             with_rows.add(id(group))
     for key, group in groups.items():
         if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:

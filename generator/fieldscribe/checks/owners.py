@@ -44,15 +44,15 @@ def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
     for group in groups(subject.scope):
         name = str(group["group"])
         yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
-    for one in subject.resolved:
-        yield from _names_of_point(subject, one)
+    for resolved in subject.resolved:
+        yield from _names_of_point(subject, resolved)
     for enum in _enums(subject):
         yield "the enums of generated code", enum.name, enum.thing
 
 
-def _names_of_point(subject: Subject, one: Resolved) -> Iterator[tuple[str, str, Thing]]:
+def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Thing]]:
     """A point under its name, its name in a variant and its former names."""
-    where, point, draft = "generated code", one.point, one.draft
+    where, point, draft = "generated code", resolved.point, resolved.draft
     yield where, point.item, Thing(_point_words(draft), draft.span())
     if point.variant is not None:
         first = subject.index.by_name[point.name][0]
@@ -75,22 +75,24 @@ def _point_words(draft: Draft) -> str:
 def _enums(subject: Subject) -> Iterator[_EnumFound]:
     """The enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
-    for one in subject.resolved:
-        point, draft = one.point, one.draft
+    for resolved in subject.resolved:
+        point, draft = resolved.point, resolved.draft
         if not point.generated or (point.enum is None and point.digits is None):
             continue
         key, enum = ("enum", point.enum) if point.digits is None else ("digits", point.digits.enum)
         if enum is None:
             continue
-        said = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
-        entries: Map = subject.scope.named_enums[said] if isinstance(said, str) else said
+        enum_as_written = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
+        entries: Map = (
+            subject.scope.named_enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
+        )
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
         thing = Thing(f"the enum of `{draft.name}`", draft.span(key))
-        if isinstance(said, str):
-            section = next(file["enums"] for file in subject.scope.files if said in file.get("enums", {}))
-            thing = Thing(f"the enum `{said}`", section.key_span(said))
+        if isinstance(enum_as_written, str):
+            section = next(file["enums"] for file in subject.scope.files if enum_as_written in file.get("enums", {}))
+            thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
         yield _EnumFound(enum.name, thing, entries)
 
 
@@ -160,7 +162,7 @@ class Owners:
 
     def _holder_of_codes(self, codes: Owner) -> Draft:
         """The first point that has codes which many share."""
-        return next(one.draft for one in self._subject.resolved if one.point.shared_codes == codes.name)
+        return next(resolved.draft for resolved in self._subject.resolved if resolved.point.shared_codes == codes.name)
 
 
 def _key_place(holder: object, name: str) -> Span | None:

@@ -19,7 +19,11 @@ def report_missing(subject: Subject, needs: Needs) -> None:
     """One finding for each way to read or write that points outside telegrams need and that is missing."""
     if not subject.bus_is_whole or subject.scope.bus is None:
         return
-    sound = [one.point for one in subject.resolved if one.point.generated and "type" not in one.draft.failed]
+    sound = [
+        resolved.point
+        for resolved in subject.resolved
+        if resolved.point.generated and "type" not in resolved.draft.failed
+    ]
     for count, message, hint in needs(subject, [point for point in sound if point.space != SPACE]):
         if count:
             needed = f"{count} point{'s need' if count > 1 else ' needs'} it"

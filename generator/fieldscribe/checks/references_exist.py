@@ -21,7 +21,7 @@ def check(subject: Subject) -> None:
         keeps = resolved.point.keeps
         if keeps == "choice" and keeps not in known:
             message = f"a {scope.family.name} request cannot choose where the device keeps the value"
-            choosers = " and ".join(one.name for one in families() if one.chooses_memory)
+            choosers = " and ".join(family.name for family in families() if family.chooses_memory)
             hint = (
                 f"write `keeps: yes`, `keeps: no`, or the command that stores; `choice` is for the tasks of {choosers}"
             )

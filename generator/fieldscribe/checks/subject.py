@@ -40,9 +40,9 @@ class Printed:
     right: Callable[[Any], bool] | None = None
     flag: str | None = None
 
-    def fits(self, said: Any) -> bool:
+    def fits(self, stated: Any) -> bool:
         """Whether what an erratum says was taken is what was taken."""
-        return self.right(said) if self.right is not None else same(said, self.taken)
+        return self.right(stated) if self.right is not None else same(stated, self.taken)
 
 
 @dataclass(slots=True)
@@ -94,28 +94,28 @@ class Subject:
         """Where findings go."""
         return self.scope.report
 
-    def disagrees(self, one: Printed) -> None:
+    def disagrees(self, fact: Printed) -> None:
         """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both."""
-        for erratum in self.cited.get(one.about, ()):
-            stated = erratum.printed(one.key)
-            if erratum.raw.get("flag") != one.flag:
+        for erratum in self.cited.get(fact.about, ()):
+            stated = erratum.printed(fact.key)
+            if erratum.raw.get("flag") != fact.flag:
                 continue
-            if stated is None or not same(stated, one.printed):
+            if stated is None or not same(stated, fact.printed):
                 continue
-            erratum.used.add(one.key)
-            said = erratum.raw["taken"].get(one.key) if isinstance(erratum.raw["taken"], Map) else None
-            if said is None or (one.taken is not None and not one.fits(said)):
-                wrong = f"the erratum takes {_shown(said)} for `{one.key}`, the facts say {_shown(one.taken)}"
-                if said is None:
-                    wrong = f"the erratum does not say what was taken for `{one.key}`"
-                hint = f"write `taken: {{{one.key}: {_shown(one.taken)}}}`"
+            erratum.used.add(fact.key)
+            taken = erratum.raw["taken"].get(fact.key) if isinstance(erratum.raw["taken"], Map) else None
+            if taken is None or (fact.taken is not None and not fact.fits(taken)):
+                wrong = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
+                if taken is None:
+                    wrong = f"the erratum does not say what was taken for `{fact.key}`"
+                hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
                 self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
             return
-        named = f"`flag: {one.flag}` and " if one.flag is not None else ""
+        named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
         hint = (
-            f"correct the fact, or explain it: an erratum with {named}`printed: {{{one.key}: {_shown(one.printed)}}}`"
+            f"correct the fact, or explain it: an erratum with {named}`printed: {{{fact.key}: {_shown(fact.printed)}}}`"
         )
-        self.report.error("printed-disagrees", one.message, one.span, hint)
+        self.report.error("printed-disagrees", fact.message, fact.span, hint)
 
 
 def _lost(value: Any) -> bool:
@@ -126,7 +126,7 @@ def same(left: Any, right: Any) -> bool:
     """Whether two printed things are the same: as numbers in any notation, or as text but for blanks and case."""
     if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
         lefts, rights = _listed(left), _listed(right)
-        return len(lefts) == len(rights) and all(same(one, other) for one, other in zip(lefts, rights, strict=True))
+        return len(lefts) == len(rights) and all(same(left, other) for left, other in zip(lefts, rights, strict=True))
     numbers = [_number(left), _number(right)]
     if None not in numbers:
         return numbers[0] == numbers[1]

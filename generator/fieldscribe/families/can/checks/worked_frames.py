@@ -25,23 +25,23 @@ class _Heard:
     parsed: Parsed
 
 
-def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
     """What the frame is; its request is the message that it was read as."""
-    frame = one.frame
+    frame = open_frame.frame
     if len(frame.printed) != LENGTH:
-        return no_frame(subject, one, f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed")
+        return no_frame(subject, open_frame, f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed")
     asked: _Heard | None = None
     if frame.direction == "response":
-        answers_nothing(subject, one)
+        answers_nothing(subject, open_frame)
         before = seen.get(frame.answers or "")
         asked = before.request if before is not None else None
     if identifier_of(frame) is None or (frame.direction == "response" and asked is None):
         return Seen(replace(frame, valid=False))
     tried = _tried(subject, frame, asked)
-    frame, heard = _summed(subject, one, tried)
+    frame, heard = _summed(subject, open_frame, tried)
     fault = _fault(subject, frame, tried, heard, asked)
     if fault is not None or heard is None:
-        return no_frame(subject, one, fault or "")
+        return no_frame(subject, open_frame, fault or "")
     return Seen(frame, heard, _carries(subject, heard, frame))
 
 
@@ -51,7 +51,7 @@ def _fault(
     """Why the frame is no message of the device, or does not answer what was asked."""
     what = f"does not answer `{frame.answers}`" if asked is not None else "is no message of this device"
     if heard is None:
-        faults = {found.parsed.status.replace("_", " ") for found in tried} or {"wrong id"}
+        faults = {heard.parsed.status.replace("_", " ") for heard in tried} or {"wrong id"}
         return f"this {what}: {', '.join(sorted(faults))}"
     low, high = subject.bus.units
     if not low <= heard.unit <= high:
@@ -77,16 +77,16 @@ def _unit(message: Message, number: int, data: bytes, otherwise: int) -> int:
     """The unit that a message is to or from, if it says so."""
     if message.adds_unit:
         return number - message.identifier
-    found = otherwise
+    unit = otherwise
     for role, byte in zip(message.roles, data, strict=True):
         if role.kind == "unit" and role.number == 0:
-            found = byte
-    return found
+            unit = byte
+    return unit
 
 
-def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
+def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
     """The frame with its checksum put right, and what it then is; None if it is none of these messages."""
-    frame, number = one.frame, identifier_of(one.frame)
+    frame, number = open_frame.frame, identifier_of(open_frame.frame)
     for heard in tried:
         if heard.parsed.status == "ok":
             return frame, heard
@@ -97,9 +97,9 @@ def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Fram
         sums = [byte for byte, role in enumerate(heard.message.roles) if role.kind == "xor"]
         for byte in sums:
             data[byte] = checksum(data, heard.message.roles[byte].number)
-        printed, taken = (hex_of(bytes(one[byte] for byte in sums)) for one in (frame.printed, data))
+        printed, taken = (hex_of(bytes(data_bytes[byte] for byte in sums)) for data_bytes in (frame.printed, data))
         message = f"the checksum {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, one.raw.span("bytes"), message))
+        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, open_frame.raw.span("bytes"), message))
         right = bytes(data)
         parsed = parse(heard.message, heard.unit, CanFrame(number, right))
         return replace(frame, corrected=right, valid=False), replace(heard, parsed=parsed)

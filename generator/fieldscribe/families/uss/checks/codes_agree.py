@@ -55,9 +55,9 @@ def _named_back(subject: Subject, bus: Map) -> None:
                 _one_sided(subject, raw.span("answers"), *names, number in tasks)
 
 
-def _one_sided(subject: Subject, span: Span, one: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
+def _one_sided(subject: Subject, span: Span, code: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
     what = "which does not name it back" if exists else "which does not exist"
-    message = f"the {one[0]} {one[1]} names the {other[0]} {other[1]}, {what}"
+    message = f"the {code[0]} {code[1]} names the {other[0]} {other[1]}, {what}"
     hint = "take one of them in both lists, and give what is printed under `printed` with an erratum"
     subject.report.error("codes-disagree", message, span, hint if exists else f"declare it, or leave it out; {hint}")
 
@@ -82,11 +82,11 @@ def _printed(subject: Subject, code: Code, raw: Map, about: str) -> None:
         if key not in printed:
             continue
         taken = sorted(getattr(code, key))
-        said = sorted(code_list(subject.scope, printed, key))
-        if said != taken:
-            message = f"the {key} {_list(said)} are printed for the {about} {code.number}, taken are {_list(taken)}"
-            found = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
-            subject.disagrees(found)
+        codes = sorted(code_list(subject.scope, printed, key))
+        if codes != taken:
+            message = f"the {key} {_list(codes)} are printed for the {about} {code.number}, taken are {_list(taken)}"
+            disagreement = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
+            subject.disagrees(disagreement)
 
 
 def _list(numbers: list[int]) -> str:
