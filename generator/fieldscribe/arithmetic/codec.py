@@ -130,39 +130,39 @@ def check(point: Point, raw: int, settings: Settings) -> None:
         raise CodecError("unknown_value")
     closed = point.enum is not None and point.enum.closed
     if point.least <= raw <= point.greatest:
-        hits = [one for one in windows(point, settings) if one.low <= raw <= one.high]
-        if any(not one.missing for one in hits):
+        hits = [window for window in windows(point, settings) if window.low <= raw <= window.high]
+        if any(not window.missing for window in hits):
             return
         if hits:
-            raise CodecError("missing", (name for one in hits for name in one.missing))
+            raise CodecError("missing", (name for window in hits for name in window.missing))
     raise CodecError("unknown_value" if closed else "out_of_range")
 
 
 def digits(point: Point, raw: int) -> tuple[int, ...]:
     """The decimal digits of a word, the highest first, which takes what is left."""
-    found = []
+    digits = []
     for place in reversed(range(0 if point.digits is None else point.digits.count)):
         digit, raw = divmod(raw, 10**place)
-        found.append(digit)
-    return tuple(found)
+        digits.append(digit)
+    return tuple(digits)
 
 
 def strange_digits(point: Point, raw: int) -> bool:
     """Whether a digit of the word is none of the numbers that it may be."""
-    known = {one.raw for one in point.digits.enum.entries} if point.digits is not None else set()
+    known = {entry.raw for entry in point.digits.enum.entries} if point.digits is not None else set()
     return not known.issuperset(digits(point, raw))
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
     """The intervals in force; all that the bits can hold where there are none. Raises CodecError: `zero_factor`."""
-    found = tuple(_window(one, settings) for one in point.allowed.intervals)
-    return found or (Window(point.least, point.greatest),)
+    windows = tuple(_window(interval, settings) for interval in point.allowed.intervals)
+    return windows or (Window(point.least, point.greatest),)
 
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
     """The quantity (no special code) closest to `raw` that may surely be written; None where nobody knows."""
-    known = [one for one in windows(point, settings) if not one.missing and one.low <= one.high]
-    ends = [end for one in known if point.special(end := min(max(raw, one.low), one.high)) is None]
+    known = [window for window in windows(point, settings) if not window.missing and window.low <= window.high]
+    ends = [end for window in known if point.special(end := min(max(raw, window.low), window.high)) is None]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)
 
 

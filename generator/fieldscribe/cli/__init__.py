@@ -175,9 +175,9 @@ def show_traceback(error: BaseException) -> None:
 
 def _failed(error: Exception) -> int:
     show_traceback(error)
-    said = ascii(str(error)[:200])[1:-1]
+    text = ascii(str(error)[:200])[1:-1]
     print(
-        f"fieldscribe: internal error: {type(error).__name__}: {said}; this is a bug: please report it to the project "
+        f"fieldscribe: internal error: {type(error).__name__}: {text}; this is a bug: please report it to the project "
         "with the command line and the description (FIELDSCRIBE_DEBUG=1 shows where)",
         file=sys.stderr,
     )

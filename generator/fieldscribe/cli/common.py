@@ -178,21 +178,21 @@ def device_file(arguments: Namespace) -> Path:
         raise StopError(
             f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"
         )
-    found = find_devices([path], Report())
-    if not found:
+    devices = find_devices([path], Report())
+    if not devices:
         raise StopError(f"`{asked}` holds no {DEVICE_FILE}", f"name a folder with a {DEVICE_FILE}, or the file itself")
-    if len(found) > 1:
-        names = ", ".join(file.parent.name for file in found[:8])
-        raise StopError(f"`{asked}` holds {len(found)} devices", f"name one of them: {names}")
-    return found[0]
+    if len(devices) > 1:
+        names = ", ".join(file.parent.name for file in devices[:8])
+        raise StopError(f"`{asked}` holds {len(devices)} devices", f"name one of them: {names}")
+    return devices[0]
 
 
 def _roots(arguments: Namespace) -> list[Path]:
-    given: Path | None = arguments.descriptions
-    if given is not None:
-        if not given.is_dir():
-            raise StopError(f"there is no folder `{given}`")
-        return [given]
+    folder: Path | None = arguments.descriptions
+    if folder is not None:
+        if not folder.is_dir():
+            raise StopError(f"there is no folder `{folder}`")
+        return [folder]
     from fieldscribe.resources import descriptions_dir
 
     return [LOCAL, descriptions_dir()]
@@ -201,9 +201,9 @@ def _roots(arguments: Namespace) -> list[Path]:
 def _near(name: str, known: list[str]) -> str:
     from difflib import get_close_matches
 
-    found = get_close_matches(name.lower()[:60], known, 3)
-    if found:
-        return f"did you mean {' or '.join(f'`{one}`' for one in found)}?"
+    names = get_close_matches(name.lower()[:60], known, 3)
+    if names:
+        return f"did you mean {' or '.join(f'`{name}`' for name in names)}?"
     return f"there are {', '.join(known[:20])}" if known else ""
 
 

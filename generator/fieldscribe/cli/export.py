@@ -22,7 +22,7 @@ def _forms() -> tuple[str, ...]:
     """The forms: the model of any device, and what only some families have."""
     from fieldscribe.families import families
 
-    return (_JSON, *(form for one in families() for form in one.exports))
+    return (_JSON, *(form for family in families() for form in family.exports))
 
 
 def add_arguments(parser: ArgumentParser) -> None:

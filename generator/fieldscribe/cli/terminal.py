@@ -40,7 +40,7 @@ def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
         text = ("".join(_styled(style, piece) for style, piece in line) for line in lines)
     else:
         text = ("".join(piece for _, piece in line) for line in lines)
-    stream.writelines(f"{one}\n" for one in text)
+    stream.writelines(f"{line}\n" for line in text)
 
 
 def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) -> None:

@@ -33,7 +33,7 @@ def export_point(
         "index": point.index,
         "addresses": list(point.addresses),
         "references": dict(point.references),
-        "places": [_place(one) for one in places or point.places],
+        "places": [_place(place) for place in places or point.places],
         "type": point.type if point.untyped is None else None,
         "words": point.words,
         "access": point.access,
@@ -49,7 +49,7 @@ def export_point(
         "unit": point.unit.symbol,
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
-        "special": [_special(one) for one in point.specials],
+        "special": [_special(special) for special in point.specials],
         "fixed": {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         "changes": point.changes,
         "together": None,
@@ -57,7 +57,7 @@ def export_point(
         "raw": _raw(point),
         "enum": None if point.enum is None else _names(point.enum),
         "open": _is_open(point.enum),
-        "flags": [_flag(one) for one in point.flags],
+        "flags": [_flag(flag) for flag in point.flags],
         "digits": None if point.digits is None else {"count": point.digits.count, "enum": _names(point.digits.enum)},
         "encoding": None if point.text is None else point.text.encoding,
         "persistence": point.keeps,
@@ -87,11 +87,15 @@ def _default(point: Point) -> int | str | None:
 
 def _condition(condition: Condition) -> dict[str, object]:
     """Any of clauses whose comparisons all hold: of variant axes with names, of points with raw numbers."""
-    return {"any": [{"all": [_comparison(one) for one in clause]} for clause in condition.clauses]}
+    return {"any": [{"all": [_comparison(comparison) for comparison in clause]} for clause in condition.clauses]}
 
 
-def _comparison(one: Comparison) -> dict[str, object]:
-    return {"of": one.of, "is": one.test, "than": list(one.than) if one.test == "in" else one.than[0]}
+def _comparison(comparison: Comparison) -> dict[str, object]:
+    return {
+        "of": comparison.of,
+        "is": comparison.test,
+        "than": list(comparison.than) if comparison.test == "in" else comparison.than[0],
+    }
 
 
 def _place(place: Place) -> dict[str, object]:
@@ -112,13 +116,15 @@ def _raw(point: Point) -> dict[str, object]:
     allowed = point.allowed
     if point.info.floating:
         return {"ranges": [[number_text(low), number_text(high)] for low, high in allowed.units], "values": None}
-    ranges = [[bound_of(one.low, True, point), bound_of(one.high, False, point)] for one in allowed.intervals]
+    ranges = [
+        [bound_of(interval.low, True, point), bound_of(interval.high, False, point)] for interval in allowed.intervals
+    ]
     return {"ranges": ranges, "values": _values(allowed) if allowed.listed else None}
 
 
 def _values(allowed: Allowed) -> list[int] | None:
     """The numbers that the author listed one by one."""
-    spans = [(one.low, one.high) for one in allowed.intervals]
+    spans = [(interval.low, interval.high) for interval in allowed.intervals]
     fixed = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
     if len(fixed) < len(spans) or sum(high - low + 1 for low, high in fixed) > _MOST_VALUES:
         return None
@@ -138,7 +144,7 @@ def _repeat(point: Point) -> str | None:
 
 
 def _names(enum: Enum) -> dict[str, object]:
-    return {str(one.raw): _entry(one) for one in enum.entries}
+    return {str(entry.raw): _entry(entry) for entry in enum.entries}
 
 
 def _entry(entry: Entry) -> dict[str, object]:
@@ -147,7 +153,9 @@ def _entry(entry: Entry) -> dict[str, object]:
 
 def _flag(flag: Flag) -> dict[str, object]:
     """One flag. A single bit without words for its numbers names the one that makes it true."""
-    values = {str(one.raw): {"name": one.name, "title": dict(one.title)} for one in flag.values}
+    values = {
+        str(flag_value.raw): {"name": flag_value.name, "title": dict(flag_value.title)} for flag_value in flag.values
+    }
     if not values and flag.width == 1:
         values = {str(flag.active): {"name": flag.name, "title": dict(flag.title)}}
     return {"bits": [flag.low + flag.width - 1, flag.low], "name": flag.name, "values": values}

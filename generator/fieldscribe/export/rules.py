@@ -102,19 +102,19 @@ def _use(factor: Factor, part: str, kind: str, sign: int) -> dict[str, object]:
 
 
 def _unsayable(factor: Factor) -> ExportError:
-    said = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
-    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({said})")
+    inner = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
+    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({inner})")
 
 
 def _limit(rule: Linear) -> str:
     """The rule applied to 1, as an expression of exact arithmetic."""
-    above = [_factor(one) for one in rule.factors if one.power > 0]
-    below = [_factor(one) for one in rule.factors if one.power < 0]
+    above = [_factor(factor) for factor in rule.factors if factor.power > 0]
+    below = [_factor(factor) for factor in rule.factors if factor.power < 0]
     if rule.ratio.numerator != 1 or not above:
         above.append(str(rule.ratio.numerator))
     if rule.ratio.denominator != 1:
         below.append(str(rule.ratio.denominator))
-    text = " * ".join(above) + "".join(f" / {one}" for one in below)
+    text = " * ".join(above) + "".join(f" / {factor}" for factor in below)
     if rule.offset:
         text += f" {'+' if rule.offset > 0 else '-'} {abs(rule.offset.numerator)}"
         text += f" / {rule.offset.denominator}" if rule.offset.denominator != 1 else ""

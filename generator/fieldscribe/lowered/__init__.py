@@ -29,10 +29,10 @@ class Lowered:
 
     def rule(self, linear: Linear) -> Rule:
         """A rule with what is known of its factors; many points share it."""
-        found = self._rules.get(linear)
-        if found is None:
-            found = self._rules[linear] = rule_of(linear, self.points)
-        return found
+        lowered = self._rules.get(linear)
+        if lowered is None:
+            lowered = self._rules[linear] = rule_of(linear, self.points)
+        return lowered
 
 
 _kept: list[Lowered] = []

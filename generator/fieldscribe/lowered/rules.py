@@ -62,7 +62,7 @@ class Rule:
     @property
     def coded(self) -> tuple[tuple[str, Band], ...]:
         """The special codes for which nothing can be computed, with the point that holds them."""
-        by_point = {one.point: one.codes for one in self.operands}
+        by_point = {operand.point: operand.codes for operand in self.operands}
         return tuple((name, band) for name, codes in by_point.items() for band in codes)
 
 

@@ -171,8 +171,8 @@ class Bus:
 
     def codes(self, section: str) -> tuple[Code, ...]:
         """The numbered codes under a key of `bus`, whether all families have it or this one alone."""
-        found: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
-        return found
+        codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
+        return codes
 
     @property
     def usual_unit(self) -> int:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     """Write the rule, whole or not at all. Raises OSError."""
-    made = " ".join(map(_escaped, outputs))
+    outputs_escaped = " ".join(map(_escaped, outputs))
     needed = " \\\n  ".join(map(_escaped, inputs))
-    _put(Path(os.path.realpath(place)), f"{made}: {needed}\n".encode("utf-8", "surrogateescape"))
+    _put(Path(os.path.realpath(place)), f"{outputs_escaped}: {needed}\n".encode("utf-8", "surrogateescape"))
 
 
 def _escaped(path: Path) -> str:

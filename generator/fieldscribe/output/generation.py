@@ -51,8 +51,8 @@ class Generation:
 
     def list_outputs(self) -> None:
         """Note what there would be."""
-        for device, made in self._made():
-            self.result.wanted.update(_paths(device, made))
+        for device, files in self._made():
+            self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
         """Note what is stale. What was current when it was read has to be so at the end, or somebody is writing."""
@@ -60,9 +60,9 @@ class Generation:
         from fieldscribe.output.plan import changed_since, plan_of
 
         manifests, result = Manifests(self.out), self.result
-        for device, made in self._made():
-            plan = plan_of(self.out, manifests, device.id, made)
-            result.wanted.update(_paths(device, made))
+        for device, files in self._made():
+            plan = plan_of(self.out, manifests, device.id, files)
+            result.wanted.update(_paths(device, files))
             result.stale.update(plan.stale)
             result.kept.update(plan.kept)
             result.states.update(plan.unchanged)
@@ -85,14 +85,14 @@ class Generation:
         from fieldscribe.output.writing import carry_out
 
         manifests, result = Manifests(self.out), self.result
-        for device, made in self._made():
-            plan = plan_of(self.out, manifests, device.id, made, force=force)
+        for device, files in self._made():
+            plan = plan_of(self.out, manifests, device.id, files, force=force)
             if plan.refused:
                 self._report_refused(plan)
                 continue
             result.states.update(carry_out(self.out, manifests, plan))
             result.digests.update(plan.digests)
-            result.wanted.update(_paths(device, made))
+            result.wanted.update(_paths(device, files))
             result.written.update(plan.write)
             result.removed.update(plan.remove)
             result.kept.update(plan.kept)
@@ -106,21 +106,21 @@ class Generation:
             if unknown := [target for target in self.targets if not knows(target, device)]:
                 self._report_unknown(device_file, device, unknown)
                 continue
-            made: Made = {target: {} for target in self.targets}
+            files: Made = {target: {} for target in self.targets}
             try:
                 for target, path, text in outputs(device, self.targets):
-                    made[target][path] = text.encode()
+                    files[target][path] = text.encode()
             except (TargetError, UnicodeEncodeError) as error:
                 where = f"target {error}" if isinstance(error, TargetError) else "a text"
                 self._report_bug(device_file, where, error.__cause__ or error)
                 continue
-            yield device, made
+            yield device, files
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):
             removable = not (self.out / path).is_dir()
-            way = "move it away, or replace it with `--force`" if removable else "move it away"
-            hint = f"{way}; nothing of {plan.device} was written"
+            advice = "move it away, or replace it with `--force`" if removable else "move it away"
+            hint = f"{advice}; nothing of {plan.device} was written"
             place = Span(shown(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 
@@ -134,15 +134,15 @@ class Generation:
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """An internal error is a finding of its device."""
         self.debug(error)
-        said = f"{type(error).__name__}: {str(error)[:120]}"
-        message = f"internal error in {where}: {said}; nothing of this device was written"
+        bug = f"{type(error).__name__}: {str(error)[:120]}"
+        message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
         self.report.error("internal-error", message, Span(shown(device_file), 1, 1), hint)
 
 
-def _paths(device: Device, made: Made) -> Iterator[str]:
+def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:
     from fieldscribe.output.manifests import manifest_path
 
     yield manifest_path(device.id)
-    for files in made.values():
+    for files in files_of_targets.values():
         yield from files

@@ -39,7 +39,7 @@ for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"
 @contextmanager
 def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE) -> Iterator[None]:
     """No other run writes to the folder meanwhile. `waiting` is told once if there is one. Raises OSError."""
-    made = not out.is_dir()
+    created = not out.is_dir()
     place = out / NAME
     handle = _acquired(place, waiting, patience)
     try:
@@ -47,13 +47,13 @@ def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE)
             yield
     finally:
         _release(place, handle)
-        if made:
+        if created:
             with suppress(OSError):
                 out.rmdir()  # nothing was written
 
 
 def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
-    start, told, vanished = time.monotonic(), False, 0
+    start, has_told, vanished = time.monotonic(), False, 0
     while True:
         try:
             handle = _tried(place)
@@ -67,9 +67,9 @@ def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
         if waited > patience:
             message = f"another run has been writing there for {patience:.0f} seconds"
             raise TimeoutError(errno.ETIMEDOUT, message, str(place.parent))
-        if waited > _TELL_AFTER and not told:
+        if waited > _TELL_AFTER and not has_told:
             waiting()
-            told = True
+            has_told = True
         time.sleep(_PAUSE)
 
 

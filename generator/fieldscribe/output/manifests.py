@@ -80,8 +80,8 @@ def carries_head(device: str, data: bytes) -> bool:
 
 def made_of(data: bytes) -> str | None:
     """The device that a text says it was made of, if it says so."""
-    found = _MADE_OF.search(data[:_HEAD_BYTES])
-    return None if found is None else found[1].decode()
+    match = _MADE_OF.search(data[:_HEAD_BYTES])
+    return None if match is None else match[1].decode()
 
 
 def manifest_path(device: str) -> str:

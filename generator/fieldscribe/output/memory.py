@@ -53,7 +53,7 @@ class Memory:
             memory = json.loads(content.data)
             inputs: dict[str, str] = memory["inputs"]
             outputs: dict[str, Any] = memory["outputs"]
-            if memory["compiler"] != self._compiler or not all(_holds(*one) for one in inputs.items()):
+            if memory["compiler"] != self._compiler or not all(_holds(*entry) for entry in inputs.items()):
                 return None
             young = [path for path, left in outputs.items() if self._changed(path, left["state"], content.state[2])]
             if not all(_holds(self._out / path, outputs[path]["sha256"]) for path in young):

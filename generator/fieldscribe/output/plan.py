@@ -48,9 +48,9 @@ class Plan:
     @property
     def digests(self) -> dict[str, str]:
         """The checksums of the files, and of the manifest."""
-        found = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
+        digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
         text = manifest_text(self.device, self.targets)
-        return {**found, manifest_path(self.device): sha256(text.encode()).hexdigest()}
+        return {**digest_of_path, manifest_path(self.device): sha256(text.encode()).hexdigest()}
 
     @property
     def stale(self) -> list[str]:
@@ -58,18 +58,19 @@ class Plan:
         return sorted({*self.write, *self.remove, *self.refused})
 
 
-def plan_of(out: Path, manifests: Manifests, device: str, made: Made, *, force: bool = False) -> Plan:
+def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made, *, force: bool = False) -> Plan:
     """What writing these targets of a device would change; with `force` files of others may be replaced."""
     before = manifests.of(device)
     now: Targets = {
-        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()} for target, files in made.items()
+        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()}
+        for target, files in files_of_targets.items()
     }
     plan = Plan(device, {**before, **now}, manifest_text(device, _both(before, now)).encode())
     planner = _Planner(out, manifests, plan, force)
-    for files in made.values():
+    for files in files_of_targets.values():
         for path, data in files.items():
             planner.add(path, data)
-    planner.add_left_over(made)
+    planner.add_left_over(files_of_targets)
     planner.add(manifest_path(device), manifest_text(device, plan.targets).encode())
     return plan
 
@@ -116,13 +117,13 @@ class _Planner:
         else:
             self._plan.refused[path] = reason
 
-    def add_left_over(self, made: Made) -> None:
+    def add_left_over(self, files_of_targets: Made) -> None:
         """Files that an earlier run wrote for these targets, that nobody wants now and nobody else shares."""
         device = self._plan.device
-        wanted = {path for files in made.values() for path in files}
-        known = {path for target in made for path in self._manifests.of(device).get(target, ())}
+        wanted = {path for files in files_of_targets.values() for path in files}
+        known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
         for path in sorted(known - wanted):
-            if not self._manifests.is_shared(path, device, made) and os.path.lexists(self._out / path):
+            if not self._manifests.is_shared(path, device, files_of_targets) and os.path.lexists(self._out / path):
                 (self._plan.remove if self._is_ours(path) else self._plan.kept).append(path)
 
     def _is_ours(self, path: str) -> bool:

@@ -97,7 +97,7 @@ def meaning_text(point: Point, raw: int) -> str:
     if special is not None:
         return special.name
     if point.enum is not None:
-        return next((one.name for one in point.enum.entries if one.raw == raw), "")
+        return next((entry.name for entry in point.enum.entries if entry.raw == raw), "")
     return "" if point.scale is None and not point.unit.symbol else with_unit(value_text(point, raw), point)
 
 
@@ -197,9 +197,9 @@ def special_meaning(special: Special) -> str:
 def codes_text(point: Point, mark: str = "") -> str:
     """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
     named = []
-    for one in point.specials:
-        written = " (may be written)" if one.writable and point.writable else ""
-        named.append(f"{mark}{special_numbers(one, point.width)}{mark} {mark}{one.name}{mark}{written}")
+    for special in point.specials:
+        written = " (may be written)" if special.writable and point.writable else ""
+        named.append(f"{mark}{special_numbers(special, point.width)}{mark} {mark}{special.name}{mark}{written}")
     return f"Special code{'s' if len(named) > 1 else ''}: {', '.join(named)}" if named else ""
 
 
@@ -265,7 +265,7 @@ def keeps_text(device: Device, point: Point) -> str:
         return "by the task that writes it: RAM alone, or EEPROM too"
     if point.keeps in ("no", "yes"):
         return "no, lost when switched off" if point.keeps == "no" else "yes, each write wears the memory"
-    command = next((one for one in device.commands if one.name == point.keeps), None)
+    command = next((command for command in device.commands if command.name == point.keeps), None)
     if command is None:
         return f"by {point.keeps}"
     value = "any value" if command.value is None else str(command.value)

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 def limits(bus: Bus | None) -> dict[str, object]:
     """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
-    own = CanBus() if bus is None else of_bus(bus)
-    return {"bitrate": own.bitrate, "identifier_bits": own.identifier_bits}
+    can_bus = CanBus() if bus is None else of_bus(bus)
+    return {"bitrate": can_bus.bitrate, "identifier_bits": can_bus.identifier_bits}
 
 
 def export(form: str, device: Device, unit: int | None) -> bytes:

@@ -61,14 +61,14 @@ class DbcMessage:
 
 def messages_of(device: Device, unit: int) -> list[DbcMessage]:
     """The messages of a database for one unit. Raises ExportError."""
-    found: dict[tuple[int, bool], list[Message]] = {}
+    by_identifier: dict[tuple[int, bool], list[Message]] = {}
     for message in device.messages:
-        found.setdefault((message.identifier, message.adds_unit), []).append(message)
+        by_identifier.setdefault((message.identifier, message.adds_unit), []).append(message)
     shorts: set[str] = set()
-    messages = [_message(device, unit, group) for group in found.values()]
-    for one in messages:
-        one.short = _own(one.name, shorts, _MOST_NAME)
-    return messages
+    dbc_messages = [_message(device, unit, group) for group in by_identifier.values()]
+    for dbc_message in dbc_messages:
+        dbc_message.short = _own(dbc_message.name, shorts, _MOST_NAME)
+    return dbc_messages
 
 
 def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
@@ -89,8 +89,8 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
     for message in group:
         switch = None if selector is None else ("message", message.roles[selector].number)
         result.signals += [
-            one if one.switch is not None else replace(one, switch=switch)
-            for one in _signals(device, message, unit, skip=selector)
+            signal if signal.switch is not None else replace(signal, switch=switch)
+            for signal in _signals(device, message, unit, skip=selector)
         ]
     result.signals = _named(result.signals)
     return result
@@ -128,7 +128,7 @@ def _signals(device: Device, message: Message, unit: int, skip: int | None) -> I
             units = (unit, unit) if message.adds_unit else device.bus.units
             yield _number(device, message, kind, places, units)
         elif kind == "multiplexer":
-            telegram = next((one for one in device.telegrams if one.message == message.name), None)
+            telegram = next((candidate for candidate in device.telegrams if candidate.message == message.name), None)
             slots = -(-telegram.words // message.words) if telegram is not None and message.words else 256
             yield Signal(f"{message.name}_multiplexer", 8 * places[0] + 7, 8, greatest=str(slots - 1), switches=True,
                          comment="Which words of the telegram follow")  # fmt: skip
@@ -140,7 +140,9 @@ def _signals(device: Device, message: Message, unit: int, skip: int | None) -> I
 def _fields(roles: Sequence[Role], skip: int | None) -> Iterator[tuple[str, list[int]]]:
     """Runs of bytes of one kind, without words."""
     places = [place for place in range(len(roles)) if place != skip and roles[place].kind != "word"]
-    for (kind, _), run in groupby(enumerate(places), lambda one: (roles[one[1]].kind, one[1] - one[0])):
+    for (kind, _), run in groupby(
+        enumerate(places), lambda numbered: (roles[numbered[1]].kind, numbered[1] - numbered[0])
+    ):
         yield kind, [place for _, place in run]
 
 
@@ -220,7 +222,7 @@ def _points(device: Device, telegram: Telegram) -> Iterator[Point]:
         if point.telegram != telegram.name or not point.addresses:
             continue
         facts = ("addresses", "type", "bits", "unit", "scale", "enum")
-        if point.name in seen and all(getattr(point, one) == getattr(seen[point.name], one) for one in facts):
+        if point.name in seen and all(getattr(point, fact) == getattr(seen[point.name], fact) for fact in facts):
             continue
         seen[point.name] = point
         yield point
@@ -255,14 +257,17 @@ def _named(signals: list[Signal]) -> list[Signal]:
     """Each signal with a name and a short name of its own; those that others are selected by come first."""
     names: set[str] = set()
     shorts: set[str] = set()
-    return [replace(one, name=_own(one.name, names), short=_own(one.name, shorts, _MOST_NAME)) for one in signals]
+    return [
+        replace(signal, name=_own(signal.name, names), short=_own(signal.name, shorts, _MOST_NAME))
+        for signal in signals
+    ]
 
 
 def _own(name: str, taken: set[str], most: int | None = None) -> str:
     """The name, no longer than the format allows, with a number behind it if another has it."""
-    own, count = name[:most], 1
-    while own in taken:
+    free_name, count = name[:most], 1
+    while free_name in taken:
         count += 1
-        own = f"{name[: None if most is None else most - 1 - len(str(count))]}_{count}"
-    taken.add(own)
-    return own
+        free_name = f"{name[: None if most is None else most - 1 - len(str(count))]}_{count}"
+    taken.add(free_name)
+    return free_name
