@@ -50,8 +50,8 @@ TARGETS = (
 def target(name: str) -> Target:
     """The target of that name; its module is imported when first asked for."""
     module: Any = import_module(f"fieldscribe.targets.{name}")
-    made: Target = module
-    return made
+    target_module: Target = module
+    return target_module
 
 
 def knows(name: str, device: Device) -> bool:

@@ -30,9 +30,9 @@ def comment_lines(point: Point, scope: HeaderScope, remark: str = "") -> tuple[s
     name = point.item.replace("_", " ")
     head = f"{point.code} {name}" if point.code else name
     words = c_comment(f"{head}: {'; '.join((*_facts(point, scope), *([remark] if remark else [])))}").split(" ")
-    one = f"/* {' '.join(words)} */"
-    if len(one) <= WIDTH:
-        return (one,)
+    single_line = f"/* {' '.join(words)} */"
+    if len(single_line) <= WIDTH:
+        return (single_line,)
     return ("/*", *filled(words, " ", " * "), " */")
 
 
@@ -50,7 +50,7 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
         yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
-    errata = [one for one in point.errata if one in scope.errata]
+    errata = [erratum for erratum in point.errata if erratum in scope.errata]
     if errata:
         yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
 

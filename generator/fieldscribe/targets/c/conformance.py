@@ -68,12 +68,12 @@ _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor
 
 
 def conformance_view(
-    device: Device, view: DeviceView, scope: HeaderScope, more: Iterable[tuple[str, str]]
+    device: Device, view: DeviceView, scope: HeaderScope, cases_of_family: Iterable[tuple[str, str]]
 ) -> SuiteView:
     """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
     named = frames_of(device).NAMED_CODES
     extra: dict[str, list[str]] = {}
-    for function, case in more:
+    for function, case in cases_of_family:
         extra.setdefault(function, []).append(case)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
@@ -83,23 +83,27 @@ def conformance_view(
         if blocks
     )
     return SuiteView(
-        structs=tuple(one for point in points for one in _structs(point, scope)),
+        structs=tuple(struct for point in points for struct in _structs(point, scope)),
         adapters=tuple(_adapter(point, views[point.item], scope, extra) for point in points),
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, one.space, f"{scope.upper}_{upper(one.item)}", one.index is not None)
-            for one in device.points
-            if one.raw_only and one.address is not None
+            (point.item, point.space, f"{scope.upper}_{upper(point.item)}", point.index is not None)
+            for point in device.points
+            if point.raw_only and point.address is not None
         ),
         names=tuple(kind for kind, codes in _code_kinds(device) if codes and kind in named),
         commands=tuple(
-            (one.name, f"{scope.prefix}_command_{one.name}", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
-            for one in device.commands
+            (
+                command.name,
+                f"{scope.prefix}_command_{command.name}",
+                f"{scope.upper}_COMMAND_{upper(command.name)}_VALUE",
+            )
+            for command in device.commands
         ),
-        telegrams=tuple(one.name for one in device.telegrams),
+        telegrams=tuple(telegram.name for telegram in device.telegrams),
     )
 
 

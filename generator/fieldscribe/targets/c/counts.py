@@ -36,12 +36,12 @@ def raw_of_count(plan: Plan) -> str:
     if add == 0:
         numbers = Numbers(*plan.counts, factor, divisor)
         narrow, wide = ("(int32_t)count", "count") if plan.count_wide else ("count", "(int64_t)count")
-        found = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
+        quotient = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
     else:
         numbers = _numerators(plan.counts, plan.to_raw)
-        found = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
-        found = found or _quotient(line, numbers, wide=True)
-    return found or f"fieldscribe_divide({line}, {divisor})"
+        quotient = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
+        quotient = quotient or _quotient(line, numbers, wide=True)
+    return quotient or f"fieldscribe_divide({line}, {divisor})"
 
 
 def _numerators(ends: tuple[int, int], line: Line) -> Numbers:
@@ -61,10 +61,10 @@ def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
     tail, bits = "_wide" if wide else "", numbers.den.bit_length() - 1
     if numbers.den == 1 << bits and numbers.size * numbers.num + numbers.den <= most:
         return f"fieldscribe_halves{tail}({linear(number, numbers.num, 0, '')}, {bits}U)"
-    found = reciprocal(numbers, most)
-    if found is None:
+    factors = reciprocal(numbers, most)
+    if factors is None:
         return ""
-    much, little, fine, shift = found
+    much, little, fine, shift = factors
     return f"fieldscribe_nearly{tail}({number}, {much}, {little}, {fine}U, {shift}U)"
 
 

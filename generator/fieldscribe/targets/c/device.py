@@ -33,10 +33,10 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
             continue
-        one = point_view(point, scope)
-        by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
+        shown = point_view(point, scope)
+        by_group.setdefault(point.group, []).append((shown, RemarkView(point.item, (), ())))
         for old, item in old_items(point):
-            aliases += _aliases(point, one, AliasView(old, item, one.item), scope)
+            aliases += _aliases(point, shown, AliasView(old, item, shown.item), scope)
     groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
     view = DeviceView(
         head=head_lines(device),
@@ -48,9 +48,9 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         version=device.version,
         digest=device.digest[:16],
         telegrams=tuple(
-            TelegramView(one.name, name, number, f"{name}_WORDS", one.words)
-            for number, one in enumerate(device.telegrams)
-            for name in (f"{scope.upper}_TELEGRAM_{upper(one.name)}",)
+            TelegramView(telegram.name, name, number, f"{name}_WORDS", telegram.words)
+            for number, telegram in enumerate(device.telegrams)
+            for name in (f"{scope.upper}_TELEGRAM_{upper(telegram.name)}",)
         ),
         groups=groups,
         aliases=tuple(aliases),

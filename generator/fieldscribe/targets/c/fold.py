@@ -30,5 +30,5 @@ def _parts(line: str) -> list[str]:
 def _break(line: str, most: int) -> int:
     """The last space up to there that is in no string, behind what the line starts with; 0 when there is none."""
     start = len(line) - len(line.lstrip())
-    spaces = [found.start() for found in _WHOLE.finditer(line, start) if found[0] == " "]
+    spaces = [match.start() for match in _WHOLE.finditer(line, start) if match[0] == " "]
     return max((at for at in spaces if at <= most), default=0)

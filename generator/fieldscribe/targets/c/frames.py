@@ -94,25 +94,25 @@ def places_of(point: Point) -> list[int]:
 
 def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Iterator[Named]:
     """The identifiers of layouts, and of the descriptors of points."""
-    yield Owner("target", "the layouts of points in words"), [one.name for one in layouts]
-    for one in others:
-        yield Owner("point", one.item), (one.name,)
+    yield Owner("target", "the layouts of points in words"), [layout.name for layout in layouts]
+    for described in others:
+        yield Owner("point", described.item), (described.name,)
 
 
 def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: HeaderScope) -> tuple[AliasView, ...]:
     """The descriptors of renamed points by the names that they had."""
     renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
     return tuple(
-        AliasView(old, item, one.item, f"{scope.prefix}_{item}{one.tail}", one.name, "OBJECT")
-        for one in descriptors
-        for old, item in renamed.get(one.item, ())
+        AliasView(old, item, descriptor.item, f"{scope.prefix}_{item}{descriptor.tail}", descriptor.name, "OBJECT")
+        for descriptor in descriptors
+        for old, item in renamed.get(descriptor.item, ())
     )
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
     """The identifiers of old names, with the points that had them."""
-    for one in aliases:
-        yield Owner("old name", one.was, Owner("point", one.item)), (one.old,)
+    for alias in aliases:
+        yield Owner("old name", alias.was, Owner("point", alias.item)), (alias.old,)
 
 
 def _mask(point: Point) -> int:
@@ -145,7 +145,7 @@ def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, s
     )
 
 
-def names_of_exceptions(device: Device, made: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
+def names_of_exceptions(device: Device, defines: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
     """The enumerators of the codes with which a device refuses."""
-    for code, (name, _, _) in zip(device.bus.exceptions, made, strict=True):
+    for code, (name, _, _) in zip(device.bus.exceptions, defines, strict=True):
         yield Owner("exception", code.name), (name,)

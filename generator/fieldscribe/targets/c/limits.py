@@ -50,7 +50,7 @@ def checked(point: Point, name: str, low: int, high: int) -> str:
 def _status(point: Point, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
-        parts = [_between(one, point, scope) for one in intervals]
+        parts = [_between(interval, point, scope) for interval in intervals]
         status = parts[-1]
         for part in reversed(parts[:-1]):
             status = f"fieldscribe_either({part}, {status})"
@@ -88,7 +88,7 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
     """Whether a number lies in an interval whose limits other points may set."""
-    ends = [_end(one, scope, is_low=one is interval.low) for one in (interval.low, interval.high)]
+    ends = [_end(end, scope, is_low=end is interval.low) for end in (interval.low, interval.high)]
     return f"fieldscribe_between({_number(point)}, {', '.join(ends)})"
 
 

@@ -45,7 +45,7 @@ def point_view(point: Point, scope: HeaderScope) -> PointView:
         defines=tuple(defines(point, macro, scope)),
         enum=_enum_view(enum, point, scope) if enum is not None else None,
         tables=tables,
-        fields=tuple((raw_type(scope.points[one]), f"{one}_raw") for one in arguments),
+        fields=tuple((raw_type(scope.points[argument]), f"{argument}_raw") for argument in arguments),
         shape=shape,
         raw_type=raw_type(point),
         counts=point.decimals is not None,
@@ -59,8 +59,8 @@ def point_view(point: Point, scope: HeaderScope) -> PointView:
         words=has_words(point),
         bits=point.bits is not None,
         flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
-        functions=tuple(one.text for one in functions if not one.floating),
-        floats=tuple(one.text for one in functions if one.floating),
+        functions=tuple(function.text for function in functions if not function.floating),
+        floats=tuple(function.text for function in functions if function.floating),
     )
 
 

@@ -36,9 +36,9 @@ def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
         much = (numbers.num << bits) // numbers.den
         if numbers.size * (much + 1) + (1 << bits) > most:
             return None
-        found = _finest(numbers, most, bits)
-        if found is not None:
-            return found
+        finest = _finest(numbers, most, bits)
+        if finest is not None:
+            return finest
     return None
 
 
@@ -49,13 +49,13 @@ def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
         little = -(-(rest << fine) // numbers.den)
         if numbers.size * little > most:
             return None
-        one = Reciprocal(much, little, fine, bits)
-        if _is_exact(one, numbers):
-            return one
+        candidate = Reciprocal(much, little, fine, bits)
+        if _is_exact(candidate, numbers):
+            return candidate
     return None
 
 
-def _is_exact(one: Reciprocal, numbers: Numbers) -> bool:
+def _is_exact(reciprocal: Reciprocal, numbers: Numbers) -> bool:
     """Whether no number is rounded to another integer than its exact quotient.
 
     The factor is too large by `error` / (den * 2^shift). A quotient and a half is a multiple of 1 / (2 * den), or of
@@ -63,8 +63,8 @@ def _is_exact(one: Reciprocal, numbers: Numbers) -> bool:
     negative numbers above the integer before. Halves, which an even divisor alone has, need an error where they are
     negative: they round away from zero.
     """
-    shift, even = one.bits + one.fine, numbers.den % 2 == 0
-    error = ((one.much << one.fine) + one.little) * numbers.den - (numbers.num << shift)
+    shift, even = reciprocal.bits + reciprocal.fine, numbers.den % 2 == 0
+    error = ((reciprocal.much << reciprocal.fine) + reciprocal.little) * numbers.den - (numbers.num << shift)
     if numbers.low < 0 and even and error == 0:
         return False
     parts = 1 if even else 2

@@ -132,8 +132,8 @@ def _fits(rule: Rule) -> bool:
     if any(operand.floating or operand.ten_to or (operand.over and operand.ends[0] < 0) for operand in rule.operands):
         return False
     part, lift = rule.offset.denominator, abs(rule.offset.numerator)
-    top = abs(rule.ratio.numerator) * part * prod(one.largest for one in rule.operands if not one.over)
-    bottom = rule.ratio.denominator * part * prod(one.largest for one in rule.operands if one.over)
+    top = abs(rule.ratio.numerator) * part * prod(operand.largest for operand in rule.operands if not operand.over)
+    bottom = rule.ratio.denominator * part * prod(operand.largest for operand in rule.operands if operand.over)
     return top + bottom * (lift + 1) <= INT64[1]
 
 

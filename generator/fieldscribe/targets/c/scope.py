@@ -68,8 +68,8 @@ class HeaderScope:
 
 def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:
     """A fresh scope for a device."""
-    digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
-    known = frozenset(one.id for one in device.errata if one.facts)
+    digits = frozenset(point.digits.enum.name for point in device.points if point.digits is not None)
+    known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
     return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
 
 

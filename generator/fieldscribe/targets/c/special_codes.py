@@ -27,12 +27,12 @@ def special_view(point: Point, scope: HeaderScope) -> SpecialView | None:
     """What the functions of a point ask about its special codes; None where it has none."""
     if not point.specials:
         return None
-    own, name = f"{scope.prefix}_{point.item}", f"{scope.prefix}_{owner(point)}"
+    own_prefix, name = f"{scope.prefix}_{point.item}", f"{scope.prefix}_{owner(point)}"
     return SpecialView(
         codes=_codes(point, name, scope),
         test=f"{name}_is_special",
-        written=any(one.writable for one in point.specials),
-        aliases=tuple((own + tail, name + tail) for tail in FUNCTIONS) if own != name else (),
+        written=any(special.writable for special in point.specials),
+        aliases=tuple((own_prefix + tail, name + tail) for tail in FUNCTIONS) if own_prefix != name else (),
     )
 
 
@@ -43,7 +43,8 @@ def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
     check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
     if not special.written:
         return check
-    return f"{bracketed(_test(point, (one for one in point.specials if one.writable)))} ? FIELDSCRIBE_OK : ({check})"
+    writable = bracketed(_test(point, (code for code in point.specials if code.writable)))
+    return f"{writable} ? FIELDSCRIBE_OK : ({check})"
 
 
 def no_code(special: SpecialView | None) -> str:
@@ -77,8 +78,8 @@ def encoded_limits(point: Point) -> tuple[int, int]:
     No value becomes a code beyond 64 bits with a sign, in which they are computed.
     """
     low, high = point.outer
-    high = max(high, *(one.high for one in point.specials))
-    return min(low, *(one.low for one in point.specials)), high if point.scale is None else min(high, INT64[1])
+    high = max(high, *(special.high for special in point.specials))
+    return min(low, *(special.low for special in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
 def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
@@ -98,8 +99,10 @@ def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
 def _functions(point: Point, name: str) -> Iterator[Function]:
     raw = (f"{raw_type(point)} raw",)
     is_special = _test(point, point.specials)
-    no_value = _test(point, (one for one in point.specials if one.no_value))
-    names = "".join(f"{bracketed(_test(point, (one,)))} ? {c_string(one.name)} : " for one in point.specials)
+    no_value = _test(point, (special for special in point.specials if special.no_value))
+    names = "".join(
+        f"{bracketed(_test(point, (special,)))} ? {c_string(special.name)} : " for special in point.specials
+    )
     is_no_value = (f"return {no_value};",) if no_value else ("(void)raw;", "return false;")
     yield Function(function("static inline bool", f"{name}_is_special", raw, f"return {is_special};"))
     yield Function(function("static inline bool", f"{name}_is_no_value", raw, *is_no_value))

@@ -124,9 +124,9 @@ def _has_rule(point: Point) -> bool:
 
 
 def _ends(point: Point) -> Iterator[object]:
-    for one in point.allowed.intervals:
-        yield one.low
-        yield one.high
+    for interval in point.allowed.intervals:
+        yield interval.low
+        yield interval.high
 
 
 def _range_cell(point: Point, by_name: Mapping[str, Point]) -> str:
@@ -148,12 +148,12 @@ def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iter
         yield f"special codes of {link('codes', point.specials_of)}"
     if point.steps:
         yield cell("steps: " + wording.steps_text(point))
-    yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
+    yield from (cell(f"{place.purpose}: {place.space} {_words(place.addresses)}") for place in point.places[1:])
     yield from map(cell, wording.width_texts(point))
     yield from _conditions(device, point, by_name)
     if point.note:
         yield cell(wording.title_text(point.note).rstrip("."))
-    yield from (f"erratum {link('erratum', one)}" for one in point.errata)
+    yield from (f"erratum {link('erratum', erratum)}" for erratum in point.errata)
     if not point.generated:
         yield cell(f"not generated: {point.reason or 'no reason given'}")
 
@@ -220,6 +220,6 @@ def _flag_table(point: Point) -> Table:
         )
         for flag in point.flags
     ]
-    made = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
-    assert made is not None, "a word with flags has rows"
-    return made
+    table = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
+    assert table is not None, "a word with flags has rows"
+    return table

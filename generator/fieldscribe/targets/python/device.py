@@ -51,24 +51,26 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     point = _shown(device, "rw") or _shown(device, "r")
     if point is None:
         return ()
-    one = attribute(point.item)
+    name_of_point = attribute(point.item)
     settings = "".join([f", {setting}" for setting, _ in in_python(device).settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
-    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{one}.read()"]
+    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{name_of_point}.read()"]
     if point.writable:
-        lines.append(f"{wait}drive.{one}.write(value)")
+        lines.append(f"{wait}drive.{name_of_point}.write(value)")
     lines.append(f"{wait}drive.read_many({python_string(point.group)})")
-    lines += [f"{name}.{one}.decode(raw)", f"help({name}.{one})"]
+    lines += [f"{name}.{name_of_point}.decode(raw)", f"help({name}.{name_of_point})"]
     return tuple([python_doc(line) for line in lines])
 
 
 def _shown(device: Device, access: str) -> Point | None:
     """The first point that can be read, and written too, a quantity if there is one."""
     usual = [
-        one for one in device.points if one.generated and one.readable and one.variant is None and one.when is None
+        point
+        for point in device.points
+        if point.generated and point.readable and point.variant is None and point.when is None
     ]
-    fitting = [one for one in usual if one.writable or access == "r"]
-    quantities = [one for one in fitting if one.form in ("scaled", "float") and not one.specials]
+    fitting = [point for point in usual if point.writable or access == "r"]
+    quantities = [point for point in fitting if point.form in ("scaled", "float") and not point.specials]
     return next(iter((*quantities, *fitting)), None)
 
 

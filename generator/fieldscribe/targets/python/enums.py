@@ -64,14 +64,14 @@ class EnumsView:
 
 def enums_view(device: Device, names: Identifiers) -> EnumsView:
     """All enums of the device, then the words of flags in the order of the points."""
-    classes = [_enum(names.enum_class(one.name), one.title, one.entries) for one in device.enums]
+    classes = [_enum(names.enum_class(enum.name), enum.title, enum.entries) for enum in device.enums]
     used: set[str] = set()
     for point in device.points:
         if point.form == "flags" and point.generated:
             classes += _word(point, names, used)
-    if any(not one.readers for one in classes):
+    if any(not enum_class.readers for enum_class in classes):
         used.add("NamedNumber")
-    has_words, composes = "Word" in used, any(one.composer for one in classes)
+    has_words, composes = "Word" in used, any(enum_class.composer for enum_class in classes)
     return EnumsView(tuple(classes), tuple(sorted(used)), has_words, composes)
 
 

@@ -49,8 +49,8 @@ class PythonFamily:
 
 def in_python(device: Device) -> PythonFamily:
     """What the device's family says of itself, in its part `targets.python`."""
-    said: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
-    return said
+    part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
+    return part
 
 
 def usual_maker(point: Point) -> str:
@@ -63,13 +63,16 @@ def no_blocks(device: Device, scope: PackageScope) -> None:
     del device, scope
 
 
-def telegrams(made: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
+def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
     """The telegrams of a device."""
-    found = []
-    for one in made:
+    nodes = []
+    for telegram in named_telegrams:
         scope.used.add("Telegram")
-        message = () if one.message is None else (python_string(one.message),)
-        found.append(
-            call("Telegram", (python_string(one.name), python_string(one.direction), str(one.words), *message))
+        message = () if telegram.message is None else (python_string(telegram.message),)
+        nodes.append(
+            call(
+                "Telegram",
+                (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message),
+            )
         )
-    return tuple(found)
+    return tuple(nodes)

@@ -26,7 +26,9 @@ def form(point: Point, scope: PackageScope) -> Node:
     inner = _plain_form(point, scope)
     if not point.specials:
         return inner
-    around = "WithWritableCodes" if any(one.writable for one in point.specials) and point.writable else "WithCodes"
+    around = (
+        "WithWritableCodes" if any(special.writable for special in point.specials) and point.writable else "WithCodes"
+    )
     scope.used.add(around)
     return call(around, (inner, _codes(point, scope)))
 
@@ -42,14 +44,17 @@ def _codes(point: Point, scope: PackageScope) -> Node:
 
 
 def _code_arguments(point: Point) -> Iterator[Node]:
-    numbers = [(one, tuple(_code_number(end, one) for end in (one.low, one.high))) for one in point.specials]
+    numbers = [
+        (special, tuple(_code_number(end, special) for end in (special.low, special.high)))
+        for special in point.specials
+    ]
     texts = [
-        f"{python_string(one.name)}: {low if one.low == one.high else f'({low}, {high})'}"
-        for one, (low, high) in numbers
+        f"{python_string(special.name)}: {low if special.low == special.high else f'({low}, {high})'}"
+        for special, (low, high) in numbers
     ]
     yield Group("{", tuple(texts), "}")
     for key in ("no_value", "writable"):
-        names = [python_string(one.name) for one in point.specials if getattr(one, key)]
+        names = [python_string(special.name) for special in point.specials if getattr(special, key)]
         if names:
             yield Group(f"{key}=(", tuple(names))
 
@@ -138,18 +143,18 @@ def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
-    made = [
+    items = [
         call(
             "Case",
             (
-                "None" if one.point is None else python_string(one.point),
-                str(one.raw),
-                rule(one.rule, scope, of_scale=True),
+                "None" if case.point is None else python_string(case.point),
+                str(case.raw),
+                rule(case.rule, scope, of_scale=True),
             ),
         )
-        for one in cases
+        for case in cases
     ]
-    return Group("(", tuple(made))
+    return Group("(", tuple(items))
 
 
 def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
@@ -165,7 +170,7 @@ def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node
     if linear.factors:
         scope.used.add("Factor")
         operands = scope.lowered.rule(linear).operands
-        arguments.append(Group("factors=(", tuple([_factor(one, of_scale=of_scale) for one in operands])))
+        arguments.append(Group("factors=(", tuple([_factor(operand, of_scale=of_scale) for operand in operands])))
     return call("Rule", arguments)
 
 
@@ -193,7 +198,10 @@ def allowed(point: Point, scope: PackageScope) -> Node | None:
         return None
     if point.allowed.fixed == ((point.least, point.greatest),):
         return None
-    return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
+    return Group(
+        "allowed=(",
+        tuple(Group("(", (_bound(interval.low, scope), _bound(interval.high, scope))) for interval in intervals),
+    )
 
 
 def _bound(bound: Bound, scope: PackageScope) -> Node:

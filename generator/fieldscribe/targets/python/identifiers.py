@@ -121,11 +121,11 @@ class Identifiers:
 
     def __init__(self, device: Device) -> None:
         self.package = attribute(device.id) if device.id in _RESERVED else device.id
-        own = pascal(device.id)
-        self.device_class = f"{own}Device" if own in _CLASS_TAKEN else own
+        device_name = pascal(device.id)
+        self.device_class = f"{device_name}Device" if device_name in _CLASS_TAKEN else device_name
         self.async_class = f"{self.device_class}Async"
         self._taken = {self.device_class, self.async_class, *_CLASS_TAKEN}
-        self._enums = {one.name: self._class(pascal(one.name), "Enum") for one in device.enums}
+        self._enums = {enum.name: self._class(pascal(enum.name), "Enum") for enum in device.enums}
         self._words: dict[str, str] = {}
         self._fields: dict[tuple[str, str], str] = {}
         for point in device.points:

@@ -69,7 +69,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = in_python(device)
     scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
-    errata = frozenset([one.id for one in device.errata if one.facts])
+    errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
@@ -81,7 +81,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
             by_name.setdefault(point.name, []).append(point)
     for same in by_name.values():
         groups[same[0].group].points.append(_by_variant(same, scope))
-    made = tuple(PointView(*one, ()) for one in commands(device, scope))
+    command_views = tuple(PointView(*command, ()) for command in commands(device, scope))
     documented = tuple(_documented(point, scope) for point in device.points if not point.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
@@ -93,8 +93,8 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         groups=[group for group in groups.values() if group.points],
-        commands=made,
-        codes=tuple(laid_out(one, 0) for one in scope.codes.values()),
+        commands=command_views,
+        codes=tuple(laid_out(special_codes, 0) for special_codes in scope.codes.values()),
     )
 
 
@@ -109,9 +109,9 @@ def _documented(point: Point, scope: PackageScope) -> Group:
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
     """The names by the module that they come from, as import sorters have them."""
-    own = used & family.exports if family.module != RUNTIME else set()
-    found = [(RUNTIME, sorted_imports(used - own)), (family.module, sorted_imports(own))]
-    return [(module, names) for module, names in found if names]
+    of_family = used & family.exports if family.module != RUNTIME else set()
+    imports = [(RUNTIME, sorted_imports(used - of_family)), (family.module, sorted_imports(of_family))]
+    return [(module, names) for module, names in imports if names]
 
 
 def _point(point: Point, family: PythonFamily, scope: PackageScope, errata: Collection[str]) -> PointView:
@@ -142,9 +142,9 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
         axis, _, value = point.variant.partition("=")
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
         arguments.append(f"name={python_string(point.name)}")
-    if found := only_for(point, scope.variants):
-        values = Group("(", tuple([python_string(value) for value in found[1]]))
-        arguments.append(Group("only_for=(", (python_string(found[0]), values)))
+    if choice := only_for(point, scope.variants):
+        values = Group("(", tuple([python_string(value) for value in choice[1]]))
+        arguments.append(Group("only_for=(", (python_string(choice[0]), values)))
     if uncertain(point, scope.variants):
         arguments.append("uncertain=True")
     return arguments
@@ -178,7 +178,7 @@ def _references(point: Point) -> Group:
 def _by_variant(points: list[Point], scope: PackageScope) -> PointView:
     scope.used.add("ByVariant")
     axis = (points[0].variant or "").partition("=")[0]
-    chosen = [f"{python_string((one.variant or '').partition('=')[2])}: {attribute(one.item)}" for one in points]
+    chosen = [f"{python_string((point.variant or '').partition('=')[2])}: {attribute(point.item)}" for point in points]
     old_names = tuple(dict.fromkeys(name for point in points for name in point.was))
     if old_names:
         scope.used.add("renamed")
@@ -194,11 +194,11 @@ def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) ->
     if point.when is not None:
         first += f" Exists only when {condition_text(point.when, by_name)}."
     if point.conditions and point.writable:
-        first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
+        first += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
     if point.specials:
         first += f" {codes_text(point)}."
     lines = _wrapped(python_doc(first))
-    if changing := [one for one in point.errata if one in errata]:
+    if changing := [erratum for erratum in point.errata if erratum in errata]:
         lines += ("", *_wrapped(f"Errata: {', '.join(changing)}."))
     return tuple(lines)
 

@@ -64,14 +64,14 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     elif subject.form == "digits" and point.digits is not None:
         yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
     elif subject.form != "text" and len(ranges := point.allowed.fixed) > 1:
-        yield filled("in [", " | ", [interval(*one) for one in ranges], "];")
+        yield filled("in [", " | ", [interval(*limits) for limits in ranges], "];")
 
 
 def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
     """A pair of ends for each range, of which other points set one or both."""
     yield "limits |with| ["
-    for one in point.allowed.intervals:
-        low, high = _end(one.low, scope, lower=True), _end(one.high, scope, lower=False)
+    for allowed in point.allowed.intervals:
+        low, high = _end(allowed.low, scope, lower=True), _end(allowed.high, scope, lower=False)
         line = f"    ({low[0]}, {high[0]}),"
         if len(low) + len(high) == 2 and len(line) <= _WIDTH:
             yield line
@@ -100,8 +100,8 @@ def _place(point: Point, scope: CrateScope) -> Iterator[str]:
     """Function and address that write the point, where they are not the usual ones."""
     first = point.places[0]
     place = point.write_place or first
-    one, many = _WRITES.get(place.space, (0, 0))
-    usual = one if point.words == 1 else many
+    single, many = _WRITES.get(place.space, (0, 0))
+    usual = single if point.words == 1 else many
     function = place.function if place.purpose == "write" else None
     if function is None:
         function = many if usual not in scope.functions and many in scope.functions else usual

@@ -33,7 +33,7 @@ def head(device: Device, comment: str) -> str:
         f"Regenerate with: fieldscribe generate {device.id} --target rust",
         "SPDX-License-Identifier: 0BSD",
     )
-    return "\n".join(f"{comment} {one}" for one in lines)
+    return "\n".join(f"{comment} {line}" for line in lines)
 
 
 def _raw_only(point: Point) -> tuple[str, Lines]:
@@ -53,7 +53,7 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     return {
         "head": head(device, "//"),
         "points": points,
-        "table": wrap(" ".join(one.name for one in scope.subjects), 100, break_long_words=False),
+        "table": wrap(" ".join(subject.name for subject in scope.subjects), 100, break_long_words=False),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
@@ -61,7 +61,7 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
-        "example": next((one.name for one in scope.subjects if _is_plainly_read(one)), ""),
+        "example": next((subject.name for subject in scope.subjects if _is_plainly_read(subject)), ""),
         "uses_enums": bool(enums),
         "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
         "uses_flags": bool(words),

@@ -43,7 +43,7 @@ def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
     named = [f"`{name}`" for name in point.errata if name in errata]
     if named:
         paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
-    lines = [line for paragraph in paragraphs for line in ("", *(f" {one}" for one in wrapped(paragraph)))]
+    lines = [line for paragraph in paragraphs for line in ("", *(f" {text}" for text in wrapped(paragraph)))]
     return tuple(lines[1:])
 
 

@@ -58,7 +58,7 @@ def _form(subject: CratePoint) -> tuple[str, str]:
     point = subject.point
     if subject.rule is not None:
         numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
-        facts = ", ".join(f"{integer(one.numerator)}, {integer(one.denominator)}" for one in numbers)
+        facts = ", ".join(f"{integer(number.numerator)}, {integer(number.denominator)}" for number in numbers)
         wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
         return "wide" if wide else "scaled", facts
     if subject.form == "digits" and subject.enum is not None:

@@ -80,20 +80,20 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
 
 def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
     """The constants of a point that the author named, and those of every point that these would hide."""
-    point, own = subject.point, f"Rust, the point `{subject.point.item}`"
+    point, namespace = subject.point, f"Rust, the point `{subject.point.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
         if name in CONSTANTS:
-            yield Names(own, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
+            yield Names(namespace, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
     if CONSTANTS.isdisjoint(point.references):
-        yield Names(own, owner, [*map(upper, point.references)])
+        yield Names(namespace, owner, [*map(upper, point.references)])
     else:
         for key in point.references:
-            yield Names(own, Owner("numbering", key, owner), (upper(key),))
+            yield Names(namespace, Owner("numbering", key, owner), (upper(key),))
     if point.shared_codes:
         yield from _shared_codes(subject)
         return
     for special in point.specials:
-        yield Names(own, Owner("code", special.name, owner), _code_names(special))
+        yield Names(namespace, Owner("code", special.name, owner), _code_names(special))
 
 
 def _shared_codes(subject: CratePoint) -> Iterator[Names]:

@@ -45,7 +45,7 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
     line = f"{name}({', '.join(parameters)}) -> {result} {{"
     if indent + len(line) <= _WIDTH:
         return (line,)
-    return (f"{name}(", *(f"    {one}," for one in parameters), f") -> {result} {{")
+    return (f"{name}(", *(f"    {parameter}," for parameter in parameters), f") -> {result} {{")
 
 
 def array(items: list[str]) -> Lines:
@@ -71,7 +71,7 @@ def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
         if indent + 4 + len(line) + 1 <= _WIDTH:
             lines.append(f"    {line},")
         else:
-            lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
+            lines += [f"    {name}(", *(f"        {argument}," for argument in arguments), "    ),"]
     return (*lines, "];")
 
 

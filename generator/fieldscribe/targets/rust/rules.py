@@ -19,20 +19,20 @@ Lines = tuple[str, ...]
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
     otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
-    found: list[tuple[str, list[str], Lines]] = []
+    cases: list[tuple[str, list[str], Lines]] = []
     for case in point.scale or ():
         result = rule_of(lowered.rule(case.rule))
         if case.point is None:
             otherwise = result
             break
         raw, code = f"runtime::Raw::to_i64({_raw_of(case.point)})", integer(case.raw or 0)
-        if found and (found[-1][0], found[-1][2]) == (raw, result):
-            found[-1][1].append(code)
+        if cases and (cases[-1][0], cases[-1][2]) == (raw, result):
+            cases[-1][1].append(code)
         else:
-            found.append((raw, [code], result))
-    if not found:
+            cases.append((raw, [code], result))
+    if not cases:
         return chained(otherwise)
-    arms = (line for one in found for line in _arm(*one))
+    arms = (line for case in cases for line in _arm(*case))
     return "match () {", *arms, f"    () => {'?'.join(otherwise)},", "}"
 
 
@@ -57,16 +57,16 @@ def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
     factors = (_step(operand, limit=True) for operand in rule.steps)
     bound = integer(limit.outermost(low=lower))
     first, *steps = (*factors, ".limit()", f".{'max' if lower else 'min'}({bound})")
-    found = (f"{_start(rule)}{first}", *steps)
+    terms = (f"{_start(rule)}{first}", *steps)
     aside = [
         f"matches!(runtime::Raw::to_i64({_raw_of(name)}), {' | '.join(interval(*band) for band in codes)})"
         for name, codes in limit.unless
         if codes
     ]
     if not aside:
-        return chained(found)
+        return chained(terms)
     head = filled("if ", " || ", aside, " {")
-    return *head, f"    {bound}", "} else {", *(f"    {line}" for line in chained(found)), "}"
+    return *head, f"    {bound}", "} else {", *(f"    {line}" for line in chained(terms)), "}"
 
 
 def interval(low: int, high: int) -> str:

@@ -48,12 +48,14 @@ def code_lines(subject: CratePoint) -> Iterator[str]:
         yield f"codes (special::{type_name(shared)}::CODES);"
     elif subject.point.specials:
         yield "codes {"
-        for one in subject.point.specials:
-            name, band = one.name.upper(), one.low != one.high
-            ends = "..=".join(_literal(end, one, subject.raw) for end in ((one.low, one.high) if band else (one.low,)))
+        for special in subject.point.specials:
+            name, band = special.name.upper(), special.low != special.high
+            ends = "..=".join(
+                _literal(end, special, subject.raw) for end in ((special.low, special.high) if band else (special.low,))
+            )
             last = f" {name}_LAST" if band else ""
-            yield f"    /// {sentence(f'{one.name}, the first of a band' if band else one.name)}"
-            yield f"    {name}{last} = {_kind(one)}({rust_string(one.name)}, {ends});"
+            yield f"    /// {sentence(f'{special.name}, the first of a band' if band else special.name)}"
+            yield f"    {name}{last} = {_kind(special)}({rust_string(special.name)}, {ends});"
         yield "};"
 
 
@@ -65,24 +67,26 @@ def _kind(special: Special) -> str:
 
 def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
     """A constant for each code; of a band, its first code and the last raw number."""
-    for one in subject.point.specials:
-        left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
-        call = f"{_kind(one)}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
+    for special in subject.point.specials:
+        left = f"pub const {special.name.upper()}: runtime::Special<{subject.raw}>"
+        call = f"{_kind(special)}({rust_string(special.name)}, {_literal(special.low, special, subject.raw)})"
         lines = _constant(left, f"runtime::Special::{call}")
-        if one.low != one.high:
-            last = binding(4, f"pub const {one.name.upper()}_LAST: {subject.raw}", _literal(one.high, one, subject.raw))
-            yield ConstantView(sentence(f"{one.name}, the first of a band"), lines)
-            yield ConstantView(sentence(f"the last raw number of {one.name}"), last)
+        if special.low != special.high:
+            last = binding(
+                4, f"pub const {special.name.upper()}_LAST: {subject.raw}", _literal(special.high, special, subject.raw)
+            )
+            yield ConstantView(sentence(f"{special.name}, the first of a band"), lines)
+            yield ConstantView(sentence(f"the last raw number of {special.name}"), last)
         else:
-            yield ConstantView(sentence(one.name), lines)
+            yield ConstantView(sentence(special.name), lines)
 
 
 def _table(subject: CratePoint, left: str) -> Lines:
     items: list[tuple[str, Lines]] = []
-    for one in subject.point.specials:
-        name = f"Self::{one.name.upper()}"
+    for special in subject.point.specials:
+        name = f"Self::{special.name.upper()}"
         band = ("runtime::Code::band", (name, f"{name}_LAST"))
-        items.append(("runtime::Code::one", (name,)) if one.low == one.high else band)
+        items.append(("runtime::Code::one", (name,)) if special.low == special.high else band)
     return calls(4, left, items)
 
 

@@ -95,8 +95,8 @@ def scope_of(device: Device) -> CrateScope:
         frozenset(code.number for code in device.bus.functions),
         tuple(_subject(point, enums) for point in device.points if point.generated),
         device.family,
-        {one.name: (one, messages.get(one.message or "")) for one in device.telegrams},
-        frozenset(one.id for one in device.errata if one.facts),
+        {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
+        frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
 
 

@@ -31,7 +31,9 @@ def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
 
 def is_long(enum: EnumView) -> bool:
     """Whether a function with an arm for each name has more lines than clippy likes."""
-    return max(sum(len(one.named) for one in enum.entries), sum(len(one.numbered) for one in enum.entries)) > _LONG
+    return (
+        max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
+    )
 
 
 _OF_TRAITS = frozenset(
@@ -115,8 +117,8 @@ def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str,
 
 def _source(name: str, scope: CrateScope) -> str:
     """Which points an argument is the raw number of: several where variants of the device differ."""
-    types = [one.name for one in scope.subjects if name in (one.point.item, one.point.name)]
-    links = " or ".join(f"[`{one}`](crate::points::{one})" for one in types)
+    types = [subject.name for subject in scope.subjects if name in (subject.point.item, subject.point.name)]
+    links = " or ".join(f"[`{type_}`](crate::points::{type_})" for type_ in types)
     return f"The raw number of {links or f'`{name}`'}."
 
 
@@ -124,7 +126,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
     name = type_name(enum.name)
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(one for one in UNKNOWN if one not in taken)
+    unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
     return EnumView(sentence(enum.name), name, raw, entries, unknown)
 
 
@@ -163,9 +165,9 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         when_false=states[1 - flag.active],
         values=tuple(
             (
-                sentence(one.name),
-                binding(4, f"pub const {flag.name.upper()}_{one.name.upper()}: {raw}", integer(one.raw)),
+                sentence(value.name),
+                binding(4, f"pub const {flag.name.upper()}_{value.name.upper()}: {raw}", integer(value.raw)),
             )
-            for one in (() if single else flag.values)
+            for value in (() if single else flag.values)
         ),
     )

@@ -124,7 +124,7 @@ def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
 
 def writing_place(point: Point) -> Place:
     """Where a point is written."""
-    return next((one for one in point.places if one.purpose == "write"), point.places[0])
+    return next((place for place in point.places if place.purpose == "write"), point.places[0])
 
 
 def words_of(point: Point, place: Place, raw: int, *, received: bool = False) -> tuple[int, ...]:
@@ -162,11 +162,11 @@ def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | Non
     limits = oracle.limits(point, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
-    low, high = max(limits, key=lambda one: one[1] - one[0])
+    low, high = max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     tried = (upper | 1, upper, *(raw for interval in limits for raw in interval))
-    found = (with_fixed(point, raw) for raw in tried)
-    return next((raw for raw in found if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
+    candidates = (with_fixed(point, raw) for raw in tried)
+    return next((raw for raw in candidates if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
 
 
 def _typical_pattern(point: Point) -> int:

@@ -135,11 +135,11 @@ def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[in
     for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
         numbers += [limit, *_neighbours(limit, wide)]
     if wide:
-        found = [bits64(number) for number in numbers] + [0x7FF8 << 48, 0xFFF0 << 48 | 1]
+        patterns = [bits64(number) for number in numbers] + [0x7FF8 << 48, 0xFFF0 << 48 | 1]
     else:
-        found = [bits for number in numbers if isfinite(number) and (bits := bits32(number)) is not None]
-        found += [0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0xFF80_0001]
-    return list(dict.fromkeys(found))
+        patterns = [bits for number in numbers if isfinite(number) and (bits := bits32(number)) is not None]
+        patterns += [0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0xFF80_0001]
+    return list(dict.fromkeys(patterns))
 
 
 def _encoded(point: Point, value: float, limits: list[tuple[float, float]]) -> tuple[object, ...]:

@@ -135,7 +135,9 @@ def text(value: object) -> str:
         raise TypeError(f"{value!r} is no text")
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
-    return "".join(one if one.isprintable() and one not in "%,=" else _escaped(one) for one in value)
+    return "".join(
+        character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
+    )
 
 
 def _escaped(character: str) -> str:
@@ -211,16 +213,16 @@ class Shape:
     def line(self, values: Iterable[object]) -> str:
         """The line of one vector; values left out at the end are absent."""
         parts = [self.name]
-        given = iter(values)
+        remaining = iter(values)
         for key, write, optional in self._fields:
-            value = next(given, None)
+            value = next(remaining, None)
             if value is None or (not value and value not in (0, "")):
                 if not optional:
                     raise ValueError(f"{self.name} lacks {key}")
                 parts.append(ABSENT)
             else:
                 parts.append(write(value))
-        if next(given, None) is not None:
+        if next(remaining, None) is not None:
             raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
         while parts[-1] == ABSENT:
             parts.pop()

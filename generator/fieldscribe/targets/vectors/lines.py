@@ -51,8 +51,8 @@ class Lines:
 
     def _forget_behind(self, name: str) -> None:
         behind = list(SETS)[list(SETS).index(name) + 1 :]
-        for one in behind:
-            self._held.pop(one, None)
+        for key in behind:
+            self._held.pop(key, None)
 
     def gather(self) -> None:
         """Joins what was added since: one long string takes less memory than its lines."""

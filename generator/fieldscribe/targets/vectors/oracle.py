@@ -157,19 +157,19 @@ class Oracle:
 
     def limits(self, point: Point, settings: Settings) -> list[tuple[int, int]] | str:
         """The intervals that hold now, or why a limit cannot be told: `zero_factor`, `overflow`."""
-        found: list[tuple[int, int]] = []
-        for one in point.allowed.intervals:
-            if isinstance(one.low, int) and isinstance(one.high, int):
-                found.append((one.low, one.high))
+        spans: list[tuple[int, int]] = []
+        for interval in point.allowed.intervals:
+            if isinstance(interval.low, int) and isinstance(interval.high, int):
+                spans.append((interval.low, interval.high))
                 continue
-            low = self._bound(one.low, settings, lower=True)
-            high = self._bound(one.high, settings, lower=False)
+            low = self._bound(interval.low, settings, lower=True)
+            high = self._bound(interval.high, settings, lower=False)
             if isinstance(low, str):
                 return low
             if isinstance(high, str):
                 return high
-            found.append((low, high))
-        return found or [(point.least, point.greatest)]
+            spans.append((low, high))
+        return spans or [(point.least, point.greatest)]
 
     def _is_no_factor(self, factor: Factor, numbers: Numbers) -> bool:
         """Whether a limit cannot be told from it: it divides by zero, or its floating-point number is none or zero."""
@@ -183,9 +183,9 @@ class Oracle:
         if any(low <= settings[name] <= high for name, codes in bound.unless for low, high in codes):
             return bound.least if lower else bound.greatest
         factors, numbers = bound.rule.factors, self._numbers(settings)
-        if any(self._is_no_factor(one, numbers) for one in factors):
+        if any(self._is_no_factor(factor, numbers) for factor in factors):
             return "zero_factor"
-        if any(one.ten_to and not self.exponent_fits(one, settings) for one in factors):
+        if any(factor.ten_to and not self.exponent_fits(factor, settings) for factor in factors):
             return "overflow"
         number = _limit_number(bound, numbers)
         return max(bound.least, number) if lower else min(bound.greatest, number)
@@ -207,15 +207,20 @@ def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]], *, by_value
 
 def outer_bounds(point: Point) -> tuple[int, int]:
     """The least and greatest raw number that may ever be written; the type's where the point says none."""
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in point.allowed.intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in point.allowed.intervals]
+    lows = [
+        interval.low if isinstance(interval.low, int) else interval.low.least for interval in point.allowed.intervals
+    ]
+    highs = [
+        interval.high if isinstance(interval.high, int) else interval.high.greatest
+        for interval in point.allowed.intervals
+    ]
     return (min(lows), max(highs)) if lows else (point.least, point.greatest)
 
 
 def code_of(point: Point, raw: int) -> Special | None:
     """The special code that a raw number is, if it is one."""
-    found = [one for one in point.specials if one.low <= raw <= one.high]
-    return found[0] if found else None
+    hits = [special for special in point.specials if special.low <= raw <= special.high]
+    return hits[0] if hits else None
 
 
 def quantity_at_most(point: Point, raw: int) -> int:

@@ -77,7 +77,9 @@ def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[st
 
 def _possible_for(condition: Condition, axis: str, value: str) -> bool:
     """Whether a clause is left of which nothing says no to this value."""
-    return any(all(one.of != axis or one.holds(value) for one in clause) for clause in condition.clauses)
+    return any(
+        all(comparison.of != axis or comparison.holds(value) for comparison in clause) for clause in condition.clauses
+    )
 
 
 def words(lines: Lines, point: Point) -> None:

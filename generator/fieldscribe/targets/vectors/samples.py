@@ -30,11 +30,11 @@ _FACTORS_32 = (
 
 def edges(limits: Limits) -> dict[int, None]:
     """Each limit and one beyond it, in the order of the limits; so every hole of a list is met."""
-    found: dict[int, None] = {}
+    raws: dict[int, None] = {}
     for low, high in limits:
         for raw in (low, high, low - 1, high + 1):
-            found[raw] = None
-    return found
+            raws[raw] = None
+    return raws
 
 
 def own(limits: Limits) -> Limits:
@@ -46,27 +46,30 @@ def raws_to_decode(point: Point, limits: Limits, *, deep: bool) -> list[int]:
     """Raw numbers that the point's bits hold: limits; in depth edges of the type and of the sign, special codes."""
     if not deep:
         return _held(point, (limits[0][0], limits[-1][1]))
-    found = {raw: None for interval in limits for raw in interval}
-    found.update(dict.fromkeys(codes(point)))
-    found.update({point.least: None, point.greatest: None})
+    raws = {raw: None for interval in limits for raw in interval}
+    raws.update(dict.fromkeys(codes(point)))
+    raws.update({point.least: None, point.greatest: None})
     if point.least < 0:
-        found.update({-1: None, 0: None})
-    return _held(point, found)
+        raws.update({-1: None, 0: None})
+    return _held(point, raws)
 
 
 def raws_to_check(point: Point, limits: Limits, *, deep: bool) -> list[int]:
     """Raw numbers that the point's bits hold: limits, one beyond each; in depth edges of the type, special codes."""
-    found = edges(limits)
+    raws = edges(limits)
     if not deep:
         return _held(point, {**edges(own(limits)), **{raw: None for interval in limits for raw in interval}})
-    found.update(dict.fromkeys(codes(point)))
-    found.update({point.least: None, point.greatest: None})
-    return _held(point, found)
+    raws.update(dict.fromkeys(codes(point)))
+    raws.update({point.least: None, point.greatest: None})
+    return _held(point, raws)
 
 
 def codes(point: Point) -> list[int]:
     """The ends of the special codes, and one beyond each, as far as the bits hold them."""
-    return _held(point, (raw for one in point.specials for raw in (one.low, one.high, one.low - 1, one.high + 1)))
+    return _held(
+        point,
+        (raw for special in point.specials for raw in (special.low, special.high, special.low - 1, special.high + 1)),
+    )
 
 
 def _held(point: Point, numbers: Iterable[int]) -> list[int]:
@@ -98,7 +101,7 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     low, high = limits[0][0], limits[-1][1]
     first = low + (residue - low) % modulus
     last = high - 1 - (high - 1 - residue) % modulus
-    found: dict[float, None] = {}
+    values: dict[float, None] = {}
     for raw in (first, last, -1 - (-1 - residue) % modulus):
         if low <= raw < high:
             over = ((2 * raw + 1) * ratio.under - 2 * ratio.over) * (ratio.den if ratio.num > 0 else -ratio.den)
@@ -106,8 +109,8 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
             value = over / under
             above, below = value.as_integer_ratio()
             if above * under == over * below:
-                found[value] = None
-    return list(found)
+                values[value] = None
+    return list(values)
 
 
 def just_outside(ratio: Ratio, limits: Limits) -> list[tuple[int, int]]:
@@ -137,14 +140,14 @@ def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[st
         last = [(name, raw) for name in names for raw in _choices(oracle, point, name)[-2:] if raw != base[name]]
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
-    found = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
+    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
     # Each case with every end of the factors that it has, not only those of the first case.
     for case in point.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
                 raws = _choices(oracle, point, factor.point)
-                found += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
-    return list({tuple(one.items()): one for one in found}.values())
+                chosen += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
+    return list({tuple(setting.items()): setting for setting in chosen}.values())
 
 
 def _typical(oracle: Oracle, point: Point, name: str) -> int:
@@ -163,23 +166,23 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     bands = [band for limit in limits_of(point) for other, codes in limit.unless if other == name for band in codes[:4]]
     lifting = [code for low, high in bands for code in (low, high, high + 1)]
     source = oracle.points.get(name)
-    lifting += [] if source is None else [one.low for one in source.specials[:4]]
+    lifting += [] if source is None else [special.low for special in source.specials[:4]]
     if source is not None and source.info.floating:
         return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.greatest]
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
-    found = [*cases, max(cases) + 1] if cases else [low, high]
+    raws = [*cases, max(cases) + 1] if cases else [low, high]
     for factor in _factors(point):
         if factor.point != name:
             continue
         if factor.ten_to:
-            found += [low - 1, high + 1]
+            raws += [low - 1, high + 1]
         elif factor.slope and factor.intercept % factor.slope == 0:
-            found.append(-factor.intercept // factor.slope)
-    found += lifting
+            raws.append(-factor.intercept // factor.slope)
+    raws += lifting
     if source is not None and any(factor.point == name for limit in limits_of(point) for factor in limit.rule.factors):
-        found.append(max(source.least, 0) + 1)  # so small that the outer limits have to hold
-    return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
+        raws.append(max(source.least, 0) + 1)  # so small that the outer limits have to hold
+    return [raw for raw in dict.fromkeys(raws) if source is None or source.least <= raw <= source.greatest]
 
 
 def _factors(point: Point) -> list[Factor]:
@@ -190,7 +193,12 @@ def _factors(point: Point) -> list[Factor]:
 
 def limits_of(point: Point) -> list[Limit]:
     """The limits of a point that other points set."""
-    return [bound for one in point.allowed.intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
+    return [
+        bound
+        for interval in point.allowed.intervals
+        for bound in (interval.low, interval.high)
+        if isinstance(bound, Limit)
+    ]
 
 
 def _bounds(oracle: Oracle, name: str) -> tuple[int, int]:

@@ -151,20 +151,20 @@ class _Sheet:
     def _counts(self, decimals: int) -> list[int]:
         """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
         point, ratio, power = self.point, self.ratio, 10**decimals
-        found = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
+        counts = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
         if self.deep and ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
             for raw in (low - 1, low, high - 1, high):
                 over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
                 below, rest = divmod(over, 2 * ratio.denominator)
-                found.update({below if rest else below - 1: None, below + 1: None})
+                counts.update({below if rest else below - 1: None, below + 1: None})
                 if not rest:
-                    found[below] = None
+                    counts[below] = None
         ends = [ratio.count_of_raw(raw, decimals) for raw in (point.least, point.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:
-            found.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
-        return [count for count in found if -edge <= count < edge]
+            counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
+        return [count for count in counts if -edge <= count < edge]
 
     def _check(self) -> None:
         for raw in samples.raws_to_check(self.point, self.limits, deep=self.deep):

@@ -31,7 +31,7 @@ class Shapes:
 
 def shape_of(point: Point) -> Hashable:
     """The type, the scale, the special codes, and the form of the limits, but for numbers that are the point's own."""
-    specials = tuple((one.low, one.high, one.writable, one.no_value) for one in point.specials)
+    specials = tuple((special.low, special.high, special.writable, special.no_value) for special in point.specials)
     limits = _limits(point.allowed.intervals)
     kind = point.type, point.width, point.access, point.fixed, point.encodes_values, point.decimals, point.most_raw
     named = point.digits.enum if point.digits is not None else point.enum
@@ -43,7 +43,7 @@ def _limits(intervals: tuple[Interval, ...]) -> Hashable:
     """A long list is part of the shape, numbers and all."""
     if len(intervals) > MANY:
         return intervals
-    return tuple((_form(one.low), _form(one.high)) for one in intervals)
+    return tuple((_form(interval.low), _form(interval.high)) for interval in intervals)
 
 
 def _form(bound: Bound) -> Hashable:

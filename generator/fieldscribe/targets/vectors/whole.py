@@ -53,12 +53,12 @@ def _sheet(lines: Lines, point: Point, limits: samples.Limits, *, deep: bool) ->
 
 def _raws(point: Point, raws: list[int], *, deep: bool) -> dict[int, None]:
     """Those, with the constant bits put in too, the numbers of the enum (in depth all), and each flag alone."""
-    found = dict.fromkeys(raws)
-    found.update({with_fixed(point, raw): None for raw in raws})
+    raws_to_try = dict.fromkeys(raws)
+    raws_to_try.update({with_fixed(point, raw): None for raw in raws})
     if point.enum is not None:
-        found.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
-    found.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
-    return found
+        raws_to_try.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
+    raws_to_try.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
+    return raws_to_try
 
 
 def with_fixed(point: Point, raw: int) -> int:

@@ -69,5 +69,5 @@ class OfFamily:
 
 def in_rust(name: str) -> OfFamily:
     """What the family of that name says of itself."""
-    said: OfFamily = family(name).part("targets.rust").IN_RUST
-    return said
+    part: OfFamily = family(name).part("targets.rust").IN_RUST
+    return part

@@ -22,10 +22,10 @@ def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Consta
     """A constant of that type for each code; `what` is the word by which people know its number."""
     return tuple(
         (
-            f"{sentence(one.name).rstrip('.')}: {what} {one.number}." if what else sentence(one.name),
-            binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number)),
+            f"{sentence(code.name).rstrip('.')}: {what} {code.number}." if what else sentence(code.name),
+            binding(4, f"pub const {code.name.upper()}: {type_}", integer(code.number)),
         )
-        for one in codes
+        for code in codes
     )
 
 
