@@ -6,23 +6,25 @@ import re
 from bisect import bisect_left, bisect_right
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of, looked_through_of
+from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
 from fieldscribe.audit.placement import placement
+from fieldscribe.audit.printed_errata import PrintedErratum, errata_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
+    from fieldscribe.audit.citing import Claim
     from fieldscribe.checks.subject import Subject
 
 _SHORT = 100
-"""So many characters of a line are shown."""
+"""Findings show at most so many characters of a line."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
-"""What says that the numbers between two stand there too."""
+"""What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
 _FAR = 400
-"""A place that moved farther is looked for no more."""
+"""A section number that is no heading is searched in at most so many lines above."""
 
 
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
@@ -45,7 +47,7 @@ class _Comparison:
         looked_through: set[int],
         outcome: Audit,
     ) -> None:
-        self.manual, self.claims, self.errata, self.found = manual, claims, errata, outcome
+        self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
         self.used: set[tuple[int, int]] = set()
         self.taken: dict[str, list[PrintedErratum]] = {}
         for erratum in errata:
@@ -68,12 +70,12 @@ class _Comparison:
             self._check_erratum(erratum)
         self._unused()
         self._uncited()
-        self.found.facts = sum(not claim.optional for claim in self.claims)
-        self.found.errata = len(self.errata)
-        return self.found
+        self.outcome.facts = sum(not claim.optional for claim in self.claims)
+        self.outcome.errata = len(self.errata)
+        return self.outcome
 
     def _now(self, line: int) -> int:
-        """Where a line stands that nothing cites: it moved as the cited line above it did."""
+        """Where any line of the transcribed text stands in this text: it moved with the nearest cited line above it."""
         place = bisect_right(self.cited, line)
         return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
 
@@ -105,14 +107,14 @@ class _Comparison:
         extents = [self._extent(*cited) for cited in claim.cited]
         for extent in extents:
             self.subjects.setdefault(extent, {})[claim.subject] = None
-        stands = [self._stands(claim, extent) for extent in extents]  # in all of them: each marks what it uses
+        stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         if not any(stands) and not claim.optional and not self._is_taken(claim):
             nearest = self._nearest(claim, extents[0].first)
             missing = Missing(claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest)
-            self.found.missing.append(missing)
+            self.outcome.missing.append(missing)
 
     def _is_taken(self, claim: Claim) -> bool:
-        """Whether an erratum says that the description has this instead of what is printed."""
+        """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" else ()
         for erratum in self.taken.get(claim.point, ()):
             if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
@@ -120,7 +122,9 @@ class _Comparison:
         return False
 
     def _stands(self, claim: Claim, extent: Extent) -> bool:
-        word_stands = [self._has(word, extent) for word in claim.words]  # each marks the numbers in it
+        word_stands = [
+            self._has(word, extent) for word in claim.words
+        ]  # no short cut: each call marks the numbers used
         if any(word_stands):
             return True
         if claim.fact == "section":
@@ -128,7 +132,7 @@ class _Comparison:
         if claim.fact == "bytes":
             return self._has_bytes(claim.shown, extent)
         if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
-            extent = Extent(extent.first, extent.first, "row")  # the rows below are of the other words
+            extent = Extent(extent.first, extent.first, "row")  # the rows below belong to the point's other words
         tokens = self._tokens(extent)
         hits = [token for token in tokens if token.readings & claim.numbers]
         self.used.update((token.line, token.column) for token in hits)
@@ -138,7 +142,7 @@ class _Comparison:
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
 
     def _has(self, word: str, extent: Extent) -> bool:
-        """Whether a word stands there; the numbers in it are used then."""
+        """Whether a word stands in the extent; if so, the numbers in it count as used."""
         for line in range(extent.first, extent.last + 1):
             for at in places_in(self.manual.line(line), word):
                 self.used.update(
@@ -172,15 +176,15 @@ class _Comparison:
 
     def _check_erratum(self, erratum: PrintedErratum) -> None:
         if not erratum.numbers and not erratum.texts:
-            self.found.uncheckable += 1
+            self.outcome.uncheckable += 1
             return
         cited = [self._extent(*lines) for lines in erratum.cited]
         extents = cited
-        if erratum.told:  # a sentence may speak of what stands around, which does not make that used
+        if erratum.is_sentence:  # it may speak of the whole section; only numbers at the cited lines count as used
             sections = [self.manual.section_of(extent.first) for extent in extents]
             extents = [
-                Extent(min(extent.first, two.first), max(extent.last, two.last), "section")
-                for extent, two in zip(cited, sections, strict=True)
+                Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
+                for extent, section in zip(cited, sections, strict=True)
             ]
         absent = False
         for number in map(abs, erratum.numbers):
@@ -192,7 +196,7 @@ class _Comparison:
             first = extents[0].first
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
             nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
-            self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
+            self.outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
 
     def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
         """The tokens of an extent that can mean a number."""
@@ -221,8 +225,8 @@ class _Comparison:
                     if (token.line, token.column) not in self.used and token.text not in self.codes:
                         self.used.add((token.line, token.column))
                         unused = Unused(token.line, token.column, token.text, tuple(subjects))
-                        self.found.unused.append(unused)
-        self.found.unused.sort(key=lambda unused: (unused.line, unused.column))
+                        self.outcome.unused.append(unused)
+        self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
@@ -233,11 +237,11 @@ class _Comparison:
         for line in manual.headings:
             section = manual.section_of(line)
             if not any(number in covered for number in range(section.first, section.last + 1)):
-                self.found.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
+                self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
         for line in range(1, len(manual) + 1):
             if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
-                self.found.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
-        self.found.uncited.sort(key=lambda uncited: uncited.line)
+                self.outcome.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
+        self.outcome.uncited.sort(key=lambda uncited: uncited.line)
 
     def _moved(self, cited: list[int]) -> dict[int, int]:
         """Where each cited line stands in a manual that changed; what moved is noted."""
@@ -248,11 +252,11 @@ class _Comparison:
                     anchors.setdefault(first, []).append(claim)
         numbers: dict[int, list[Fraction]] = {}
         for erratum in self.errata:
-            if not erratum.told:
+            if not erratum.is_sentence:
                 for first, _ in erratum.cited:
                     numbers.setdefault(first, []).extend(erratum.numbers)
         now = placement(self.manual, cited, anchors, numbers)
         for line in [line for line in cited if now[line] != line]:
             for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
-                self.found.moved.append(Moved(name, line, now[line]))
+                self.outcome.moved.append(Moved(name, line, now[line]))
         return now

@@ -28,18 +28,18 @@ _HEADING = re.compile(r"#{1,6}\s+\S|[0-9]+(?:\.[0-9]+)+\.?[ \t]*[^\W\d]")
 _NUMBERED = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])")
 _RULE = re.compile(r"[|\s:-]+")
 _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
-"""A chapter has one number, as many other lines have: only what the table of contents lists, with a page, is one."""
+"""A number and a title. Many other lines look so: only those are chapters that the table of contents lists."""
 _ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
 _LONG_ROW = 40
-"""A row or paragraph that is not a section is not looked for beyond so many lines."""
+"""A row or paragraph has at most so many lines."""
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A number in the text: how it is written, where, and what it can mean: as decimal, as hexadecimal, as bits."""
+    """A number in the text: how it is written, where, and all that it can mean (`10` is ten, sixteen or two)."""
 
     text: str
     line: int
@@ -123,7 +123,7 @@ class Manual:
         return lines_of_word
 
     def lines_with(self, word: str) -> list[int]:
-        """The lines that have a word, of a numbered section its heading alone."""
+        """The lines that contain a word; for the number of a section only its heading."""
         if word in self.numbered:
             return [self.numbered[word]]
         first = "".join(char if char.isalnum() else " " for char in word).split()
@@ -201,7 +201,7 @@ class Manual:
 
 
 def tokens_of(text: str, number: int) -> list[Token]:
-    """The numbers in a piece of text of a line; the 1 of a fraction says nothing by itself."""
+    """The numbers in a piece of text of a line, without the 1 of a fraction 1/x."""
     return [
         Token(match[0], number, match.start() + 1, frozenset(_readings(match)))
         for match in _NUMBER.finditer(text)
@@ -223,7 +223,7 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:
         amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
-        return {Fraction(int(bare, 16)), *amount}  # 10A may be ten ampere
+        return {Fraction(int(bare, 16)), *amount}  # "10A" may be ten ampere
     text = match["decimal"]
     readings = set(_decimals(text))
     if text.isdigit() and len(text) in (2, 4, 8):
@@ -234,7 +234,7 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
 
 
 def _decimals(text: str) -> set[Fraction]:
-    """A number with points or commas, which may part decimals or thousands; a list of numbers gives each of them."""
+    """The readings of a number with points or commas: they may part decimals, thousands, or the numbers of a list."""
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}

@@ -1,4 +1,4 @@
-"""What an audit found, as plain data."""
+"""The findings of an audit, as plain data."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Unprinted:
 
 @dataclass(slots=True)
 class Audit:
-    """Everything that was found. `facts` were looked for; `uncheckable` errata print nothing that can be looked for."""
+    """All findings. `facts` counts the claims; `uncheckable` the errata without a number or quoted text to search."""
 
     device: str
     manual: str

@@ -21,7 +21,7 @@ _TEXTS = {
 
 
 def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
-    """What has to be looked at, worst first, then the figures; with `everything` also what is only worth a look."""
+    """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
     for fact in outcome.missing:
         where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
         message = f": {fact.subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
