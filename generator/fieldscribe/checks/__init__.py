@@ -1,4 +1,4 @@
-"""What must hold of a device beyond its shape. One file per fact, named as the fact; each reports and goes on."""
+"""What must be true of a device beyond the shape of its keys. Each file checks one fact and has its name."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def run_checks(subject: Subject) -> None:
-    """All checks, those of the family among them; errata come late because the others use them, names last."""
+    """Run all checks, also those of the family. Errata come after the checks that use them, names last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
         conditions_can_hold,

@@ -16,7 +16,7 @@ _WHOLE = (15, 0)
 _MOST = 512
 _APART = ", or say by `when`, `variants`, `since` or `until` that they are never there at once"
 _Key = tuple[str, str | None, int, int]
-"""Space, telegram, index (0 where addresses have none beside them) and address."""
+"""Space, telegram, index (0 where addresses of the space have no index) and address."""
 
 Taken = dict[_Key, list[Resolved]]
 
@@ -40,10 +40,10 @@ def check(subject: Subject) -> None:
                 if _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
             ]
             if rivals:
-                _tell(subject, resolved, rivals, address)
+                _report_overlap(subject, resolved, rivals, address)
             told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
             if len(fresh) == _MOST:
-                message = f"more than {_MOST} points stand at {_place(subject, resolved.point, address)}"
+                message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
                 subject.report.error("too-many-items", message, resolved.draft.span("at"), "nobody needs so many")
             others.append(resolved)
             _gap(subject, resolved, address)
@@ -55,7 +55,7 @@ def _key(subject: Subject, point: Point, address: int) -> _Key:
     return point.space, point.telegram, (point.index or 0) if indexed else 0, address
 
 
-def _place(subject: Subject, point: Point, address: int) -> str:
+def _place_in_words(subject: Subject, point: Point, address: int) -> str:
     """The address in words."""
     if point.telegram is not None:
         return f"word {address} of the telegram {point.telegram}"
@@ -65,7 +65,7 @@ def _place(subject: Subject, point: Point, address: int) -> str:
 
 
 def _row(mine: Resolved, other: Resolved) -> int | None:
-    """The row of the manual that both points were expanded from, if it is one: a wrong rule there is one finding."""
+    """The row of the manual, if both points were expanded from the same: all its overlaps are one finding."""
     element, another = mine.draft.element, other.draft.element
     return id(element.at) if element is not None and another is not None and element.at is another.at else None
 
@@ -77,11 +77,11 @@ def _overlap(mine: Point, other: Point) -> bool:
     ]
 
 
-def _tell(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
-    """One finding that names all the points that are there at once."""
+def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
+    """One finding that names all points at the address."""
     together = [mine, *others]
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here") for other in others]
-    place = _place(subject, mine.point, address)
+    place = _place_in_words(subject, mine.point, address)
     what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
     if all(resolved.point.bits for resolved in together):
         bit = max(resolved.point.bits[1] for resolved in (mine, others[0]) if resolved.point.bits)

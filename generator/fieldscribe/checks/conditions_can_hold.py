@@ -35,11 +35,11 @@ def check(subject: Subject) -> None:
             if clause not in known:
                 known[clause] = meetings.possible(clause)
             if not known[clause]:
-                _never(subject, resolved, meetings, clause, points)
+                _report_never_true(subject, resolved, meetings, clause, points)
 
 
 def _circles(subject: Subject) -> None:
-    """Findings for conditions in a circle: a point that exists only if another does, and that one only if the first."""
+    """Findings for conditions in a circle: two points of which each exists only if the other does."""
     from graphlib import CycleError, TopologicalSorter
 
     drafts = {resolved.point.name: resolved for resolved in subject.resolved if resolved.point.when is not None}
@@ -57,7 +57,9 @@ def _circles(subject: Subject) -> None:
             return
 
 
-def _never(subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]) -> None:
+def _report_never_true(
+    subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]
+) -> None:
     """A finding about the first comparison that is never true, or about all of them together."""
     alone = next((part for part in clause if not meetings.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)

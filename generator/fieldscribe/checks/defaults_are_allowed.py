@@ -34,7 +34,7 @@ def _fault(point: Point, default: Fraction) -> str | None:
     if point.scale is None:
         raw = default
     elif point.fixed_scale is None:
-        return None  # only other points tell
+        return None  # it depends on other points
     else:
         raw = point.fixed_scale.at(default)
     if raw.denominator != 1:

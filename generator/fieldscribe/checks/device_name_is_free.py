@@ -1,4 +1,4 @@
-"""A device's files take the place of no others: those of a system, of our runtime, or of a language."""
+"""The files of a device have names that neither an operating system, nor our runtime, nor a language uses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every point says where in the manual it stands: section or page, and the line where the manual's text is at hand."""
+"""Every point cites its section or page, and its line too where the document names the file of its text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class _Lacks:
-    """A point that cites no section, or no line of that file."""
+    """A point that cites no section and no page, or, where `file` is given, no line of that file."""
 
     draft: Draft
     file: str | None
@@ -41,18 +41,18 @@ def check(subject: Subject) -> None:
                 lacking.setdefault(id(draft.group), []).append(_Lacks(draft, document.file))
     for key, lacks in lacking.items():
         if len(lacks) == members[key] > 1 and len({lack.file for lack in lacks}) == 1:
-            _tell_of_all(subject, lacks[0])
+            _report_group(subject, lacks[0])
         else:
-            _tell_of_each(subject, lacks)
+            _report_points(subject, lacks)
 
 
 def _broken(draft: Draft) -> tuple[str, ...]:
-    """The keys of the group and of the source that had the wrong shape, and so a finding of their own."""
+    """The keys of group and source that were left out because of their shape: they have a finding already."""
     source = draft.get("source")
     return (*draft.group.broken, *(source.broken if isinstance(source, Map) else ()))
 
 
-def _tell_of_each(subject: Subject, lacks: list[_Lacks]) -> None:
+def _report_points(subject: Subject, lacks: list[_Lacks]) -> None:
     for lack in lacks:
         message, hint = (
             f"`{lack.draft.name}` cites no line of the manual's text",
@@ -64,7 +64,7 @@ def _tell_of_each(subject: Subject, lacks: list[_Lacks]) -> None:
         subject.report.error("missing-source", message, lack.draft.span(), hint)
 
 
-def _tell_of_all(subject: Subject, lack: _Lacks) -> None:
+def _report_group(subject: Subject, lack: _Lacks) -> None:
     group = lack.draft.group
     what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {lack.file}"
     if lack.file is None:

@@ -1,4 +1,4 @@
-"""Bits that are always written as a constant leave a number to write, and do not change what other points are."""
+"""Bits that are always written as a constant leave some number to write, and are not bits of other points."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
 
 _RIVALS = ("enum", "digits", "scale")
-"""What a word with fixed bits cannot have at all."""
+"""Keys that a word with fixed bits cannot have."""
 
 _MOST = 64
-"""How many bit groups of a word are compared with one: a word has 16 bits, and its variants a few times as many."""
+"""With how many bit groups of a word each is compared: a word has 16 bits, with its variants a few times as many."""
 
 
 def check(subject: Subject) -> None:
@@ -51,7 +51,7 @@ def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None
 
 
 def _compare(subject: Subject, resolved: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
-    """Findings about two bit groups of one word; what is wrong with both is told once, by the later one (`behind`)."""
+    """Findings about two bit groups of one word; the one that stands `behind` reports what is wrong with both."""
     mask = group_mask(other.point)
     other_fixed = other.point.fixed
     related = [(other.draft.span(), f"`{other.point.name}` stands here")]
@@ -68,19 +68,19 @@ def _compare(subject: Subject, resolved: Resolved, fixed: Fixed, other: Resolved
 
 
 def _leaves_any(point: Point, fixed: Fixed) -> bool:
-    """Whether a number with the fixed bits may be written; limits that other points set count as they are widest."""
+    """Whether some number with the fixed bits may be written; limits set by other points count at their widest."""
     span = 1 << point.width
     for interval in point.allowed.intervals:
         low, high = interval.outer
         parts = ((low, high),) if low >= 0 else ((0, high), (low + span, min(high, -1) + span))
-        if any(_next(first, fixed) <= last for first, last in parts if first <= last):
+        if any(_next_with_bits(first, fixed) <= last for first, last in parts if first <= last):
             return True
     return False
 
 
-def _next(number: int, fixed: Fixed) -> int:
-    """The least number from `number` on that has the fixed bits."""
+def _next_with_bits(number: int, fixed: Fixed) -> int:
+    """The least number not below `number` that has the fixed bits."""
     while wrong := (number ^ fixed.bits) & fixed.mask:
         top = wrong.bit_length() - 1
-        number = ((number >> top) + 1) << top  # sets the highest wrong bit, or carries over it
+        number = ((number >> top) + 1) << top  # rounded up to that bit, which sets it or carries over it
     return number

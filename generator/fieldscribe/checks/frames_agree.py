@@ -21,7 +21,7 @@ Carries = Callable[["Point"], int | None]
 
 @dataclass(slots=True)
 class Seen:
-    """What one frame turned out to be: `request` is what a family made of it, for its answers.
+    """What a frame was read as. `request` is the family's own form of it, which its answers are parsed with.
 
     `carries` is None where the bytes are no frame of the device.
     """
@@ -32,7 +32,7 @@ class Seen:
 
 
 Reader = Callable[[Subject, "OpenFrame", dict[str, Seen]], Seen]
-"""A frame, with those before it by name, as the family reads it; disagreements are reported."""
+"""Reads a frame as the family does; takes the frames before it by name, and reports what disagrees."""
 
 
 def check(subject: Subject) -> None:
@@ -47,21 +47,21 @@ def check(subject: Subject) -> None:
     for open_frame in subject.open_frames:
         read_frame = read(subject, open_frame, seen)
         if read_frame.carries is not None:
-            _meaning(subject, open_frame, read_frame.carries, points)
+            _compare_meaning(subject, open_frame, read_frame.carries, points)
             if open_frame.frame.direction == "request":
-                _fixed(subject, open_frame, read_frame.carries, fixed)
+                _compare_fixed_bits(subject, open_frame, read_frame.carries, fixed)
         ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{open_frame.frame.name}", ()))
         seen[open_frame.frame.name] = read_frame
         subject.frames.append(replace(read_frame.frame, errata=ids))
 
 
 def _unread(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
-    """A frame of a family that does not say how its frames are read."""
+    """The reader for families that do not read frames."""
     del subject, seen
     return Seen(open_frame.frame)
 
 
-def _meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
+def _compare_meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
     says = open_frame.raw.get("says")
     if not isinstance(says, Map):
         return
@@ -79,8 +79,8 @@ def _meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: 
             )
 
 
-def _fixed(subject: Subject, open_frame: OpenFrame, carries: Carries, points: list[Point]) -> None:
-    """What a request writes has the bits that are always written as a constant."""
+def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carries, points: list[Point]) -> None:
+    """Findings for requests that write a word without its constant bits."""
     for point in points:
         word = carries(_whole_word(point))
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
@@ -93,12 +93,12 @@ def _fixed(subject: Subject, open_frame: OpenFrame, carries: Carries, points: li
 
 
 def _whole_word(point: Point) -> Point:
-    """The word that a bit group lies in, as if it were the point."""
+    """The point, or the whole word that it has a few bits of, as a point."""
     return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
 
 
-def no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
-    """A finding for bytes that nobody could send; nothing here tells which would be right."""
+def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
+    """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
     printed = hex_of(open_frame.frame.printed)
     subject.disagrees(
         Printed(f"frame:{open_frame.frame.name}", "form", printed, None, open_frame.raw.span("bytes"), message)
@@ -106,15 +106,15 @@ def no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
     return Seen(replace(open_frame.frame, valid=False))
 
 
-def answers_nothing(subject: Subject, open_frame: OpenFrame) -> None:
+def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
     """A finding for a response that does not say what it answers."""
     if open_frame.frame.answers is None:
         message = f"the response `{open_frame.frame.name}` answers nothing"
         subject.report.error("unknown-frame", message, open_frame.raw.span("name"), "name the request under `answers`")
 
 
-def wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) -> None:
-    """A disagreement where the frame is said to carry another error than it does."""
+def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) -> None:
+    """A finding for a frame that carries another error than the description says."""
     stated = open_frame.raw.get("error")
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
@@ -125,7 +125,7 @@ def wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) ->
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
-    """The raw number of a point from its words, the high part first; None if one is not there."""
+    """The raw number of a point from its words, the high part first; None if a word is missing."""
     known = [word for word in words if word is not None]
     return raw_of(point, known) if len(known) == len(words) else None
 

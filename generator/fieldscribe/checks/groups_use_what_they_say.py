@@ -1,4 +1,4 @@
-"""What a group says of its points is about points that it has: a telegram, a rule of addresses."""
+"""The `telegram` and the `addressing` of a group have points that they apply to."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(subject: Subject) -> None:
-    """Findings for a telegram that no point is a word of, and for a wrong rule of addresses that no row uses."""
+    """Findings for a telegram without points, and for a wrong rule of addresses that no point is expanded by."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     with_rows: set[int] = set()
@@ -34,14 +34,14 @@ def check(subject: Subject) -> None:
             hint = "write `space: telegram`, or leave `telegram` out"
             subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
         if "addressing" in group and key not in with_rows:
-            _readable(subject, group)
+            _check_unused_rule(subject, group)
 
 
-def _readable(subject: Subject, group: Map) -> None:
+def _check_unused_rule(subject: Subject, group: Map) -> None:
     try:
         evaluate(parse_expression(group["addressing"]), _KNOWN)
     except FormulaError as error:
         if "is not known" in error.message:
             error.hint = "a rule knows number, index, set, sets and indices"
-        if "division by zero" not in error.message:  # other numbers may be fine
+        if "division by zero" not in error.message:  # it was evaluated with ones; the real numbers may be fine
             formula_finding(error, group.span("addressing"), subject.report)

@@ -1,4 +1,4 @@
-"""Places in the manual's text that are intervals run upwards."""
+"""Intervals of cited lines run upwards."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _lines(subject: Subject, raw: Map) -> None:
     lines = raw.get("lines")
     if lines is None:
         return
-    for holder, at, text in _said(raw, "lines", lines):
+    for holder, at, text in _texts_in(raw, "lines", lines):
         first, dots, last = text.partition("..")
         if dots and int(first) > int(last):
             subject.report.error(
@@ -46,12 +46,12 @@ def _lines(subject: Subject, raw: Map) -> None:
             )
 
 
-def _said(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
+def _texts_in(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
     if isinstance(value, Map):
         for key, item in value.items():
-            yield from _said(value, key, item)
+            yield from _texts_in(value, key, item)
     elif isinstance(value, Seq):
         for place, item in enumerate(value):
-            yield from _said(value, place, item)
+            yield from _texts_in(value, place, item)
     else:
         yield holder, at, str(value)

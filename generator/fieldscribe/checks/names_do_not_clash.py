@@ -1,7 +1,7 @@
-"""No two things get one identifier in any target, whichever is generated, and nothing takes what generated code needs.
+"""No two things get the same identifier in any target, and none gets an identifier that generated code needs.
 
-Each target lists its names by what they are of (`targets/*/identifiers.py`); here they are only compared. What is wrong
-is left out, so that a device with other findings gets these too. Reserved words are no clash: targets turn them aside.
+Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
+that have other findings are left out. Reserved words are no clash: targets change such names themselves.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def check(subject: Subject) -> None:
-    """Names that meet in the description itself, then those that meet in a target."""
+    """Findings for equal names in the description, then for equal identifiers in a target."""
     told_pairs: set[frozenset[Thing]] = set()
     first: dict[tuple[str, str], Thing] = {}
     for namespace, name, thing in given_names(subject):
@@ -38,7 +38,7 @@ def _compare_targets(subject: Subject, told_pairs: set[frozenset[Thing]]) -> Non
 
 
 def _report(subject: Subject, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
-    """Two names that meet in one language mostly meet in others too, and are told once."""
+    """Report a pair once: names that clash in one language mostly clash in others too."""
     pair = frozenset((first, second))
     if second.place is None:
         first, second = second, first

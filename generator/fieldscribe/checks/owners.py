@@ -1,4 +1,4 @@
-"""What identifiers stand for, in words and with its place in the text."""
+"""The owners of identifiers, as messages name them and with their places in the description."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
 _OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
-"""Under which key of a description the things of a kind stand."""
+"""The key of a point under which parts of each kind stand."""
 
 
 class Thing(NamedTuple):
-    """Something with a name: what messages call it, and where it stands; what a target needs itself stands nowhere."""
+    """Something with a name: its words in messages and its place; None for what a target itself needs."""
 
     words: str
     place: Span | None
 
 
 class _EnumFound(NamedTuple):
-    """An enum where it is said: one that many points share, or a point's own."""
+    """An enum with the place where it is written: under `enums`, or in its point."""
 
     name: str
     thing: Thing
@@ -40,7 +40,7 @@ class _EnumFound(NamedTuple):
 
 
 def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
-    """What a description calls its groups, points and enums, which every target takes as it is."""
+    """The names of groups, points and enums as the description gives them, with their namespace."""
     for group in groups(subject.scope):
         name = str(group["group"])
         yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
@@ -51,7 +51,7 @@ def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
 
 
 def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Thing]]:
-    """A point under its name, its name in a variant and its former names."""
+    """The names of a point: its item, its own name where it has a variant, and its former names."""
     where, point, draft = "generated code", resolved.point, resolved.draft
     yield where, point.item, Thing(_point_words(draft), draft.span())
     if point.variant is not None:
@@ -97,13 +97,13 @@ def _enums(subject: Subject) -> Iterator[_EnumFound]:
 
 
 class Owners:
-    """What the owners of identifiers are in one description."""
+    """Finds the owners of identifiers in a description."""
 
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
 
     def thing(self, owner: Owner) -> Thing:
-        """The owner in words, and where it stands."""
+        """The owner in words, with its place."""
         if owner.kind == "target":
             return Thing(owner.name, None)
         if owner.kind == "enum":
@@ -166,7 +166,7 @@ class Owners:
 
 
 def _key_place(holder: object, name: str) -> Span | None:
-    """Where the key stands that has the name, or that gives it to something."""
+    """The place of the key that is the name, or whose value is or has the name."""
     for key, value in holder.items() if isinstance(holder, Map) else ():
         if name in (key, value, value.get("name") if isinstance(value, Map) else None):
             return holder.key_span(key) if isinstance(holder, Map) else None

@@ -34,7 +34,7 @@ _NEEDS = {
     "choices": {"enum", "range"},
     "pairs": {"type", "scale", "unit"},
 }
-"""The facts that a printed one is held against, but for numbers, which are held against the address."""
+"""The keys of the facts that each printed key is compared with; all others are compared with the address."""
 
 
 def check(subject: Subject) -> None:
@@ -56,7 +56,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
         if key in ("range_in_units", "resolution", "pairs") and unknown_scale:
-            continue  # nothing to hold it against
+            continue  # the scale is not known
         if key in ("range", "range_in_units"):
             _range(subject, resolved, key, value, span)
         elif key == "resolution":
@@ -71,7 +71,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
-    """The point's number in every numbering of its group, and for a pair that of the word with the low part."""
+    """The point's number in every numbering of its group; `low_...` for the word with the low part."""
     point, addresses = resolved.point, resolved.point.addresses
     if not addresses:
         return {}
@@ -158,7 +158,7 @@ def _same_range(taken: Allowed, printed: Allowed) -> bool:
     printed_fixed = [
         interval for interval in printed.intervals if isinstance(interval.low, int) and isinstance(interval.high, int)
     ]
-    moving = taken.intervals[len(fixed) :]  # those that other points limit stand behind the fixed ones
+    moving = taken.intervals[len(fixed) :]  # intervals that other points limit come last
     printed_moving = printed.intervals[len(printed_fixed) :]
     return moving == printed_moving and (fixed == printed_fixed or (bool(moving) and not printed_fixed))
 
@@ -181,7 +181,7 @@ def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) ->
 
 
 def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
-    """Raw numbers and values that are printed side by side: the scale turns each into the other."""
+    """Compare printed pairs of a raw number and a value: the scale must turn each into the other."""
     point = resolved.point
     rule = fixed_rule(point)
     if rule is None or point.info.floating:
@@ -209,7 +209,7 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
 
 
 def _half_digit(value: Any) -> Fraction:
-    """Half a unit of the last digit that is printed: how far rounding may have moved the number."""
+    """Half a unit of the last printed digit: the error that rounding may have made."""
     decimals = len(str(value).partition(".")[2])
     return Fraction(1, 2 * 10**decimals)
 
@@ -223,7 +223,7 @@ def _step(point: Point) -> Fraction | None:
 
 
 def _flags(subject: Subject, resolved: Resolved) -> None:
-    """The masks and bit numbers that are printed for flags, in bits of the word."""
+    """Compare the masks and bit numbers printed for flags, which count in the whole word."""
     point, raw = resolved.point, resolved.draft.get("flags")
     first = point.bits[1] if point.bits else 0
     by_name = {flag.name: flag for flag in point.flags}

@@ -1,4 +1,4 @@
-"""What is named exists: the command that `keeps` names, the point that a command's `busy` names."""
+"""Names refer to what exists: `keeps` to a command, a command's `busy` to a point."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 def check(subject: Subject) -> None:
-    """Names of commands and points that nothing has."""
+    """Findings for names of commands and points that do not exist."""
     scope = subject.scope
     declared = {str(raw["name"]) for raw in scope.listed("commands")}
-    choice = ("choice",) if scope.family.chooses_memory else ()  # the request says whether the memory keeps it
+    choice = ("choice",) if scope.family.chooses_memory else ()  # each request says whether the value is kept
     known = ("no", "yes", *choice, *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps

@@ -1,4 +1,4 @@
-"""What the checks look at: the resolved parts of one device, still with their places in the text."""
+"""What the checks read: the resolved parts of one device, with their places in the text."""
 
 from __future__ import annotations
 
@@ -24,11 +24,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A printed fact that disagrees: about whom, under which key of `printed`, where, and what to say of it.
+    """A printed fact that disagrees with the description: whom it is about, its key, its place, and the message.
 
-    `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
-    whether what an erratum takes is what was taken, where comparing the two as texts would not do. `flag` is the flag
-    of the point that it is about.
+    `taken` is what the description has instead; None if only an erratum can tell the right value. `right` compares
+    what an erratum says was taken, where comparing numbers or texts is not enough. `flag` is the flag that it is about.
     """
 
     about: str
@@ -41,13 +40,13 @@ class Printed:
     flag: str | None = None
 
     def fits(self, stated: Any) -> bool:
-        """Whether what an erratum says was taken is what was taken."""
+        """Whether an erratum's `taken` is what the description has."""
         return self.right(stated) if self.right is not None else same(stated, self.taken)
 
 
 @dataclass(slots=True)
 class Subject:
-    """One device under check. `frames` are replaced as they are checked; `cited` maps whom errata are about to them."""
+    """One device under check. `frames` collects the checked frames; `cited` finds errata by what they are about."""
 
     scope: Scope
     index: Index
@@ -70,12 +69,12 @@ class Subject:
 
     @property
     def bus_is_whole(self) -> bool:
-        """Whether all that was written under `bus` could be read: else what rests on it cannot be judged."""
+        """Whether everything under `bus` could be read; if not, checks that need it are left out."""
         return self.scope.bus is not None and not _lost(self.scope.bus)
 
     @property
     def models(self) -> tuple[Device, Device]:
-        """The model and what code may know of it, made when first asked for: only of a device without errors."""
+        """The models of the whole device and of its code; only for a device without errors."""
         if self._models is None:
             from fieldscribe.resolve.device import build_device
 
@@ -84,7 +83,7 @@ class Subject:
 
     @property
     def sound(self) -> Device:
-        """The device as code may know it, without the points that something is wrong with."""
+        """The device as code sees it, without the points that have findings."""
         from fieldscribe.resolve.device import sound_device
 
         return sound_device(self) if self.report.has_errors else self.models[1]
@@ -95,7 +94,7 @@ class Subject:
         return self.scope.report
 
     def disagrees(self, fact: Printed) -> None:
-        """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both."""
+        """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
         for erratum in self.cited.get(fact.about, ()):
             stated = erratum.printed(fact.key)
             if erratum.raw.get("flag") != fact.flag:
@@ -123,7 +122,7 @@ def _lost(value: Any) -> bool:
 
 
 def same(left: Any, right: Any) -> bool:
-    """Whether two printed things are the same: as numbers in any notation, or as text but for blanks and case."""
+    """Whether two facts are equal: as numbers in any notation, as texts without regard to blanks and case."""
     if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
         lefts, rights = _listed(left), _listed(right)
         return len(lefts) == len(rights) and all(same(left, other) for left, other in zip(lefts, rights, strict=True))

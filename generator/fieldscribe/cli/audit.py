@@ -20,7 +20,7 @@ ends with 1 when a cited fact is not where it is cited; unused numbers and uncit
 
 
 _MOST_BYTES = 256 << 20
-"""The largest text of a manual: a hundred times the longest that we know."""
+"""The largest manual text that is read: a hundred times the longest known one."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -79,13 +79,13 @@ def _audit(arguments: Namespace) -> Audit:
 
 
 def _manual(subject: Subject, place: Path) -> tuple[Path, str | None]:
-    """The file to read, and the checksum of the text that was transcribed. Raises StopError."""
+    """The file to read, and the checksum of the text that was transcribed, if known. Raises StopError."""
     from fieldscribe.cli.common import StopError
 
     documents = list(subject.scope.documents.values())
     if not place.exists():
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
-    # a name from a description leads nowhere but into the folder that was given
+    # only plain names, so that a description cannot lead out of the given folder
     known = {
         document.file: document.sha256
         for document in documents

@@ -79,7 +79,7 @@ def _no_unit(symbol: str) -> tuple[str, str]:
 
 
 def _matches(device: Device, what: str) -> list[Match]:
-    """Every point that is meant, of those that the chosen variants have. Raises StopError where they have none."""
+    """Every matching point that the chosen variants have. Raises StopError if they have none of the matches."""
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
     from fieldscribe.conversation.lookup import find
@@ -94,7 +94,7 @@ def _matches(device: Device, what: str) -> list[Match]:
 
 
 def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
-    """Each of the points, with all readings that lead to it."""
+    """The explanation of each matching point, with all readings of the question that lead to it."""
     from fieldscribe.conversation.explanation import explain_point
 
     readings: dict[str, list[str]] = {}

@@ -19,7 +19,7 @@ _JSON = "json"
 
 
 def _forms() -> tuple[str, ...]:
-    """The forms: the model of any device, and what only some families have."""
+    """All forms: the model, which every device has, and those that only some families have."""
     from fieldscribe.families import families
 
     return (_JSON, *(form for family in families() for form in family.exports))

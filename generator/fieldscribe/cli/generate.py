@@ -84,7 +84,7 @@ def run(arguments: Namespace) -> int:
 def _compiled(
     arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, memory: Memory | None
 ) -> Result:
-    """Do what was asked for; what became of it. Raises OSError."""
+    """List, compare or write, as the arguments say, and return the result. Raises OSError."""
     from fieldscribe.cli import show_traceback
     from fieldscribe.output.generation import Generation
 
@@ -113,7 +113,7 @@ def _say_waiting(out: Path) -> None:
 
 
 def _say(arguments: Namespace, result: Result, report: Report) -> int:
-    """Tell what happened; the exit code."""
+    """Print what happened and return the exit code."""
     from fieldscribe.report import visible
 
     if arguments.format == "json":

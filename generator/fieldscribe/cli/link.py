@@ -1,4 +1,4 @@
-"""What commands ask about the link and about single frames: their options, which each family checks."""
+"""The options of commands about the link and single frames; families say which of them they take."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def add_with(parser: ArgumentParser) -> None:
-    """What other points hold."""
+    """The option `--with`: what other points hold."""
     parser.add_argument(
         "--with",
         dest="given",
@@ -24,7 +24,7 @@ def add_with(parser: ArgumentParser) -> None:
 
 
 def add_framing(parser: ArgumentParser, default: str) -> None:
-    """How frames are wrapped."""
+    """The option that says how frames are wrapped."""
     from fieldscribe.conversation.options import framings
     from fieldscribe.families import families
 
@@ -38,7 +38,7 @@ def add_framing(parser: ArgumentParser, default: str) -> None:
 
 
 def add_own(parser: ArgumentParser, command: str) -> None:
-    """The options that only some families have a use for."""
+    """The options that only some families take."""
     from fieldscribe.families import families
 
     for family in families():
@@ -55,7 +55,7 @@ def add_own(parser: ArgumentParser, command: str) -> None:
 
 
 def options_of(device: Device, arguments: Namespace) -> Options:
-    """What was asked for, if the device's family has a use for it. Raises StopError."""
+    """The options that were given. Raises StopError for one that the device's family does not take."""
     from dataclasses import fields
 
     from fieldscribe.cli.common import StopError

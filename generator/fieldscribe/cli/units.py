@@ -31,7 +31,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """List them; the exit code."""
+    """List them and return the exit code."""
     from fieldscribe.cli.common import print_json
     from fieldscribe.language.units import shipped
 
@@ -45,7 +45,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _chosen(known: Sequence[Known], words: Sequence[str]) -> tuple[list[Known], int]:
-    """The units that the words name, and the exit code; words that name none are told."""
+    """The units that the words name, and the exit code; reports words that name none."""
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import usage_error
     from fieldscribe.conversation.selection import quoted
@@ -79,7 +79,7 @@ def _as_data(known: Known) -> dict[str, str]:
 
 
 def _print(chosen: Sequence[Known], *, every: bool) -> None:
-    """One line a unit; units with a prefix stand behind the unit itself unless `every` one was asked for by name."""
+    """Print a line for each unit; those with a prefix only behind their base unit, unless `every` is set."""
     from fieldscribe.cli.terminal import print_lines
 
     prefixes: dict[str, list[str]] = {}

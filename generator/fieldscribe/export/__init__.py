@@ -1,6 +1,6 @@
-"""The exported model: one JSON object per device that tools outside rely on (`schema.json` beside this describes it).
+"""The exported model: one JSON object per device for other tools; `schema.json` beside this file describes it.
 
-It changes only with its `format` number. JSON numbers are integers; every other exact number is text.
+Its shape changes only with its `format` number. JSON numbers are integers; every other exact number is text.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
 
 FORMAT = 2
-"""The number of this contract."""
+"""The version of the exported shape."""
 
 
 def export_model(device: Device) -> dict[str, object]:
@@ -73,7 +73,7 @@ def _document(document: Document) -> dict[str, object]:
 
 
 def _limits(device: Device) -> dict[str, object]:
-    """What the frames need to know, in the order of the contract; what a family does not have stands for nothing."""
+    """What the frames need to know, in the order of the schema; keys of other families stand there empty."""
     bus = device.bus
     limits: dict[str, object] = {
         "framings": list(bus.framings),

@@ -12,15 +12,15 @@ if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096
-"""A longer list of single numbers is said as ranges alone."""
+"""Longer lists of single numbers are exported as ranges only."""
 
 
 def export_point(
     point: Point, by_name: PointsByName, direction: str | None = None, places: tuple[Place, ...] | None = None
 ) -> dict[str, object]:
-    """All facts of a point, in the order of the contract; what the model does not hold yet is null or empty.
+    """All facts of a point, in the order of the schema.
 
-    `direction` is that of its telegram; `places` stand in place of its own where the family has more of them.
+    `direction` is that of its telegram; `places` replace its own where its family derives more of them.
     """
     return {
         "name": point.name,
@@ -70,12 +70,12 @@ def export_point(
 
 
 def source_of(source: Source) -> dict[str, object]:
-    """Where in the manual a fact stands."""
+    """The place in the manual that a fact is taken from."""
     return {"document": source.document, "section": source.section, "page": source.page, "line": source.line}
 
 
 def _default(point: Point) -> int | str | None:
-    """The default as raw number; of f32 and f64 the value; null where the raw number depends on other points."""
+    """The default as raw number, for f32 and f64 as value; null where the raw number depends on other points."""
     if point.default is None or point.info.floating:
         return None if point.default is None else number_text(point.default)
     rule = fixed_rule(point)
@@ -86,7 +86,7 @@ def _default(point: Point) -> int | str | None:
 
 
 def _condition(condition: Condition) -> dict[str, object]:
-    """Any of clauses whose comparisons all hold: of variant axes with names, of points with raw numbers."""
+    """A condition: any of its clauses, all comparisons of a clause. Points are compared by raw number, axes by name."""
     return {"any": [{"all": [_comparison(comparison) for comparison in clause]} for clause in condition.clauses]}
 
 
@@ -136,7 +136,7 @@ def _is_open(enum: Enum | None) -> bool:
 
 
 def _repeat(point: Point) -> str | None:
-    """The name of the row that stands for this point and others: its name without set and index."""
+    """The name of the row that this point was expanded from: its own name without set and index."""
     name = point.name
     for word, number in (("index", point.index), ("set", point.set)):
         name = name.removesuffix(f"_{word}_{number}")
@@ -152,7 +152,7 @@ def _entry(entry: Entry) -> dict[str, object]:
 
 
 def _flag(flag: Flag) -> dict[str, object]:
-    """One flag. A single bit without words for its numbers names the one that makes it true."""
+    """One flag. For a single bit without named numbers, the number that makes it true is exported."""
     values = {
         str(flag_value.raw): {"name": flag_value.name, "title": dict(flag_value.title)} for flag_value in flag.values
     }

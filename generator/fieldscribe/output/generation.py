@@ -1,6 +1,6 @@
 """All devices of a run: loaded, then compared with the output folder or written to it, one after the other.
 
-A device with an error, in its description or in any one target, or with a file of others in its way, is left as it is.
+The outputs of a device stay as they are if its description or a target has an error or a foreign file is in the way.
 """
 
 from __future__ import annotations
@@ -30,32 +30,32 @@ class Generation:
     targets: tuple[str, ...]
     report: Report
     debug: Callable[[BaseException], None]
-    """Is shown each internal error."""
+    """Called with each internal error."""
     devices: dict[str, tuple[Path, Device]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
-        """Take in the devices without errors; a second description of one is an error."""
+        """Load the devices without errors; two descriptions of the same device are an error."""
         from fieldscribe.pipeline import is_new, load_device
 
         known: dict[str, Path] = {}
         for device_file in device_files:
             try:
                 device = load_device(device_file, self.report, self.inputs)
-            except Exception as error:  # the other devices are written
+            except Exception as error:  # a bug with one device must not stop the others
                 self._report_bug(device_file, "the compiler", error)
                 continue
             if device is not None and is_new(device, device_file, known, self.report):
                 self.devices[device.id] = device_file, device
 
     def list_outputs(self) -> None:
-        """Note what there would be."""
+        """Note all outputs, without a look at the folder."""
         for device, files in self._made():
             self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
-        """Note what is stale. What was current when it was read has to be so at the end, or somebody is writing."""
+        """Note what is stale. Files that changed while we compared are stale too: somebody is writing them."""
         from fieldscribe.output.manifests import Manifests
         from fieldscribe.output.plan import changed_since, plan_of
 
@@ -69,7 +69,7 @@ class Generation:
         result.stale.update(changed_since(self.out, result.states))
 
     def write(self, waiting: Callable[[], None], memory: Memory | None, *, force: bool) -> None:
-        """Write what changed, while no other run writes to the folder. Raises OSError."""
+        """Write what changed, under the lock of the folder. Raises OSError."""
         from fieldscribe.output.lock import only_run
 
         if not self.devices:
@@ -98,7 +98,7 @@ class Generation:
             result.kept.update(plan.kept)
 
     def _made(self) -> Iterator[tuple[Device, Made]]:
-        """Each device with all its files; one with a target that fails has none at all, and a finding."""
+        """Each device with all its files; a device with a failing target is left out and gets a finding."""
         from fieldscribe.pipeline import TargetError, outputs
         from fieldscribe.targets import knows
 
@@ -125,7 +125,7 @@ class Generation:
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 
     def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
-        """Targets that cannot say a device of its family."""
+        """Report targets that cannot be generated for the device's family."""
         named = f"target {targets[0]} does" if len(targets) == 1 else f"targets {', '.join(targets)} do"
         message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
         hint = "choose others with --target"

@@ -1,4 +1,4 @@
-"""Rules and limits in words: what `wording` says of scales and ranges."""
+"""The texts for scales, ranges and conditions."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
     from fieldscribe.existence import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
-"""Points by name, for wording that looks at the points a limit refers to."""
+"""Points by name: the texts of rules that refer to points look there for units and names."""
 
 _TURNED = str.maketrans("<>", "><")
 
 
 def shown(raw: int, line: Line) -> str:
-    """The raw number as the line shows it."""
+    """The result of the line for a raw number, as text."""
     return exact(raw * line.factor + line.add, line.divisor)
 
 
 def inverse_text(rule: Linear, points: Points | None = None) -> str:
-    """How the argument of a rule follows from its result, called `raw`: `raw x 0.1 - 0.25`."""
+    """The inverse of a rule, with `raw` for its result: `raw x 0.1 - 0.25`."""
     multiply, add, divide = value_line(rule)
     ratio = Fraction(multiply, divide)
     if not rule.factors:
@@ -38,7 +38,7 @@ def inverse_text(rule: Linear, points: Points | None = None) -> str:
 
 
 def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> str:
-    """All intervals in one wording, the unit behind the last number; what lifts a limit is said at the end."""
+    """All intervals in one text, with the unit behind the last number and the exceptions of limits at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
     parts, remarks = [], []
@@ -55,12 +55,12 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
 
 
 def condition_text(condition: Condition | None, points: Points | None = None) -> str:
-    """When a point exists: `model == large and speed.raw > 600`; empty for always."""
+    """When a point exists: `model == large and speed.raw > 600`; empty if always."""
     return " or ".join(clause_text(clause, points) for clause in condition.clauses) if condition is not None else ""
 
 
 def clause_text(clause: Clause, points: Points | None = None) -> str:
-    """Comparisons that hold together, in values where `points` are given."""
+    """Comparisons joined by `and`; with values instead of raw numbers where `points` are given."""
     return " and ".join(_comparison_text(comparison, points) for comparison in clause)
 
 
@@ -102,7 +102,7 @@ def _bound_text(bound: Bound, is_low: bool, point: Point, line: Line, points: Po
 
 
 def _lifted_text(bound: Bound, side: str, line: Line) -> str:
-    """While which numbers of other points a limit does not apply, and which one stands instead."""
+    """The exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
     if isinstance(bound, int) or not bound.unless:
         return ""
     cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
@@ -139,7 +139,7 @@ def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
 
 def _factor_text(factor: Factor, points: Points | None = None) -> str:
     if points and factor.point in points and points[factor.point].info.floating:
-        return factor.point  # its value, for its raw number is a bit pattern
+        return factor.point  # its value: the raw number is only a bit pattern
     text = f"{factor.point}.raw"
     if factor.slope != 1 or factor.intercept:
         text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"

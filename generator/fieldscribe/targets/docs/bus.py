@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BusView:
-    """What the page says of the line."""
+    """The bus section of the page."""
 
     note: str
     facts: Table | None
@@ -60,20 +60,20 @@ def bus_view(device: Device) -> BusView:
 
 
 class OfFamily:
-    """What the part `targets.docs` of a family offers; what is here holds where it offers nothing."""
+    """The part `targets.docs` of a family. These are the defaults."""
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
-        """What people must know of the line, with what it is called."""
+        """Facts about the line, with their labels."""
         yield "Unit numbers", span(bus.units)
 
     def goes_to_all(self, function: Code) -> bool:
-        """Whether a function goes to all units at once where the description does not say it."""
+        """Whether a function may be broadcast, where the description does not say it."""
         del function
         return False
 
 
 def span(ends: tuple[int, int]) -> str:
-    """An interval for people."""
+    """An interval as text."""
     return f"{ends[0]}..{ends[1]}"
 
 
@@ -91,7 +91,7 @@ def _numbers(numbers: tuple[int, ...]) -> str:
 
 
 def _messages(device: Device) -> Table | None:
-    """The bytes of each message, one column a byte."""
+    """The table of messages, with a column for each byte."""
     rows = [
         (
             target("message", message.name),
@@ -138,7 +138,7 @@ def _telegrams(device: Device) -> Table | None:
 
 
 def _functions(bus: Bus, part: OfFamily) -> Table | None:
-    """The functions, with the column about broadcast only where there is a unit for it."""
+    """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
     heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
     rows = [(*_code(function), "" if function.most is None else str(function.most)) for function in bus.functions]
     if bus.broadcast is None:

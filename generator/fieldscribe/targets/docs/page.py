@@ -1,4 +1,4 @@
-"""The Markdown reference of a device: everything that its template places."""
+"""The view of the Markdown reference of a device."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _ENUM_KINDS = {
 
 @dataclass(frozen=True, slots=True)
 class EnumView:
-    """The names of one enum, and who uses them."""
+    """The entries of an enum, and the points that use it."""
 
     anchor: str
     heading: str
@@ -132,7 +132,7 @@ def _enum_views(device: Device) -> Iterator[EnumView]:
 
 
 def _all_enums(device: Device) -> Iterable[Enum]:
-    """The device's enums, then those that only points without code use."""
+    """The device's enums, then those of points that are only documented."""
     enums = {enum.name: enum for enum in device.enums}
     for point in device.points:
         for enum in _enums_of(point):
@@ -141,7 +141,7 @@ def _all_enums(device: Device) -> Iterable[Enum]:
 
 
 def _enums_of(point: Point) -> Iterator[Enum]:
-    """The enums of the point's number, or of each of its digits."""
+    """The enum of the point's raw number, or of its digits."""
     if point.enum is not None:
         yield point.enum
     if point.digits is not None:
@@ -206,7 +206,7 @@ def _errata(device: Device) -> Table | None:
 
 
 def _where(erratum: Erratum) -> str:
-    """What an erratum without points is about: a frame, a function, or a place in words."""
+    """What an erratum is about if it names no points: a frame, a function, or a place in words."""
     kind, _, name = erratum.where.partition(":")
     if kind == "frame" and name:
         return f"frame {link('frame', name)}"

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Group, Point
 
 _INLINE_NAMES = 4
-"""An enum with at most so many names stands in the point's row; a longer one is linked."""
+"""An enum with at most so many names is shown in the point's row; a longer one is linked."""
 
 _KEEPS = {
     "no": "lost when switched off",
@@ -45,7 +45,7 @@ class FlagsView:
 
 @dataclass(frozen=True, slots=True)
 class GroupView:
-    """One group of points as the page shows it."""
+    """A group of points on the page."""
 
     anchor: str
     heading: str
@@ -68,7 +68,7 @@ def group_views(device: Device) -> Iterator[GroupView]:
 
 
 def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
-    """The numberings that the points are printed in, in the order in which they appear."""
+    """The numberings of the manual that some of the points have, in the order of their first use."""
     return tuple(dict.fromkeys(key for point in points for key in point.references))
 
 
@@ -138,7 +138,7 @@ def _default_cell(point: Point) -> str:
 
 
 def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
-    """What else there is to know, shortest facts first, errata last."""
+    """Everything that has no column of its own: short facts first, errata last."""
     if point.variant:
         yield cell(f"only {point.variant}")
     yield from _repeated(point)

@@ -1,4 +1,4 @@
-"""The table of all points for spreadsheets: one row a point, every cell ready."""
+"""The table of all points for spreadsheets, with a row for each point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The special codes that a type, a group or a format declares for many points: once each, and all codes as a sheet."""
+"""The special codes that many points share, each set shown once, and the sheet of all special codes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HEADS = ("of", "type", "code", "raw_first", "raw_last", "name", "no_value", "wr
 
 @dataclass(frozen=True, slots=True)
 class CodesView:
-    """The codes that many points share: `users` says how many of which type."""
+    """Codes that many points share; `users` says how many points of which type."""
 
     anchor: str
     heading: str
@@ -28,7 +28,7 @@ class CodesView:
 
 
 def code_views(device: Device) -> Iterator[CodesView]:
-    """The shared codes, in the order in which points first have them."""
+    """The shared codes, in the order of their first point."""
     for name, points in _sharing(device).items():
         rows = [
             (
@@ -47,7 +47,7 @@ def code_views(device: Device) -> Iterator[CodesView]:
 
 
 def sheet_of_codes(device: Device) -> list[str]:
-    """The lines of the table of all codes, its head first: a row a code, of one point or of those that share it."""
+    """The lines of the table of all codes, its head first; shared codes have one row, not one for each point."""
     languages = tuple(
         dict.fromkeys(key for point in device.points for special in point.specials for key in special.title)
     )
@@ -78,7 +78,7 @@ def _row(name: str, point: Point, special: Special, languages: tuple[str, ...]) 
 
 
 def _sharing(device: Device) -> dict[str, list[Point]]:
-    """The points that share their codes, by what declares these."""
+    """The points that share codes, by the type, group or format that declares the codes."""
     points_of_codes: dict[str, list[Point]] = {}
     for point in device.points:
         if point.specials_of:

@@ -1,4 +1,4 @@
-"""Whoever hears a frame can say which message it is: by its identifier, or by a byte that is a constant in both."""
+"""A received frame can be only one message: its identifier tells, or a byte that is constant in both."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ if TYPE_CHECKING:
     from fieldscribe.model import Message
 
 _MOST = 64
-"""How many messages of one identifier are compared with a further one."""
+"""With how many messages of its identifier each message is compared."""
 
 
 def check(subject: Subject) -> None:
-    """Messages that travel under one identifier and differ in no constant byte."""
+    """Findings for messages of the same identifier that differ in no constant byte."""
     raws = {str(raw["name"]): raw for raw in reversed(list(subject.scope.listed("messages")))}
     heard: dict[int, list[Message]] = {}
     low, high = subject.bus.units

@@ -1,4 +1,4 @@
-"""Parameters can be read and written as they say: there are messages for it."""
+"""Every parameter that says it is read or written has a message for that."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _messages(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str,
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(
         list(subject.scope.listed("messages"))
     ):
-        return  # what could not be read may be what is missing
+        return  # the missing message may be one that could not be read
     asked = [message for message in subject.messages if message.direction == "request" and carries(message, "address")]
     answered = {
         message.answers for message in subject.messages if message.answers is not None and carries(message, "raw")

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Flag, Point
 
 _MOST_CODES = 32
-"""A band of more special codes is said in the comment alone: a database names single numbers."""
+"""A longer band of special codes goes to the comment only: a database names single numbers."""
 
 _HALVES = ("high", "low")
 
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A signal without its place in the frame: `address` is its first word in the telegram, the high one."""
+    """A signal without its place in the frame. `address` is its first word in the telegram, the high word."""
 
     name: str
     address: int
@@ -41,7 +41,7 @@ class Meaning:
 
 
 def signals_of_point(device: Device, point: Point, per_frame: int, *, joins: bool) -> Iterator[Meaning]:
-    """The signal that a point is; a number whose words are in two frames, or in falling order, is a signal a word.
+    """The signal of a point; one signal for each word where its words lie in two frames or in falling order.
 
     `joins` says whether neighbouring words of a frame are one number to a database.
     """
@@ -106,7 +106,7 @@ def _flag_text(flag: Flag, point: Point) -> str:
 
 
 def _comment(device: Device, point: Point) -> str:
-    """The title, with what a database cannot say: a rule that needs other points, the bits of a word."""
+    """The title, and facts that a database has no place for: rules that need other points, bits of a word."""
     parts = [point.title["en"]]
     if not point.generated:
         parts.append(f"Raw: {point.reason or 'the manual leaves it open'}")

@@ -1,4 +1,4 @@
-"""Functions carry what is asked of them: the printed amount of data, the points of each space, all words of a point."""
+"""Functions suffice: for the printed number of bytes, for each space with points, for all words of a point."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
 
 def check(subject: Subject) -> None:
-    """Functions whose printed bytes do not follow from their largest count, and spaces that no function reaches."""
+    """Findings for printed numbers of bytes that do not follow from the largest count, and for unreachable spaces."""
     bus = subject.scope.bus
     if bus is None:
         return
@@ -38,7 +38,7 @@ def check(subject: Subject) -> None:
 
 
 def _reached(subject: Subject, bus: Map) -> None:
-    """One finding for each space whose points could be read or written, but by no function of the device."""
+    """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
     points = [resolved.point for resolved in subject.resolved if resolved.point.generated]
     for space, functions in SPACES.items():
@@ -55,7 +55,7 @@ def _reached(subject: Subject, bus: Map) -> None:
 
 
 def _at_once(subject: Subject) -> None:
-    """One finding for each function whose requests are shorter than points that only it reads or writes."""
+    """One finding for each function whose requests have too few words for points that only it can read or write."""
     most = profile_of(subject.bus).most
     too_long: dict[tuple[str, int], list[Resolved]] = {}
     for resolved in subject.resolved:

@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, hex_of, no_frame, wrong_error
+from fieldscribe.checks.frames_agree import (
+    Seen,
+    from_words,
+    hex_of,
+    report_no_frame,
+    report_no_request,
+    report_wrong_error,
+)
 from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.families.modbus.functions import SPACES, profile_of
 from fieldscribe.families.modbus.replies import parse_reply
@@ -19,14 +26,14 @@ if TYPE_CHECKING:
 
 
 def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
-    """What the frame is; its request is a `Request`."""
+    """The frame as the device reads it; `Seen.request` is a `Request`."""
     return (
         _request(subject, open_frame) if open_frame.frame.direction == "request" else _reply(subject, open_frame, seen)
     )
 
 
 def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
-    """The frame with its checksum put right."""
+    """The frame with its checksum corrected."""
     frame = open_frame.frame
     if frame.framing != "rtu" or len(frame.printed) < 4:
         return frame
@@ -64,7 +71,7 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
 def _reply(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
     frame = _checked(subject, open_frame)
     asked = seen.get(frame.answers or "")
-    answers_nothing(subject, open_frame)
+    report_no_request(subject, open_frame)
     if asked is None or asked.request is None:
         return Seen(replace(frame, valid=False))
     request = asked.request
@@ -73,17 +80,17 @@ def _reply(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Se
         return _no_frame(
             subject, open_frame, frame, f"this does not answer `{frame.answers}`: {reply.status.replace('_', ' ')}"
         )
-    wrong_error(subject, open_frame, reply.exception if reply.status == "exception" else None)
+    report_wrong_error(subject, open_frame, reply.exception if reply.status == "exception" else None)
     return Seen(frame, request, _carries(request.function, request.address, reply.values or request.values))
 
 
 def _no_frame(subject: Subject, open_frame: OpenFrame, frame: Frame, message: str) -> Seen:
-    no_frame(subject, open_frame, message)
+    report_no_frame(subject, open_frame, message)
     return Seen(replace(frame, valid=False))
 
 
 def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
-    """What a frame brings: the values from an address on, by which function."""
+    """Finds the raw numbers in a frame: values from an address on, in the space of its function."""
     spaces = {space for space, by in SPACES.items() if function in (by.read, by.write_one, by.write_many)}
 
     def carries(point: Point) -> int | None:

@@ -1,4 +1,4 @@
-"""Parameters can be read and written as they say: there are tasks for it."""
+"""Every parameter that says it is read or written has a task for that."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
 
 _SHORT = 3
-"""The length of a parameter part that has room for one word of a value."""
+"""The words of a parameter part that carries values of one word only."""
 
 
 def check(subject: Subject) -> None:

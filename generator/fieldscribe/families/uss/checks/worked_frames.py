@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, no_frame, wrong_error
+from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_error
 from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.families.uss.telegrams import (
@@ -40,17 +40,17 @@ class _Asked:
 
 
 def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
-    """What the frame is; its request is the request and its link."""
+    """The frame as the device reads it; `Seen.request` is the request with its link."""
     frame = open_frame.frame
     if frame.framing == "broadcast":
         return _broadcast(subject, open_frame)
     if frame.framing == "uss":
         frame = _checked(subject, open_frame)
         if len(frame.corrected) < 4 or len(frame.corrected) % 2:
-            return no_frame(subject, open_frame, "this is no telegram: STX, LGE, ADR, words and BCC")
+            return report_no_frame(subject, open_frame, "this is no telegram: STX, LGE, ADR, words and BCC")
         return _telegram(subject, replace(open_frame, frame=frame), _words(frame.corrected[3:-1]), seen)
     if len(frame.printed) % 2:
-        return no_frame(subject, open_frame, "the part is made of words")
+        return report_no_frame(subject, open_frame, "the part is made of words")
     words = _words(frame.printed)
     if frame.framing == "pzd":
         return _process_data(subject, open_frame, words)
@@ -62,7 +62,7 @@ def _words(data: bytes) -> tuple[int, ...]:
 
 
 def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
-    """The frame with its length and its check byte put right."""
+    """The frame with its length byte and its check byte corrected."""
     frame, span = open_frame.frame, open_frame.raw.span("bytes")
     data = bytearray(frame.printed)
     if len(data) < 4:
@@ -83,11 +83,11 @@ def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
 
 
 def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], seen: dict[str, Seen]) -> Seen:
-    """A telegram, or its parameter part alone, which is read as a telegram without process data."""
+    """Read a telegram, or a parameter part alone, which is read as a telegram without process data."""
     frame = open_frame.frame
     if frame.direction == "request":
         return _request(subject, open_frame, words)
-    answers_nothing(subject, open_frame)
+    report_no_request(subject, open_frame)
     asked = seen.get(frame.answers or "")
     if asked is None or not isinstance(asked.request, _Asked):
         return Seen(replace(frame, valid=False))
@@ -95,16 +95,16 @@ def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], s
     data = frame.corrected if frame.framing == "uss" else telegram(request.unit, words)
     reply = parse(subject.bus, link, request, data)
     if reply.status not in ("ok", "refused", "no_rights"):
-        return no_frame(
+        return report_no_frame(
             subject, open_frame, f"this does not answer `{frame.answers}`: {reply.status.replace('_', ' ')}"
         )
-    wrong_error(subject, open_frame, reply.error if reply.status == "refused" else None)
+    report_wrong_error(subject, open_frame, reply.error if reply.status == "refused" else None)
     known = {code.number: code for code in subject.bus.exceptions}
     if reply.status == "refused" and known:
         error = known.get(reply.error)
         if error is None or (error.answers and request.task not in error.answers):
             what = "does not exist" if error is None else f"is not for the task {request.task}"
-            return no_frame(subject, open_frame, f"the error {reply.error} {what}")
+            return report_no_frame(subject, open_frame, f"the error {reply.error} {what}")
     value = (reply.width, reply.value) if reply.status == "ok" and reply.width else None
     return Seen(frame, asked.request, _carries(subject, request, value, reply.words, "response"))
 
@@ -116,16 +116,18 @@ def _request(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) ->
     short = frame.framing == "pkw" and setting == VARIABLE and len(words) == _SHORT
     sent = len(words) if short else Link(setting, 0).sent
     if len(words) < sent or (frame.framing == "pkw" and len(words) != sent):
-        return no_frame(subject, open_frame, f"the parameter part has {sent} words, {len(words)} are printed")
+        return report_no_frame(subject, open_frame, f"the parameter part has {sent} words, {len(words)} are printed")
     part, rest = words[:sent], words[sent:]
     link = Link(setting, len(rest))
     request = _asked(part, link, unit, rest) if part else Request(unit, 0, words=rest)
     status, data = build(subject.bus, link, request)
     if status != "ok":
-        return no_frame(subject, open_frame, f"this device takes no such request: {status.replace('_', ' ')}")
+        return report_no_frame(subject, open_frame, f"this device takes no such request: {status.replace('_', ' ')}")
     built = _words(data[3:-1])[: len(words)] if short else _words(data[3:-1])
     if built != words:
-        return no_frame(subject, open_frame, f"this request would be {' '.join(f'{word:04X}' for word in built)}")
+        return report_no_frame(
+            subject, open_frame, f"this request would be {' '.join(f'{word:04X}' for word in built)}"
+        )
     value = (request.width, request.value) if request.width else None
     return Seen(frame, _Asked(link, request), _carries(subject, request, value, rest, "request"))
 
@@ -137,7 +139,7 @@ def _setting(frame: Frame) -> int:
 
 
 def _asked(part: tuple[int, ...], link: Link, unit: int, rest: tuple[int, ...]) -> Request:
-    """What the words of a parameter part ask for."""
+    """The request in the words of a parameter part."""
     identification, place = part[:2]
     values = (*part[2:], 0, 0)
     task = identification >> 12
@@ -155,19 +157,19 @@ def _asked(part: tuple[int, ...], link: Link, unit: int, rest: tuple[int, ...]) 
 def _process_data(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) -> Seen:
     low, high = of_bus(subject.bus).pzd
     if not low <= len(words) <= high:
-        return no_frame(subject, open_frame, f"there are {low}..{high} words of process data, not {len(words)}")
+        return report_no_frame(subject, open_frame, f"there are {low}..{high} words of process data, not {len(words)}")
     return Seen(open_frame.frame, None, _carries(subject, None, None, words, open_frame.frame.direction))
 
 
 def _broadcast(subject: Subject, open_frame: OpenFrame) -> Seen:
-    """Four words of masks, then the process data."""
+    """Read a broadcast: four words of masks, then the process data."""
     words = _words(open_frame.frame.printed)
     if len(open_frame.frame.printed) % 2 or len(words) < _MASKS:
-        return no_frame(subject, open_frame, "a broadcast starts with four words of masks")
+        return report_no_frame(subject, open_frame, "a broadcast starts with four words of masks")
     link = Link(_MASKS, len(words) - _MASKS)
     status, _ = broadcast(subject.bus, link, words[:_MASKS], words[_MASKS:])
     if status != "ok":
-        return no_frame(subject, open_frame, f"this device takes no such broadcast: {status.replace('_', ' ')}")
+        return report_no_frame(subject, open_frame, f"this device takes no such broadcast: {status.replace('_', ' ')}")
     return Seen(open_frame.frame, None, _carries(subject, None, None, words[_MASKS:], "request"))
 
 
@@ -178,7 +180,7 @@ def _carries(
     words: tuple[int, ...],
     direction: str,
 ) -> Carries:
-    """What a telegram brings: the value (its words and its number) of one parameter, and words of process data."""
+    """Finds the raw numbers in a telegram: a parameter's value (number of words, number) and process data."""
     telegrams = {name for name, (telegram, _) in subject.places.telegrams.items() if telegram.direction == direction}
 
     def carries(point: Point) -> int | None:
