@@ -1,4 +1,4 @@
-"""All identifiers in the headers of a device, in the one namespace of C."""
+"""All identifiers in the headers of a device; C has only one namespace for them."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ _HEADERS = frozenset(
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
     | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
 )
-"""Headers of C libraries, which one of the same name in a folder of `-I` hides."""
+"""Headers of C libraries: ours would hide one of the same name from compilers that get our folder by `-I`."""
 
 
 def device_name_taken(name: str) -> str:
-    """Why no header may have that name; empty where it may."""
+    """Why no header may have that name; empty if it may."""
     return f"would make a header `{name}.h`, which hides the one of the C library" if name in _HEADERS else ""
 
 
@@ -66,7 +66,7 @@ def _of_point(shown: PointView, point: Point, device: DeviceView) -> Iterator[Na
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:
-            names.remove(name)  # once: what the point has beside of the same name is a clash
+            names.remove(name)  # only once: another use of the name in the same point is a clash
     yield owner, [*names, f"{shown.function}_with"] if shown.fields else names
     yield from parts
     if shown.special is not None and shown.special.codes is not None and point.shared_codes:
@@ -86,7 +86,7 @@ def _of_point(shown: PointView, point: Point, device: DeviceView) -> Iterator[Na
 
 
 def _of_parts(shown: PointView, point: Point, owner: Owner) -> Iterator[Named]:
-    """What a point has for its flags, and for special codes of its own."""
+    """The identifiers for the point's flags, and for special codes of its own."""
     for flag in point.flags:
         defines = [name for name, _ in flag_defines(flag, point, shown.macro)]
         yield (

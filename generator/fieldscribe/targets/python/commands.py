@@ -1,4 +1,4 @@
-"""Named constant writes, as attributes of the generated class, and the values of variants."""
+"""The named constant writes, as attributes of the device class, and the values of variants."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def variants(device: Device) -> Group:
 
 
 def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
-    """Each command: its attribute, what makes it, the arguments and the docstring."""
+    """Each command: its attribute, the runtime's class, the arguments and the docstring."""
     for command, name in command_attributes(device):
         scope.used.add("Command")
         where = place("at", Place("write", command.space, (command.address,), command.function), scope)

@@ -26,7 +26,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class DeviceClass:
-    """One class: its name, the device of the runtime that it is, the transport that this takes, and how to use it."""
+    """A device class: its name, its base class in the runtime, its transport, and an example of its use."""
 
     name: str
     base: str
@@ -37,7 +37,7 @@ class DeviceClass:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The device module: what it takes from where, its classes, their variants, and further settings of the bus."""
+    """The device module: its imports, its classes, their variants, and further settings of the bus."""
 
     module: str
     imports: tuple[str, ...]
@@ -47,7 +47,7 @@ class DeviceView:
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
-    """A program that shows what the class is for, with points of the device."""
+    """The lines of an example that uses the class with points of the device."""
     point = _shown(device, "rw") or _shown(device, "r")
     if point is None:
         return ()
@@ -63,7 +63,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
 
 
 def _shown(device: Device, access: str) -> Point | None:
-    """The first point that can be read, and written too, a quantity if there is one."""
+    """The point for the example: the first with that access, preferably one that is a quantity."""
     usual = [
         point
         for point in device.points
@@ -87,6 +87,6 @@ def device_view(device: Device, names: Identifiers) -> DeviceView:
         for name, flavour, wait in ((names.device_class, blocking, ""), (names.async_class, awaiting, "await "))
     )
     used = {blocking.device, awaiting.device}
-    if axes:  # only then has the class a constructor of its own
+    if axes:  # only then does the class have a constructor of its own
         used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
     return DeviceView(family.module, tuple(sorted_imports(used)), classes, axes, family.settings)

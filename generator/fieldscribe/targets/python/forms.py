@@ -1,4 +1,4 @@
-"""Expressions for what raw numbers mean: forms, rules, limits and places."""
+"""The Python expressions for the facts of points: forms, rules, limits and places."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 NUMBERED = frozenset({"parameter", "telegram"})
-"""Spaces whose addresses manuals print in decimal."""
+"""Spaces whose addresses are written in decimal."""
 
 
 def form(point: Point, scope: PackageScope) -> Node:
@@ -34,7 +34,7 @@ def form(point: Point, scope: PackageScope) -> Node:
 
 
 def _codes(point: Point, scope: PackageScope) -> Node:
-    """The special codes of a point; those that many share have a name of their own."""
+    """The special codes of a point; shared ones by the name of their constant."""
     scope.used.add("Codes")
     if not point.shared_codes:
         return call("Codes", _code_arguments(point))
@@ -131,7 +131,7 @@ def _text(point: Point, scope: PackageScope) -> Node:
 
 
 def _only_named(point: Point) -> bool:
-    """Whether exactly the numbers of a closed enum may be written."""
+    """Whether the numbers that may be written are exactly those of the closed enum."""
     if point.enum is None or not point.enum.closed:
         return False
     named, ranges = {entry.raw for entry in point.enum.entries}, point.allowed.fixed
@@ -158,7 +158,7 @@ def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
 
 
 def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
-    """A linear rule as integers; special codes of a scale's factors are named with them."""
+    """A linear rule as integers; factors of a scale have their special codes with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
     if ratio.numerator != 1:
@@ -192,7 +192,7 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
 
 
 def allowed(point: Point, scope: PackageScope) -> Node | None:
-    """The raw numbers that may be written; None where the type or the enum's names say it."""
+    """The argument for the raw numbers that may be written; None if the type or the enum says them."""
     intervals = point.allowed.intervals
     if point.form in ("float", "text", "digits") or _only_named(point):
         return None
@@ -225,7 +225,7 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
 
 
 def place(keyword: str, where: Place, scope: PackageScope, point: Point | None = None) -> Node:
-    """Where a point is, as `at=holding(0x1028)`; the point says its telegram or its index in an array."""
+    """A place as an argument, such as `at=holding(0x1028)`; `point` gives its telegram, or its index in an array."""
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
     index = [] if point is None or point.index is None else [f"index={point.index}"]
     addresses = [f"0x{address:04X}" for address in where.addresses]

@@ -1,4 +1,4 @@
-"""The view of the points module: one attribute per point, as data."""
+"""The view of the points module: an attribute for each point."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
-_DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
+_DOC = WIDTH - 4 - 6  # less the indentation and two triple quotes
 _BODY = 8  # the indentation of an attribute's arguments
 
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One attribute: its name, what makes it, the arguments (one a line), its docstring by lines, its old names."""
+    """An attribute: its name, the function that makes it, its arguments and docstring by lines, its old names."""
 
     name: str
     maker: str
@@ -49,8 +49,8 @@ class GroupView:
 class PointsView:
     """The points module.
 
-    `imports` are modules of the runtime with the names taken from each, `open_points` the lines that say where those
-    points are that the manual does not settle, `codes` the special codes that several points share.
+    `imports` are modules of the runtime with the names imported from each, `open_points` the lines about points whose
+    type or scale the manual does not settle, `codes` the special codes that several points share.
     """
 
     imports: list[tuple[str, list[str]]]
@@ -99,7 +99,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
 
 
 def _documented(point: Point, scope: PackageScope) -> Group:
-    """Why there is no attribute, and where the words are, if a master can reach them."""
+    """Why the point has no attribute, and the addresses of its words, if they can be reached."""
     scope.used.add("Documented")
     where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
     why = python_string(point.reason or "no reason given")
@@ -108,7 +108,7 @@ def _documented(point: Point, scope: PackageScope) -> Group:
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
-    """The names by the module that they come from, as import sorters have them."""
+    """The used names by their modules, sorted for imports."""
     of_family = used & family.exports if family.module != RUNTIME else set()
     imports = [(RUNTIME, sorted_imports(used - of_family)), (family.module, sorted_imports(of_family))]
     return [(module, names) for module, names in imports if names]
@@ -151,7 +151,7 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
 
 
 def _places(point: Point, scope: PackageScope) -> list[Node]:
-    """Where the point is, on the wire and in the manual."""
+    """The arguments for the places of the point, on the wire and in the manual."""
     arguments: list[Node] = [place("at", point.places[0], scope, point)]
     write_place = point.write_place
     if write_place is not None and write_place is not point.places[0] and point.writable:
@@ -204,7 +204,7 @@ def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) ->
 
 
 def _wrapped(text: str) -> list[str]:
-    """Docstring text in lines that fit below an attribute; most of it does so as it is."""
+    """The lines of a docstring below an attribute."""
     return [text] if len(text) <= _DOC else textwrap.wrap(text, _DOC, break_long_words=False, break_on_hyphens=False)
 
 
@@ -213,7 +213,7 @@ def _labelled(point: Point) -> str:
 
 
 def _open_points(device: Device) -> Iterable[str]:
-    """Names and wire addresses of the points that are there but for their type or scale; item by item in a list."""
+    """The lines of a list of points whose type or scale is open, with their wire addresses."""
     for point in device.points:
         if not point.raw_only:
             continue
@@ -225,5 +225,5 @@ def _open_points(device: Device) -> Iterable[str]:
 
 
 def _indented(text: str) -> list[str]:
-    """The text of an item of a list, in lines of which the later ones stand below its beginning."""
+    """The lines of an item of a list; those after the first are indented."""
     return textwrap.wrap(text, _DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)

@@ -1,4 +1,4 @@
-"""How a point is read and written, and what of it may be written."""
+"""The facts of reading and writing a point: access, limits, places."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 
 
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
-    """What may be written, where that is not every number between two ends."""
+    """The facts about allowed numbers, unless the outer limits say it all."""
     point = subject.point
     if subject.limits:
         yield tuple(_limits(point, scope))
@@ -68,7 +68,7 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
 
 
 def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
-    """A pair of ends for each range, of which other points set one or both."""
+    """The fact with a pair of ends for each range; some ends depend on other points."""
     yield "limits |with| ["
     for allowed in point.allowed.intervals:
         low, high = _end(allowed.low, scope, lower=True), _end(allowed.high, scope, lower=False)
@@ -88,7 +88,7 @@ def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
-    """The limits as the type has them, where they are not the type's own."""
+    """The limits as numbers of the type; empty if they are the type's own limits."""
     greatest = FLOAT_GREATEST[point.width]
     ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
     if ends and ends != [[-greatest, greatest]]:
@@ -97,7 +97,7 @@ def _float_ranges(point: Point) -> Iterator[str]:
 
 
 def _place(point: Point, scope: CrateScope) -> Iterator[str]:
-    """Function and address that write the point, where they are not the usual ones."""
+    """The function and the address for writing, unless they are the usual ones."""
     first = point.places[0]
     place = point.write_place or first
     single, many = _WRITES.get(place.space, (0, 0))

@@ -1,4 +1,4 @@
-"""The view of the conformance program: for each kind of vector, what runs it for each point."""
+"""The view of the conformance program: for each kind of vector a table of points with their calls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _CHAIN = 60
-"""As long as a chain of calls may be in one line."""
+"""A chain of calls on one line has at most so many characters."""
 
 
 def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
@@ -100,7 +100,7 @@ def _protocol(device: Device) -> Iterator[Table]:
 
 
 def item_row(key: str, module: str, how: str, name: str) -> Tokens:
-    """The row of something that is no point: its key in the vectors, and where it is in the crate."""
+    """The row of something other than a point: its key in the vectors, and its path in the crate."""
     return rust_string(key), module, *_bracketed((how, name))
 
 
@@ -116,7 +116,7 @@ def _bracketed(tokens: Tokens) -> Tokens:
 
 
 def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint]) -> Iterator[Table]:
-    """The tables of kinds that few devices have."""
+    """The tables of the kinds for places, fixed bits, texts and digits, and for exchanges."""
     placed = (subject for subject in scope.subjects if _has_place(subject.point))
     fixed = (subject for subject in scope.subjects if subject.point.fixed is not None)
     alone = ("(alone)",)
@@ -141,7 +141,7 @@ def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint])
 
 
 def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
-    """The kind, the runner's function and the row of each point that travels."""
+    """The kind, the runner's function and the row for each way in which each point is read or written."""
     for subject in scope.subjects:
         if not subject.point.places:
             continue
@@ -151,7 +151,7 @@ def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
 
 
 def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
-    """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
+    """The ways to read and write a point: by requests if it has an address, and further ones of its family."""
     point = subject.point
     text = "_text" if subject.form == "text" else ""
     if point.telegram is None and point.readable:
@@ -162,7 +162,7 @@ def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
 
 
 def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
-    """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
+    """The function that writes a point, and the structs that it needs."""
     point = subject.point
     if point.bits:
         return update, ()
@@ -173,17 +173,17 @@ def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs
 
 
 def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of what the scale needs, and its fields."""
+    """The struct of the raw numbers that the scale needs, with its fields."""
     return subject.factors_struct, subject.factors
 
 
 def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of all that writing needs, and its fields."""
+    """The struct of all raw numbers that writing needs, with its fields."""
     return subject.name, subject.arguments
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
-    """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
+    """The match arms that choose the table for vectors of whole exchanges, laid out as by rustfmt."""
     answering: dict[str, list[str]] = {}
     for table in tables:
         answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
@@ -201,7 +201,7 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
 
 
 def row_of(subject: CratePoint, how: Tokens) -> Tokens:
-    """What a table says of one point."""
+    """The row of a point: its name in the vectors, its path in the crate, and further tokens."""
     return rust_string(subject.point.item), subject.name, *how
 
 
@@ -221,12 +221,12 @@ def _counted(subject: CratePoint) -> Tokens:
 
 
 def _has_place(point: Point) -> bool:
-    """Whether more than an address says where the point is."""
+    """Whether a single address does not say where the point is: a text, an index or a telegram."""
     return point.text is not None or point.index is not None or point.telegram is not None
 
 
 def _has_words(point: Point) -> bool:
-    """Whether the words of a point are more than its raw number."""
+    """Whether the words of the point differ from its raw number."""
     return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 

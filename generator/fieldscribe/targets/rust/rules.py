@@ -1,4 +1,4 @@
-"""Scales and limits that need other points, as Rust expressions over the runtime's `Rule`."""
+"""Scales and limits that depend on other points, as Rust expressions with the runtime's `Rule`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Lines = tuple[str, ...]
 
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
-    """The rule that holds now: the cases in their order, up to one that always holds."""
+    """The lines that choose the case in force: in order, up to one that always holds."""
     otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
     cases: list[tuple[str, list[str], Lines]] = []
     for case in point.scale or ():
@@ -37,14 +37,14 @@ def rule_lines(point: Point, lowered: Lowered) -> Lines:
 
 
 def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
-    """An arm of a match over nothing, by whether a raw number is one of these codes."""
+    """An arm for raw numbers that are one of these codes."""
     yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
     yield from (f"        {line}" for line in chained(result))
     yield "    }"
 
 
 def rule_of(rule: Rule) -> Lines:
-    """A scale with its factors, step by step; where one is a special code there is no number to compute with."""
+    """The lines that compute a scale with its factors; special codes of factors are refused first."""
     codes = [code for operand in rule.steps for code in _codes(operand)]
     steps = [f".unless({' || '.join(codes)})"] if codes else []
     steps += [_step(operand, limit=False) for operand in rule.steps]
@@ -52,7 +52,7 @@ def rule_of(rule: Rule) -> Lines:
 
 
 def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
-    """A limit as a raw number within its outermost bound, which holds where a code sets the limit aside."""
+    """The lines that compute a limit within its outermost bound; the bound itself if a special code lifts the limit."""
     rule = lowered.rule(limit.rule)
     factors = (_step(operand, limit=True) for operand in rule.steps)
     bound = integer(limit.outermost(low=lower))
@@ -81,7 +81,7 @@ def _start(rule: Rule) -> str:
 
 
 def _codes(operand: Operand) -> Iterator[str]:
-    """The condition under which the factor's point holds a special code."""
+    """The condition that the factor's point holds a special code."""
     if operand.codes:
         bands = (interval(*band) for band in sorted(operand.codes))
         yield f"matches!({_raw_of(operand.point)}, {' | '.join(bands)})"

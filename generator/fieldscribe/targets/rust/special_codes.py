@@ -1,4 +1,4 @@
-"""Special codes as Rust constants: those of a point, and those that many share, once."""
+"""Special codes as Rust constants: those of each point, and those that many share, once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WIDTH = 100
 
 @dataclass(frozen=True, slots=True)
 class SharedView:
-    """The codes that several points share: a type with a constant for each, and the table of all."""
+    """Codes that several points share: a type with a constant for each code and a table of all."""
 
     name: str
     of: str
@@ -31,7 +31,7 @@ class SharedView:
 
 
 def shared_views(scope: CrateScope) -> Iterator[SharedView]:
-    """The shared codes, in the order in which points first have them."""
+    """The shared codes, in the order of their first point."""
     first: dict[str, CratePoint] = {}
     for subject in scope.subjects:
         if subject.point.shared_codes:
@@ -42,7 +42,7 @@ def shared_views(scope: CrateScope) -> Iterator[SharedView]:
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:
-    """The fact that gives a point its codes: its own, or those that it shares."""
+    """The fact about the codes of a point, its own or shared ones."""
     shared = subject.point.shared_codes
     if shared:
         yield f"codes (special::{type_name(shared)}::CODES);"
@@ -60,7 +60,7 @@ def code_lines(subject: CratePoint) -> Iterator[str]:
 
 
 def _kind(special: Special) -> str:
-    """The constructor that says what the code is."""
+    """The runtime's constructor for the kind of code."""
     words = (word for word, holds in (("writable", special.writable), ("no_value", special.no_value)) if holds)
     return "_".join(words) or "new"
 
@@ -91,7 +91,7 @@ def _table(subject: CratePoint, left: str) -> Lines:
 
 
 def _constant(left: str, call: str) -> Lines:
-    """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
+    """The lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
     lines = binding(4, left, call)
     if all(4 + len(line) <= _WIDTH for line in (*lines, f"{left} =")):
         return lines

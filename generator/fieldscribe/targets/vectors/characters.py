@@ -17,7 +17,7 @@ _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range
 
 
 def text(lines: Lines, point: Point) -> None:
-    """Texts that fill the words, are shorter, end in blanks, are empty or too long, and bytes that are no letters."""
+    """Vectors of a text: full, shorter, empty, too long, ending in blanks, and with bytes that are no characters."""
     if point.text is None:
         return
     size = point.text.characters
@@ -44,7 +44,7 @@ def _words(data: bytes) -> list[int]:
 
 
 def digits(lines: Lines, point: Point) -> None:
-    """Numbers taken apart and put together: each digit through all its numbers, and numbers that it cannot be."""
+    """Vectors of words of digits: each digit with all its numbers and some that it cannot have."""
     layout = point.digits
     if layout is None:
         return
@@ -79,7 +79,7 @@ def digits(lines: Lines, point: Point) -> None:
 
 
 def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
-    """Digits to try: one place at a time through all numbers and two that it cannot be, the others at their least."""
+    """Digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
     known = sorted(allowed)
     strange = [next(digit for digit in range(256) if digit not in known), 10]
     base = (known[0],) * layout.count

@@ -25,19 +25,19 @@ if TYPE_CHECKING:
 
 
 class OfFamily:
-    """What the part `targets.vectors` of a family offers; what is here holds where it offers nothing."""
+    """The part `targets.vectors` of a family. These are the defaults."""
 
     KINDS: Mapping[str, str] = MappingProxyType({})
-    """Kinds of vectors that only this family has, with the fields of their lines."""
+    """The kinds of vectors that only this family has, with the fields of their lines."""
 
     def limits(self, lines: Lines, bus: Bus) -> None:
-        """The constants of a bus."""
+        """Add the vectors of the constants of the bus."""
 
     def frames(self, lines: Lines, device: Device) -> None:
-        """Everything about the frames of a device."""
+        """Add the vectors of the frames of a device."""
 
     def wires(self, device: Device) -> Sequence[Wire]:
-        """The ways in which points travel, the usual one first."""
+        """The ways in which points travel, with the usual way first."""
         del device
         return ()
 
@@ -77,7 +77,7 @@ def collect(device: Device) -> Lines:
 
 
 def _limits(lines: Lines, device: Device, family_part: OfFamily) -> None:
-    """Everything about the constants of the bus."""
+    """Add all vectors of constants."""
     add_limits(lines, first_unit=device.bus.units[0], last_unit=device.bus.units[1])
     family_part.limits(lines, device.bus)
     for telegram in device.telegrams:
