@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -102,7 +102,7 @@ def spans_of(value: Any) -> Iterator[tuple[int, int]]:
     """`780`, `[780, 790]` or `780..790` as spans of lines."""
     for place in value if isinstance(value, Seq) else (value,):
         first, dots, last = str(place).partition("..")
-        yield int(first), int(last) if dots else 0
+        yield parse_integer(first), parse_integer(last) if dots else 0
 
 
 def numbers_in(value: Any) -> list[Fraction]:

@@ -74,7 +74,8 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
         return
     references = [Fraction(number) for number in point.references.values() if isinstance(number, int)]
     at = draft.get("at")
-    rule = [Fraction(int(str(at["number"]), 0))] if isinstance(at, Map) and str(at.get("number", "")).isdigit() else []
+    by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
+    rule = [Fraction(int(at))] if by_rule else []
     for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
         yield from citing.numbers("number", str(number), (number,), "code", optional=True)
     if code and any(str(number) in code for number in (point.address, *map(int, rule))):

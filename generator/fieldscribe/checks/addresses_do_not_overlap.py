@@ -66,8 +66,8 @@ def _place_in_words(subject: Subject, point: Point, address: int) -> str:
 
 def _row(mine: Resolved, other: Resolved) -> int | None:
     """The row of the manual, if both points were expanded from the same: all its overlaps are one finding."""
-    element, another = mine.draft.element, other.draft.element
-    return id(element.at) if element is not None and another is not None and element.at is another.at else None
+    expanded = mine.draft.element and other.draft.element
+    return id(mine.draft.own) if expanded and mine.draft.own is other.draft.own else None
 
 
 def _overlap(mine: Point, other: Point) -> bool:

@@ -17,27 +17,24 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(subject: Subject) -> None:
-    """Findings for a telegram without points, and for a wrong rule of addresses that no point is expanded by."""
+    """Findings for a telegram without points, and for a rule of addresses that cannot be read."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
-    with_rows: set[int] = set()
     for resolved in subject.resolved:
         group = resolved.draft.group
         groups.setdefault(id(group), group)
         if resolved.point.space == SPACE or "space" in resolved.draft.failed:
             with_words.add(id(group))
-        if resolved.draft.element is not None:
-            with_rows.add(id(group))
     for key, group in groups.items():
         if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:
             message = f"no point of the group is a word of the telegram `{group['telegram']}`"
             hint = "write `space: telegram`, or leave `telegram` out"
             subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
-        if "addressing" in group and key not in with_rows:
-            _check_unused_rule(subject, group)
+        if "addressing" in group:
+            _check_rule(subject, group)
 
 
-def _check_unused_rule(subject: Subject, group: Map) -> None:
+def _check_rule(subject: Subject, group: Map) -> None:
     try:
         evaluate(parse_expression(group["addressing"]), _KNOWN)
     except FormulaError as error:

@@ -63,8 +63,10 @@ class Point:
     """One addressable datum: its identity, its shape and its limits.
 
     `name` is unique except for variants: points of the same name differ in `variant` ("axis=value"). `places` is empty
-    if the manual prints no address. `bits` are its (high, low) bits of the word, None for whole words. `steps` has
-    pairs (from raw, step in raw). `generated` is False for a point that is only documented; `reason` says why.
+    if the manual prints no address. `bits` are its (high, low) bits of the word, None for whole words. `default` is the
+    factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
+    floating-point number has only the first. `steps` has pairs (from raw, step in raw). `generated` is False for a
+    point that is only documented; `reason` says why.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Point:
     unit: Unit
     allowed: Allowed
     default: Fraction | None
+    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
     record: str | None
     set: int | None

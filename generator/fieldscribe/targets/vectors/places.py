@@ -39,7 +39,7 @@ def address(lines: Lines, point: Point) -> None:
 
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """Add vectors of the facts around a point: group, variant, unit, old names, places."""
+    """Add the vector of what a point is beside its numbers: group, type, unit, default, variant, place for writing."""
     other = next((place for place in point.places if place.purpose == "write"), None)
     apart = other is not None and other is not point.places[0]
     lines.add(
