@@ -10,7 +10,7 @@ from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
 from fieldscribe.audit.placement import placement
-from fieldscribe.audit.printed_errata import PrintedErratum, errata_of
+from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -31,7 +31,7 @@ def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_te
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
     manual = Manual(text)
     claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
-    errata = list(errata_of(subject))
+    errata = list(printed_errata_of(subject))
     outcome = Audit(device, manual_name, same_text, len(manual))
     return _Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
 

@@ -39,7 +39,7 @@ class PrintedErratum:
     """`taken` as the author wrote it: it may name codes that the manual does not print."""
 
 
-def errata_of(subject: Subject) -> Iterator[PrintedErratum]:
+def printed_errata_of(subject: Subject) -> Iterator[PrintedErratum]:
     """All errata that name a line."""
     return (_printed_erratum(erratum) for erratum in subject.errata if erratum.erratum.source.line is not None)
 
