@@ -1,4 +1,4 @@
-"""All documents of a description, each held against the table of keys: those of device.yaml, then those of its parts."""
+"""All documents of a description, held against the table of keys: those of device.yaml, then those of its parts."""
 
 from __future__ import annotations
 
