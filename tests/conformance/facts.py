@@ -38,6 +38,13 @@ def place(package: Package, vector: Vector) -> bool:
     )
 
 
+def display(package: Package, vector: Vector) -> bool:
+    """With how many decimals people see values, which the point and its help say."""
+    point = package.point(vector)
+    said = f"shown with {vector['decimals']} decimal"
+    return bool(point.facts.display == vector["decimals"] and said in repr(point) and "Shown: with" in point._guide())
+
+
 def fixed(package: Package, vector: Vector) -> bool:
     """The bits that are always written as a constant."""
     return bool(package.point(vector).facts.fixed == (vector["mask"], vector["bits"]))
@@ -130,6 +137,7 @@ def code(package: Package, vector: Vector) -> bool:
 CHECKS: Mapping[str, Check] = {
     "address": address,
     "place": place,
+    "display": display,
     "fixed": fixed,
     "facts": facts,
     "alias": alias,

@@ -45,6 +45,7 @@ _SOMETIMES: Mapping[str, Callable[[Point], bool]] = {
     **dict.fromkeys(("fixed_mask", "fixed_bits"), lambda point: point.fixed is not None),
     "active_low_mask": lambda point: any(flag.active == 0 for flag in point.flags),
     "telegram": lambda point: point.telegram is not None,
+    "display_decimals": lambda point: point.display is not None,
     "eeprom_frame": lambda point: point.space == "parameter",
 }
 """What only points of some forms, spaces and families have."""

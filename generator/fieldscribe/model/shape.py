@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ class Shape:
     scale multiplies them to, exceed 53 bits: values are decoded only. `most_raw` is how large a raw number may be for a
     scale that other points decide, where the type goes beyond: larger ones overflow. `specials` are never computed
     with; `specials_of` names what gives those that are not the point's own to many points (a type, a group, a format).
+    `display` is with how many decimals people see values, None where nobody says it; nothing else follows from it.
 
     Resolving keeps one shape of each kind; what follows from it is worked out once and kept with it.
     """
@@ -41,6 +42,7 @@ class Shape:
     fixed: Fixed | None = None
     encodes_values: bool = True
     most_raw: int | None = None
+    display: int | None = field(default=None, repr=False)
 
     def __hash__(self) -> int:
         """Titles have no hash: what usually tells two shapes apart has to do, and equality looks at the rest."""

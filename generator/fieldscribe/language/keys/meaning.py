@@ -103,6 +103,7 @@ KEYS = (
         needs=("group",),
         inherited=(GROUP,),
     ),
+    Key("display", _GROUPED, places.DISPLAY.shape, needs=("group",), inherited=(GROUP,)),
     Key(
         "decimals",
         FACTS,

@@ -105,9 +105,12 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
+    shown = [one for one in scope.subjects if one.point.display is not None]
     for kind, rows in (
         ("place", tuple(row_of(one, "alone") for one in placed)),
         ("fixed", tuple(row_of(one, "alone") for one in fixed)),
+        ("display", tuple(row_of(one, "alone") for one in shown)),
+        ("told", tuple(row_of(one, _arguments(one.factors_type, one.factors)) for one in shown)),
         ("text_decode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.readable)),
         ("text_encode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),

@@ -99,6 +99,9 @@ KINDS = table(
         # the values of an axis of variants, and all that is documented only
         "variant": "only:python axis:word choices:names",
         "left_out": "only:python names:names codes:names",
+        # with how many decimals people see values, and the texts that they see
+        "display": "decimals:int",
+        "told": "only:python.rust raw:int status:word text:text?",
         # the symbol of the unit of a point that has one
         "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only

@@ -1,0 +1,41 @@
+"""With how many decimals people see the values of a point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.resolve.integer_path import shows
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Shape
+    from fieldscribe.resolve.bounds import Bounds
+    from fieldscribe.resolve.drafts import Draft
+
+_WITHOUT_VALUE = {
+    "enum": "a number with names",
+    "flags": "a word of flags",
+    "digits": "a word of digits",
+    "text": "a text",
+    "bit": "a single bit",
+}
+"""The forms of points that are no quantity."""
+
+
+def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
+    """The decimals that `display` says; a finding where there is no value to show with them."""
+    said = draft.get("display")
+    if said is None:
+        return None
+    decimals: int = said["decimals"]
+    kind, report = _WITHOUT_VALUE.get(shape.form), bounds.scales.scope.report
+    if kind is not None:
+        if draft.layer("display") is not draft.group:  # what a group says is for its quantities
+            message = f"`{draft.name}` is {kind}, which has no value to show with decimals"
+            report.error("display-fact", message, draft.span("display"), "leave `display` out")
+        return None
+    if shape.scale is not None and not shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None):
+        message = f"the scale of `{draft.name}` needs integers that are too wide to show {decimals} decimals exactly"
+        hint = "give fewer `decimals` under `display`, or leave it out"
+        report.error("display-fact", message, said.span("decimals"), hint)
+        return None
+    return decimals
