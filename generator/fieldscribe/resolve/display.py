@@ -33,9 +33,15 @@ def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
             message = f"`{draft.name}` is {kind}, which has no value to show with decimals"
             report.error("display-fact", message, draft.span("display"), "leave `display` out")
         return None
-    if shape.scale is not None and not shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None):
-        message = f"the scale of `{draft.name}` needs integers that are too wide to show {decimals} decimals exactly"
-        hint = "give fewer `decimals` under `display`, or leave it out"
+    fits = [one for one in range(decimals + 1) if _is_shown(draft, shape, bounds, one)]
+    if decimals not in fits:
+        message = f"`decimals: {decimals}` needs integers that are wider than code computes with"
+        hint = f"write `decimals: {fits[-1]}`" if fits else "leave `display` out: no decimals of this scale are exact"
         report.error("display-fact", message, said.span("decimals"), hint)
         return None
     return decimals
+
+
+def _is_shown(draft: Draft, shape: Shape, bounds: Bounds, decimals: int) -> bool:
+    """Whether code computes each value with so many decimals."""
+    return shape.scale is None or shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None)
