@@ -51,7 +51,6 @@ UPWARDS = {
 """Imports that go up, with the reason."""
 
 NAMES_A_FAMILY = {
-    "checks.prefixes": "it lists what the C header defines, which the target itself should say",
     "export": "`can_id` is a key of the published contract",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",

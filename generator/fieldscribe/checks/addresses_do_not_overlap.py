@@ -61,13 +61,13 @@ def _place(subject: Subject, point: Point, address: int) -> str:
 
 
 def _row(mine: Resolved, other: Resolved) -> int | None:
-    """The row that both are elements of, if they are: where its rule is wrong, one finding is enough."""
+    """The row of the manual that both points were expanded from, if it is one: a wrong rule there is one finding."""
     one, another = mine.draft.element, other.draft.element
     return id(one.at) if one is not None and another is not None and one.at is another.at else None
 
 
 def _overlap(mine: Point, other: Point) -> bool:
-    """Whether the two take the same bits of a word that both take."""
+    """Whether two points at one address have bits in common."""
     return (mine.bits or _WHOLE)[1] <= (other.bits or _WHOLE)[0] and (other.bits or _WHOLE)[1] <= (mine.bits or _WHOLE)[
         0
     ]

@@ -16,7 +16,7 @@ _RIVALS = ("enum", "digits", "scale")
 """What a word with fixed bits cannot have at all."""
 
 _MOST = 64
-"""More than the bits of a word and its variants: compared enough."""
+"""How many bit groups of a word are compared with one: a word has 16 bits, and its variants a few times as many."""
 
 
 def check(subject: Subject) -> None:
@@ -51,7 +51,7 @@ def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None
 
 
 def _compare(subject: Subject, one: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
-    """Findings about two bit groups of one word; what is about both alike only once, for the other `behind`."""
+    """Findings about two bit groups of one word; what is wrong with both is told once, by the later one (`behind`)."""
     own = group_mask(other.point)
     theirs = other.point.fixed
     related = [(other.draft.span(), f"`{other.point.name}` stands here")]

@@ -94,7 +94,7 @@ def _whole_word(point: Point) -> Point:
 
 
 def no_frame(subject: Subject, one: OpenFrame, message: str) -> Seen:
-    """The bytes are none that could be sent: what is right follows from nothing here."""
+    """A finding for bytes that nobody could send; nothing here tells which would be right."""
     printed = hex_of(one.frame.printed)
     subject.disagrees(Printed(f"frame:{one.frame.name}", "form", printed, None, one.raw.span("bytes"), message))
     return Seen(replace(one.frame, valid=False))

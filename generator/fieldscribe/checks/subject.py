@@ -83,6 +83,13 @@ class Subject:
         return self._models
 
     @property
+    def sound(self) -> Device:
+        """The device as code may know it, without the points that something is wrong with."""
+        from fieldscribe.resolve.device import sound_device
+
+        return sound_device(self) if self.report.has_errors else self.models[1]
+
+    @property
     def report(self) -> Report:
         """Where findings go."""
         return self.scope.report

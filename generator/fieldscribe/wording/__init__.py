@@ -237,8 +237,8 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
     return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
 
 
-def default_text(point: Point) -> str:
-    """The factory setting in the unit, or the name of the special code that it is; empty where there is none."""
+def default_text(point: Point, *, unit: bool = True) -> str:
+    """The factory setting, mostly with its unit, or the name of the special code that it is; empty if there is none."""
     if point.default is None:
         return ""
     rule = fixed_rule(point)
@@ -247,7 +247,8 @@ def default_text(point: Point) -> str:
         special = point.special(raw.numerator) if raw.denominator == 1 else None
         if special is not None:
             return special.name
-    return with_unit(number_text(point.default), point)
+    number = number_text(point.default)
+    return with_unit(number, point) if unit else number
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:

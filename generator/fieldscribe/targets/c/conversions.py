@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scales import Scaled
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import SpecialView
 
 STATUS = "FIELDSCRIBE_STATUS"
@@ -50,7 +50,7 @@ def is_rechecked(point: Point) -> bool:
 class Writer:
     """Writes the functions of one point."""
 
-    def __init__(self, point: Point, special: SpecialView | None, scope: Scope) -> None:
+    def __init__(self, point: Point, special: SpecialView | None, scope: HeaderScope) -> None:
         self.point, self.special, self.scope = point, special, scope
         self.name = f"{scope.prefix}_{point.item}"
         self.macro = f"{scope.upper}_{upper(point.item)}"

@@ -11,7 +11,7 @@ from fieldscribe.targets.c.rules import limit
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
 
 _TABLE = 3
 """So many ranges stand in a table; fewer are a test."""
@@ -28,7 +28,7 @@ def refused(point: Point) -> str:
     return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
 
 
-def check(point: Point, scope: Scope) -> str:
+def check(point: Point, scope: HeaderScope) -> str:
     """The status of writing `raw`, an integer that is no special code."""
     status = known(point, _status(point, scope))
     if point.fixed is None or point.bits is not None:
@@ -47,7 +47,7 @@ def checked(point: Point, name: str, low: int, high: int) -> str:
     return f"fieldscribe_check{wide}({name}, {bare(low)}, {bare(high)})"
 
 
-def _status(point: Point, scope: Scope) -> str:
+def _status(point: Point, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
         parts = [_between(one, point, scope) for one in intervals]
@@ -68,7 +68,7 @@ def _status(point: Point, scope: Scope) -> str:
     return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
 
 
-def ranges_table(point: Point, scope: Scope) -> str:
+def ranges_table(point: Point, scope: HeaderScope) -> str:
     """The name of the table of a point's ranges, which points that have the same share; empty where none is needed."""
     intervals = point.allowed.intervals
     if not point.writable or len(intervals) < _TABLE or point.info.bits > 16 or point.allowed.moves:
@@ -86,13 +86,13 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
     return low, high
 
 
-def _between(interval: Interval, point: Point, scope: Scope) -> str:
+def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
     """Whether a number lies in an interval whose limits other points may set."""
     ends = [_end(one, scope, is_low=one is interval.low) for one in (interval.low, interval.high)]
     return f"fieldscribe_between({_number(point)}, {', '.join(ends)})"
 
 
-def _end(bound: Bound, scope: Scope, *, is_low: bool) -> str:
+def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
     if isinstance(bound, Limit):
         return limit(bound, scope, is_low=is_low)
     return f"fieldscribe_whole_of({bare(bound)})"

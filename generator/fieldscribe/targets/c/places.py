@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
 
 
 def has_words(point: Point) -> bool:
@@ -80,7 +80,7 @@ def fixes(point: Point) -> bool:
     return point.fixed is not None and point.bits is None
 
 
-def fixed_number(point: Point, _macro: str, _scope: Scope, name: str) -> str:
+def fixed_number(point: Point, _macro: str, _scope: HeaderScope, name: str) -> str:
     """The number `name` of the point's raw type with the constant bits of its word put in."""
     info = point.info
     width = max(16, info.bits)

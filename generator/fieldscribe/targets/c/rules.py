@@ -11,16 +11,16 @@ from fieldscribe.targets.c.literals import bare, signed
 if TYPE_CHECKING:
     from fieldscribe.lowered import Operand, Rule
     from fieldscribe.model import Limit, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
 
 
-def rule_name(point: Point, scope: Scope) -> str:
+def rule_name(point: Point, scope: HeaderScope) -> str:
     """The function that gives the rule of a point; points with the same rule share it."""
     struct = tuple(scope.parameters(point, point.scale_arguments))
     return scope.tables.setdefault((struct, rule_of(point, scope)), f"{scope.prefix}_{point.item}_rule")
 
 
-def rule_of(point: Point, scope: Scope) -> str:
+def rule_of(point: Point, scope: HeaderScope) -> str:
     """The rule of a point, case by case, as what other points hold makes it."""
     rules, depth = "", 0
     for case in point.scale or ():
@@ -36,7 +36,7 @@ def rule_of(point: Point, scope: Scope) -> str:
     return f"{rules}fieldscribe_no_rule(FIELDSCRIBE_NO_CASE){')' * depth}"
 
 
-def limit(bound: Limit, scope: Scope, *, is_low: bool) -> str:
+def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
     """A limit that other points set; the outer one stands where one of them holds a code that is no quantity."""
     start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
     text = _bare_limit(rule, scope)
@@ -49,7 +49,7 @@ def limit(bound: Limit, scope: Scope, *, is_low: bool) -> str:
     return f"{applies} ? {text} : fieldscribe_whole_of({bare(start)})"
 
 
-def _bare_limit(rule: Rule, scope: Scope) -> str:
+def _bare_limit(rule: Rule, scope: HeaderScope) -> str:
     if not _fits(rule):
         floats = any(operand.floating for operand in rule.operands)
         return f"fieldscribe_limit{'_f32' if floats else ''}({_steps(rule, scope, of_limit=True)})"
@@ -72,7 +72,7 @@ def _stays_inside(rule: Rule, outermost: int, *, is_low: bool) -> bool:
     return 2 * (rule.ratio * prod(operand.ends[1] for operand in rule.operands) + rule.offset) < 2 * outermost + 1
 
 
-def _is_no_code(point: str, low: int, high: int, scope: Scope) -> str:
+def _is_no_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
     (least, greatest), raw = scope.points[point].held, scope.raw(point)
     if low == high:
         return f"({raw} != {bare(low)})"
@@ -81,7 +81,7 @@ def _is_no_code(point: str, low: int, high: int, scope: Scope) -> str:
     return f"({' || '.join(tests)})" if len(tests) > 1 else tests[0]
 
 
-def _steps(rule: Rule, scope: Scope, *, of_limit: bool = False) -> str:
+def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
     """The steps of a rule. A scale takes no factor of zero, a limit only none to divide by."""
     ratio, offset = rule.ratio, rule.offset
     numbers = (ratio.numerator, ratio.denominator, offset.numerator, offset.denominator)
@@ -91,7 +91,7 @@ def _steps(rule: Rule, scope: Scope, *, of_limit: bool = False) -> str:
     return text
 
 
-def _step(rule: str, operand: Operand, scope: Scope, *, of_limit: bool) -> str:
+def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
     """A rule with one more factor."""
     number, raw = _number(operand, scope), scope.raw(operand.point)
     if operand.floating:
@@ -105,13 +105,13 @@ def _step(rule: str, operand: Operand, scope: Scope, *, of_limit: bool) -> str:
     return f"fieldscribe_rule_ten_to({rule}, {'-' if operand.over else ''}{number})"
 
 
-def _codes(rule: Rule, scope: Scope) -> str:
+def _codes(rule: Rule, scope: HeaderScope) -> str:
     """Whether what is no quantity stands for a factor."""
     tests = [_is_code(name, *band, scope) for name, band in rule.coded]
     return f"({' || '.join(f'({test})' if ' && ' in test else test for test in tests)})" if tests else ""
 
 
-def _is_code(point: str, low: int, high: int, scope: Scope) -> str:
+def _is_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
     (least, greatest), raw = scope.points[point].held, scope.raw(point)
     if low == high:
         return f"({raw} == {bare(low)})"
@@ -137,7 +137,7 @@ def _fits(rule: Rule) -> bool:
     return top + bottom * (lift + 1) <= INT64[1]
 
 
-def _simple(rule: Rule, scope: Scope) -> tuple[str, str]:
+def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
     """A limit as a number and its divisor."""
     part = rule.offset.denominator
     tops = [_number(operand, scope) for operand in rule.operands if not operand.over]
@@ -158,7 +158,7 @@ def _product(constant: int, names: list[str]) -> str:
     return " * ".join(parts)
 
 
-def _number(operand: Operand, scope: Scope) -> str:
+def _number(operand: Operand, scope: HeaderScope) -> str:
     """Raw * slope + intercept of a factor, in brackets where it is more than a name."""
     text = f"(int64_t){scope.raw(operand.point)}"
     if operand.slope != 1:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(slots=True)
-class Scope:
+class HeaderScope:
     """The namespace of one device.
 
     `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits,
@@ -66,11 +66,11 @@ class Scope:
         return "".join(f", {self.raw(name)}" for name in names)
 
 
-def scope_of(device: Device, *, names_only: bool = False) -> Scope:
+def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:
     """A fresh scope for a device."""
     digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
     known = frozenset(one.id for one in device.errata if one.facts)
-    return Scope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
+    return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
 
 
 def _spaces(device: Device) -> dict[str, str | None]:

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Point, Special
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """What stands behind the name of a point, or of what its codes are shared by."""
 
 
-def special_view(point: Point, scope: Scope) -> SpecialView | None:
+def special_view(point: Point, scope: HeaderScope) -> SpecialView | None:
     """What the functions of a point ask about its special codes; None where it has none."""
     if not point.specials:
         return None
@@ -81,7 +81,7 @@ def encoded_limits(point: Point) -> tuple[int, int]:
     return min(low, *(one.low for one in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
-def _codes(point: Point, name: str, scope: Scope) -> CodesView | None:
+def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
     """The set of codes, at the first point that has it."""
     if name in scope.codes:
         return None

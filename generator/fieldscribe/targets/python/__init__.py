@@ -10,7 +10,7 @@ from fieldscribe.targets.python.device import device_view, uses
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
-from fieldscribe.targets.python.names import identifiers
+from fieldscribe.targets.python.names import device_name_taken, identifiers
 from fieldscribe.targets.python.points import points_view
 from fieldscribe.text import python_doc
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
+FOR_PEOPLE = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
@@ -62,4 +63,4 @@ def _head(device: Device) -> Mapping[str, object]:
     }
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.lowered import Operand
     from fieldscribe.model import Bound, Linear, Place, Point, ScaleCase, Special
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
@@ -21,7 +21,7 @@ NUMBERED = frozenset({"parameter", "telegram"})
 """Spaces whose addresses manuals print in decimal."""
 
 
-def form(point: Point, scope: Scope) -> Node:
+def form(point: Point, scope: PackageScope) -> Node:
     """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
     inner = _plain_form(point, scope)
     if not point.specials:
@@ -31,7 +31,7 @@ def form(point: Point, scope: Scope) -> Node:
     return call(around, (inner, _codes(point, scope)))
 
 
-def _codes(point: Point, scope: Scope) -> Node:
+def _codes(point: Point, scope: PackageScope) -> Node:
     """The special codes of a point; those that many share have a name of their own."""
     scope.used.add("Codes")
     if not point.shared_codes:
@@ -58,7 +58,7 @@ def _code_number(raw: int, special: Special) -> str:
     return f"0x{raw:04X}" if special.hexadecimal and raw >= 0 else str(raw)
 
 
-def _plain_form(point: Point, scope: Scope) -> Node:
+def _plain_form(point: Point, scope: PackageScope) -> Node:
     if point.form == "bit":
         scope.used.add("Bit")
         return "Bit()"
@@ -68,19 +68,19 @@ def _plain_form(point: Point, scope: Scope) -> Node:
     return _FORMS[point.form](point, point.type.upper(), scope)
 
 
-def _integer(point: Point, wire: str, scope: Scope) -> Node:
+def _integer(point: Point, wire: str, scope: PackageScope) -> Node:
     del point
     scope.used.add("Integer")
     return f"Integer({wire})"
 
 
-def _floating(point: Point, wire: str, scope: Scope) -> Node:
+def _floating(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.add("Floating")
     pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
     return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
 
 
-def _scaled(point: Point, wire: str, scope: Scope) -> Node:
+def _scaled(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Rule", "Scaled"))
     arguments = [wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"]
     if not point.encodes_values:
@@ -90,19 +90,19 @@ def _scaled(point: Point, wire: str, scope: Scope) -> Node:
     return call("Scaled", tuple(arguments))
 
 
-def _flags(point: Point, wire: str, scope: Scope) -> Node:
+def _flags(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Flags", "enums"))
     return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
 
 
-def _named(point: Point, wire: str, scope: Scope) -> Node:
+def _named(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Named", "enums"))
     enum = "" if point.enum is None else scope.names.enum_class(point.enum.name)
     closed = ("closed=True",) if point.enum is not None and point.enum.closed else ()
     return call("Named", (wire, f"enums.{enum}", *closed))
 
 
-def _digits(point: Point, wire: str, scope: Scope) -> Node:
+def _digits(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Digits", "enums"))
     enum = "" if point.digits is None else scope.names.enum_class(point.digits.enum.name)
     return call("Digits", (wire, f"enums.{enum}", f"count={0 if point.digits is None else point.digits.count}"))
@@ -118,7 +118,7 @@ _FORMS = {
 }
 
 
-def _text(point: Point, scope: Scope) -> Node:
+def _text(point: Point, scope: PackageScope) -> Node:
     scope.used.add("Text")
     if point.text is None or point.text.encoding == "ascii":
         return f"Text({0 if point.text is None else point.text.characters})"
@@ -134,7 +134,7 @@ def _only_named(point: Point) -> bool:
     return as_many and all(named.issuperset(range(low, high + 1)) for low, high in ranges)
 
 
-def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
+def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
@@ -152,7 +152,7 @@ def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
     return Group("(", tuple(made))
 
 
-def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
+def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
     """A linear rule as integers; special codes of a scale's factors are named with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
@@ -186,7 +186,7 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
     return call("Factor", arguments)
 
 
-def allowed(point: Point, scope: Scope) -> Node | None:
+def allowed(point: Point, scope: PackageScope) -> Node | None:
     """The raw numbers that may be written; None where the type or the enum's names say it."""
     intervals = point.allowed.intervals
     if point.form in ("float", "text", "digits") or _only_named(point):
@@ -196,7 +196,7 @@ def allowed(point: Point, scope: Scope) -> Node | None:
     return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
 
 
-def _bound(bound: Bound, scope: Scope) -> Node:
+def _bound(bound: Bound, scope: PackageScope) -> Node:
     if isinstance(bound, int):
         return str(bound)
     scope.used.update(("Limit", "Rule"))
@@ -216,7 +216,7 @@ def _bound(bound: Bound, scope: Scope) -> Node:
     )
 
 
-def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) -> Node:
+def place(keyword: str, where: Place, scope: PackageScope, point: Point | None = None) -> Node:
     """Where a point is, as `at=holding(0x1028)`; the point says its telegram or its index in an array."""
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
     index = [] if point is None or point.index is None else [f"index={point.index}"]

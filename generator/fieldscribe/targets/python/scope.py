@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
+class PackageScope:
     """Final names, points by name, variants; filled on the way: names of the runtime in use, codes that are shared."""
 
     names: Identifiers

@@ -12,13 +12,13 @@ from fieldscribe.targets.rust.rules import rule_lines
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 """The integer that holds any raw number of a point without a scale, and numbers beyond: an `i32` for the others."""
 
 
-def form_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+def form_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     """The fact that says what decoding gives."""
     kind = "reading" if subject.point.specials else "value"
     if subject.form == "scaled" and subject.rule is None:
@@ -28,7 +28,7 @@ def form_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
     return (f"=> {kind} {value_type(subject)} as {form}({facts});",)
 
 
-def value_type(subject: Subject) -> str:
+def value_type(subject: CratePoint) -> str:
     """The type of a value that is no special code."""
     if subject.form in ("scaled", "float"):
         return "f64"
@@ -41,7 +41,7 @@ def value_type(subject: Subject) -> str:
     return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
 
 
-def count_type(subject: Subject) -> str:
+def count_type(subject: CratePoint) -> str:
     """The integer that holds the counts of a point; empty if it has none."""
     point = subject.point
     if subject.form in ("float", "text", "digits"):
@@ -53,7 +53,7 @@ def count_type(subject: Subject) -> str:
     return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
 
 
-def _form(subject: Subject) -> tuple[str, str]:
+def _form(subject: CratePoint) -> tuple[str, str]:
     """The form of a point whose scale, if it has one, needs no other point; and its facts."""
     point = subject.point
     if subject.rule is not None:
@@ -69,7 +69,7 @@ def _form(subject: Subject) -> tuple[str, str]:
     return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
 
 
-def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
+def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:
     """A scale that needs other points: the rule, and the raw numbers that are not too large for it."""
     point = subject.point
     head = f"=> {kind}_or_error f64 as ruled(|with: {subject.factors_type}|"

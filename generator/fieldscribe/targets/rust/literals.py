@@ -7,10 +7,19 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of
-from fieldscribe.names import RUST_RESERVED, pascal
+from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
+
+RESERVED = frozenset(
+    {"Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do"}
+    | {"dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop"}
+    | {"macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static"}
+    | {"struct", "super", "trait", "true", "try", "type", "typeof", "union", "unsafe", "unsized", "use"}
+    | {"virtual", "where", "while", "yield"}
+)
+"""The words of the language, which nothing may be called as it is."""
 
 RAW_TYPES = {
     "bit": "u8",
@@ -72,7 +81,7 @@ def variant_name(name: str) -> str:
 @lru_cache(maxsize=65536)
 def value_name(name: str) -> str:
     """A function, a field or a local: as it is, or raw where Rust reserves the word."""
-    if name not in RUST_RESERVED:
+    if name not in RESERVED:
         return name
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"
 

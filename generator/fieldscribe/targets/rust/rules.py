@@ -18,8 +18,8 @@ Lines = tuple[str, ...]
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
-    otherwise = "Err(runtime::Error::NoCase(None))"
-    found: list[tuple[str, list[str], str]] = []
+    otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
+    found: list[tuple[str, list[str], Lines]] = []
     for case in point.scale or ():
         result = rule_of(lowered.rule(case.rule))
         if case.point is None:
@@ -33,30 +33,31 @@ def rule_lines(point: Point, lowered: Lowered) -> Lines:
     if not found:
         return chained(otherwise)
     arms = (line for one in found for line in _arm(*one))
-    return "match () {", *arms, f"    () => {otherwise},", "}"
+    return "match () {", *arms, f"    () => {'?'.join(otherwise)},", "}"
 
 
-def _arm(raw: str, codes: list[str], result: str) -> Iterator[str]:
+def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
     """An arm of a match over nothing, by whether a raw number is one of these codes."""
     yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
     yield from (f"        {line}" for line in chained(result))
     yield "    }"
 
 
-def rule_of(rule: Rule) -> str:
-    """A scale with its factors; where one is a special code there is no number to compute with."""
+def rule_of(rule: Rule) -> Lines:
+    """A scale with its factors, step by step; where one is a special code there is no number to compute with."""
     codes = [code for operand in rule.steps for code in _codes(operand)]
     steps = [f".unless({' || '.join(codes)})"] if codes else []
     steps += [_step(operand, limit=False) for operand in rule.steps]
-    return _start(rule) + "?".join(steps) if steps else f"Ok({_start(rule)})"
+    return (f"{_start(rule)}{steps[0]}", *steps[1:]) if steps else (f"Ok({_start(rule)})",)
 
 
 def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
     """A limit as a raw number within its outermost bound, which holds where a code sets the limit aside."""
     rule = lowered.rule(limit.rule)
-    steps = "?".join(_step(operand, limit=True) for operand in rule.steps)
+    factors = (_step(operand, limit=True) for operand in rule.steps)
     bound = integer(limit.outermost(low=lower))
-    found = f"{_start(rule)}{steps}{'?' if steps else ''}.limit()?.{'max' if lower else 'min'}({bound})"
+    first, *steps = (*factors, ".limit()", f".{'max' if lower else 'min'}({bound})")
+    found = (f"{_start(rule)}{first}", *steps)
     aside = [
         f"matches!(runtime::Raw::to_i64({_raw_of(name)}), {' | '.join(interval(*band) for band in codes)})"
         for name, codes in limit.unless

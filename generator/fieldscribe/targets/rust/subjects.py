@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class CratePoint:
     """A generated point: its form, its identifiers, what it needs; `rule` is the scale if it needs no other point."""
 
     point: Point
@@ -48,15 +48,18 @@ class Subject:
         return f"{pascal(self.point.item)}Factors"
 
     @property
+    def factors_struct(self) -> str:
+        """The name of the struct of all that the scale needs."""
+        return self.name if self.factors == self.arguments else self.factors_name
+
+    @property
     def factors_type(self) -> str:
-        """The struct of all that the scale needs."""
-        if not self.factors:
-            return "()"
-        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.factors_name}"
+        """The struct of all that the scale needs, as a type."""
+        return f"with::{self.factors_struct}" if self.factors else "()"
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
+class CrateScope:
     """What the points of one device share: its lowered model, raw types and enums' raw types by name, its functions.
 
     The telegrams are by name, with the messages that carry them. The errata are
@@ -67,13 +70,13 @@ class Scope:
     raw_types: Mapping[str, str]
     enums: Mapping[str, str]
     functions: frozenset[int]
-    subjects: tuple[Subject, ...]
+    subjects: tuple[CratePoint, ...]
     family: str
     telegrams: Mapping[str, tuple[Telegram, Message | None]]
     errata: frozenset[str]
 
 
-def scope_of(device: Device) -> Scope:
+def scope_of(device: Device) -> CrateScope:
     """The scope of a device, with its generated points."""
     lowered = lower(device)
     enums: dict[str, str] = {}
@@ -85,7 +88,7 @@ def scope_of(device: Device) -> Scope:
             if known != raw:
                 enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
     messages = {message.name: message for message in device.messages}
-    return Scope(
+    return CrateScope(
         lowered,
         {name: raw_type(point) for name, point in lowered.points.items()},
         enums,
@@ -97,9 +100,9 @@ def scope_of(device: Device) -> Scope:
     )
 
 
-def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
+def _subject(point: Point, enums: Mapping[str, str]) -> CratePoint:
     enum, raw = _enum(point), raw_type(point)
-    return Subject(
+    return CratePoint(
         point,
         point.form,
         raw,
