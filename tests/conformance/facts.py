@@ -40,9 +40,10 @@ def place(package: Package, vector: Vector) -> bool:
 
 def display(package: Package, vector: Vector) -> bool:
     """With how many decimals people see values, which the point and its help say."""
-    point = package.point(vector)
-    said = f"shown with {vector['decimals']} decimal"
-    return bool(point.facts.display == vector["decimals"] and said in repr(point) and "Shown: with" in point._guide())
+    point, decimals = package.point(vector), vector["decimals"]
+    said = f"with {decimals} decimal{'' if decimals == 1 else 's'}"
+    guided = f"\nShown: {said}, by {point.facts.item}.text(value).\n" in point._guide()
+    return bool(point.facts.display == decimals and repr(point).endswith(f", shown {said}>") and guided)
 
 
 def fixed(package: Package, vector: Vector) -> bool:
