@@ -44,8 +44,8 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
     yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
     if point.display is not None:
         yield display_text(point)
-    if point.default is not None:
-        yield f"default {default_text(point)}"
+    if default := default_text(point):
+        yield f"default {default}"
     if point.when is not None:
         yield f"exists only when {condition_text(point.when, scope.points)}"
     yield from width_texts(point)
