@@ -9,9 +9,9 @@ from fieldscribe.wording.exact import number_text
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _LONGEST = 30
 

@@ -11,7 +11,7 @@ from fieldscribe.language.nodes import Map, Seq
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 _LISTS = lists_with(DEVICE, "lines")
 

@@ -8,7 +8,7 @@ from fieldscribe.families import families
 from fieldscribe.language.meant import value_hint
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:

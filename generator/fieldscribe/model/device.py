@@ -34,8 +34,8 @@ class Erratum:
     taken: str
     why: str
     certainty: str
-    facts: tuple[str, ...] = ()
-    """The keys of what is printed, where that is given as facts and not in words alone."""
+    facts: tuple[tuple[str, str], ...] = ()
+    """What is printed, by the key that it is printed for, where that is given as facts and not in words alone."""
 
 
 @dataclass(frozen=True, slots=True)

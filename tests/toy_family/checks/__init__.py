@@ -10,7 +10,7 @@ from toy_family.facts import of_bus
 from toy_family.frames import tone_of
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.frames import OpenFrame
 

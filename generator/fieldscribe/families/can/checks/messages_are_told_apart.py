@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Message
+    from fieldscribe.resolve.subject import Subject
 
 _MOST = 64
 """How many messages of one identifier are compared with a further one."""
