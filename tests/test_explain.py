@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.lookup import find, near, number_of
+from fieldscribe.conversation.lookup import find, near
+from fieldscribe.hexadecimal import number_of
 from models import named, point, sample_device
 
 DEVICE = sample_device()

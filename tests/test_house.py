@@ -20,11 +20,15 @@ if TYPE_CHECKING:
 HOUSE = Path(fieldscribe.__file__).parent
 
 ROOMS = (
-    ("words, places, files of the package", "__init__ text names diagnostics kinds reading report resources render"),
+    (
+        "words, places, files of the package",
+        "__init__ asked hexadecimal text names diagnostics kinds reading report resources render",
+    ),
     ("the neutral model", "existence model plain"),
     ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),
+    ("frames taken apart, as all families say it", "families.answers families.directory families.spoken"),
     ("facts and frames of a family", "families.*"),
     ("the table of keys", "language.keys"),
     ("a family's own keys", "families.*.keys"),
@@ -39,7 +43,7 @@ ROOMS = (
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
     ("what talks to people", "conversation audit export"),
-    ("what must be known of a family to talk about it", "families.*.conversation families.*.export"),
+    ("what a family exports alone", "families.*.export"),
     ("output", "output"),
     ("the command line", "cli __main__"),
 )

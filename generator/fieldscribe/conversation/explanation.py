@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.family import conversation_of
+from fieldscribe.conversation.requests import read_text, write_text
 from fieldscribe.families import family
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
@@ -61,10 +61,9 @@ def explain_point(device: Device, point: Point, *, as_documented: bool = False) 
 
 def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[Row]:
     yield from _identity_rows(device, point)
-    conversation = conversation_of(device)
     if point.generated and not without_requests:
-        yield "Read", conversation.read_text(device, point)
-        yield "Write", conversation.write_text(device, point)
+        yield "Read", read_text(device, point)
+        yield "Write", write_text(device, point)
     yield from _meaning_rows(device, point)
     yield from _names_rows(point)
     yield from _behaviour_rows(device, point)

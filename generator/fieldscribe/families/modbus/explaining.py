@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.samples import sample_raw, sample_said
-from fieldscribe.families.modbus.conversation.words import words_of
 from fieldscribe.families.modbus.functions import SPACES, profile_of
 from fieldscribe.families.modbus.requests import Request, build
+from fieldscribe.families.modbus.sending import words_of
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
-    if not point.readable or not point.places:
-        return ""
     place = point.places[0]
     function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
     if function is None:
@@ -32,7 +30,7 @@ def write_text(device: Device, point: Point) -> str:
     """How to write the point, with a request for one allowed number; empty if it cannot be written."""
     place = point.write_place
     space = SPACES.get(place.space) if place else None
-    if not point.writable or place is None or space is None:
+    if place is None or space is None:
         return ""
     count = len(place.addresses)
     allowed = profile_of(device.bus).most

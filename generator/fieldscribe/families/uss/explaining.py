@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.conversation.hexadecimal import spaced
-from fieldscribe.conversation.samples import sample_raw, sample_said
-from fieldscribe.families.uss.conversation.links import default_link
-from fieldscribe.families.uss.conversation.remarks import code_text
-from fieldscribe.families.uss.conversation.sending import part_words, read_request
+from fieldscribe.families.uss.links import default_link
+from fieldscribe.families.uss.remarks import code_text
+from fieldscribe.families.uss.sending import part_words, read_request
 from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.hexadecimal import spaced
+from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: by which task, or in which word of process data; empty if it cannot be read."""
-    if not point.readable or not point.places:
-        return ""
     link, unit = default_link(device.bus), device.bus.usual_unit
     data = read_request(device, point, link, unit)
     if point.telegram is not None:
@@ -30,7 +28,7 @@ def read_text(device: Device, point: Point) -> str:
 
 def write_text(device: Device, point: Point) -> str:
     """How to write the point, with a telegram for one allowed number; empty if it cannot be written."""
-    if not point.writable or not point.places or point.words > 2:
+    if point.words > 2:
         return ""
     link, unit = default_link(device.bus), device.bus.usual_unit
     raw = sample_raw(point)

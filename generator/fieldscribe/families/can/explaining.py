@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.samples import sample_raw, sample_said
-from fieldscribe.families.can.conversation.sending import frame_text, read_frame, request_of, write_frames
+from fieldscribe.asked import RefusedError
 from fieldscribe.families.can.frames import CanFrame, carries, identifier
+from fieldscribe.families.can.sending import frame_text, read_frame, request_of, write_frames
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Point
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: by a message, or out of a telegram; empty if it cannot be read."""
-    if not point.readable or not point.places:
-        return ""
     if point.telegram is not None:
         return _telegram_text(device, point)
     message = request_of(device, writes=False)
@@ -31,7 +29,7 @@ def read_text(device: Device, point: Point) -> str:
 def write_text(device: Device, point: Point) -> str:
     """How to write the point, with a frame for one allowed number; empty if it cannot be written."""
     message = request_of(device, writes=True)
-    if not point.writable or not point.places or point.telegram is not None or message is None:
+    if point.telegram is not None or message is None:
         return ""
     head = _count(point, message)
     if point.bits is not None:

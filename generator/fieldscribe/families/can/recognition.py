@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.remarks import strange_unit
 from fieldscribe.families.can.frames import LENGTH, CanFrame, carried, carries, checksum
+from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
