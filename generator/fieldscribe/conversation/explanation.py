@@ -24,6 +24,7 @@ _ROWS = {
     "low_wire": "Words",
     "range": "Raw range",
     "range_in_units": "Range",
+    "default_in_units": "Default",
 }
 """Which row a printed fact stands in, where that is not called as its key."""
 
