@@ -56,11 +56,6 @@ def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
     return list(words)
 
 
-def spaced(data: bytes) -> str:
-    """Bytes as manuals print them: `05 06 10 28`."""
-    return data.hex(" ").upper()
-
-
 def _piece(piece: str, place: int) -> bytes:
     digits = piece.removeprefix("0x")
     if digits != piece and len(digits) == 1:

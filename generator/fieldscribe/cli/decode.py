@@ -91,8 +91,8 @@ def _frames(words: list[str]) -> list[str]:
 
 def _print(heard: list[Heard]) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.hexadecimal import spaced
     from fieldscribe.report import visible
+    from fieldscribe.wording.buses import spaced
 
     for place, one in enumerate(heard):
         if place:

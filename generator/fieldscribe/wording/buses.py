@@ -7,11 +7,23 @@ from typing import TYPE_CHECKING
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from fieldscribe.model import Bus, Code
 
 ALL_ELEMENTS = 255
+_NO_ANSWER: Mapping[str, str] = {
+    "wrong_unit": "it comes from another unit than was asked",
+    "wrong_transaction": "its transaction number is not that of the request",
+    "wrong_function": "its function is not that of the request",
+    "bad_byte_count": "it brings another number of bytes than was asked for",
+    "echo_mismatch": "it does not repeat the request",
+    "short_frame": "it is shorter than it says",
+    "long_frame": "it is longer than it says",
+    "wrong_parameter": "it is about another parameter or element",
+    "wrong_response": "its response does not belong to the task",
+    "wrong_length": "it has too few words for its response",
+}
 
 
 def units_text(bus: Bus) -> str:
@@ -36,9 +48,26 @@ def counted(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def here_are(number: int, what: str = "") -> str:
-    """How many there are, against how many there should be: `here is 1`, `here are 3 bytes`."""
-    return f"here {'is' if number == 1 else 'are'} {counted(number, what) if what else number}"
+def too_short(what: str, least: int, data: bytes) -> str:
+    """That there are fewer bytes than every frame has."""
+    return f"{what} has at least {least} bytes, here {'is 1' if len(data) == 1 else f'are {len(data)}'}"
+
+
+def spaced(data: bytes) -> str:
+    """Bytes as manuals print them: `05 06 10 28`."""
+    return data.hex(" ").upper()
+
+
+def check_text(there: bytes, right: bytes) -> str:
+    """Whether a checksum is the one that the bytes give; where there is none, what it would be."""
+    if not there:
+        return f"missing; it would be {spaced(right)}"
+    return f"ok ({spaced(there)})" if there == right else f"wrong: {spaced(there)}; these bytes give {spaced(right)}"
+
+
+def no_answer_text(status: str, request: str = "request") -> str:
+    """Why a frame is no answer to the open request."""
+    return f"it does not answer the {request}: {_NO_ANSWER.get(status, status)}"
 
 
 def span_text(low: int, high: int) -> str:

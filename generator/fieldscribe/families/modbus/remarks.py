@@ -9,7 +9,7 @@ from fieldscribe.families.modbus.facts import FAMILY
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
 from fieldscribe.text import line
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import counted, span_text, strange_unit
+from fieldscribe.wording.buses import counted, numbered, spaced, span_text, strange_unit
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -43,15 +43,6 @@ _EXCEPTIONS: Mapping[int, str] = {
     0x0A: "gateway path unavailable",
     0x0B: "gateway target did not answer",
 }
-REPLY_FAULTS: Mapping[str, str] = {
-    "wrong_unit": "it comes from another unit than was asked",
-    "wrong_transaction": "its transaction number is not that of the request",
-    "wrong_function": "its function is not that of the request",
-    "bad_byte_count": "it brings another number of bytes than was asked for",
-    "echo_mismatch": "it does not repeat the request",
-    "short_frame": "it is shorter than it says",
-    "long_frame": "it is longer than it says",
-}
 
 
 def function_text(function: int) -> str:
@@ -62,7 +53,7 @@ def function_text(function: int) -> str:
 
 def exception_text(device: Device, code: int) -> str:
     """An exception in the device's own words, else in those of the protocol."""
-    own = next((one for one in device.bus.exceptions if one.number == code), None)
+    own = numbered(device.bus.exceptions, code)
     if own is not None:
         return line(f"{hex_text(code, 2)} {own.name}: {own.title['en']}")
     common = _EXCEPTIONS.get(code)
@@ -117,7 +108,7 @@ def manual_notes(device: Device, data: bytes) -> Iterator[str]:
     for frame in device.frames:
         if frame.printed == data and not frame.valid:
             known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
-            right = frame.corrected.hex(" ").upper()
+            right = spaced(frame.corrected)
             yield line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {right}")
             return
 

@@ -9,9 +9,8 @@ from fieldscribe.asked import RefusedError
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
-from fieldscribe.hexadecimal import spaced
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import units_text
+from fieldscribe.wording.buses import spaced, units_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from fieldscribe.families.answers import Heard, Item
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE, SPACES
 from fieldscribe.families.modbus.recognition import Wrapped, recognise
 from fieldscribe.families.modbus.remarks import (
-    REPLY_FAULTS,
     exception_text,
     framing_finding,
     function_text,
@@ -22,7 +21,7 @@ from fieldscribe.families.modbus.replies import Reply, parse_reply
 from fieldscribe.families.modbus.requests import Request, parse_request
 from fieldscribe.families.spoken import Span, Spoken
 from fieldscribe.hexadecimal import rejoined, typed_bytes
-from fieldscribe.wording.buses import counted, words_text
+from fieldscribe.wording.buses import counted, no_answer_text, spaced, words_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -107,8 +106,7 @@ class ModbusSpeech:
         if asked is None:
             return Spoken(replace(heard, notes=("which request it refuses is not in the frame",)))
         if status != "exception":
-            fault = f"it does not answer the request before: {REPLY_FAULTS.get(status, status)}"
-            return Spoken(replace(heard, faults=(fault,)))
+            return Spoken(replace(heard, faults=(no_answer_text(status, "request before"),)))
         heard = replace(heard, summary=f"{heard.summary}; refused was {span_said(asked)}")
         return Spoken(heard, _carried(asked, _span(asked)), answers=True)
 
@@ -129,7 +127,7 @@ def _stray(wrapped: Wrapped, parsed: Request | str, asked: Request | None, statu
     """A reply that fits no request, or not quite: what it brings, as far as that can be said."""
     pdu = wrapped.pdu
     function = pdu[0]
-    faults = (f"it does not answer the request: {REPLY_FAULTS.get(status, status)}",) if asked else ()
+    faults = (no_answer_text(status),) if asked else ()
     if function in READS and len(pdu) >= 2 and pdu[1] == len(pdu) - 2:
         same = asked is not None and asked.function == function
         return _stray_read(wrapped, asked if same else None, faults)
@@ -147,7 +145,7 @@ def _stray(wrapped: Wrapped, parsed: Request | str, asked: Request | None, statu
 def _stray_read(wrapped: Wrapped, asked: Request | None, faults: tuple[str, ...]) -> Spoken:
     values, data = _data_of(wrapped.pdu), wrapped.pdu[2:]
     if asked is None:
-        said = f"reply with {counted(len(data), 'byte')} of data: {data.hex(' ').upper()}"
+        said = f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
         return Spoken(replace(_heard(wrapped, "reply", said), faults=faults, notes=(_UNASKED,)))
     due = (asked.count + 7) // 8 if asked.function in READ_BITS else 2 * asked.count
     if len(data) != due:

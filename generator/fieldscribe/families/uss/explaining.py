@@ -9,7 +9,7 @@ from fieldscribe.families.uss.links import default_link
 from fieldscribe.families.uss.remarks import code_text
 from fieldscribe.families.uss.sending import part_words, read_request
 from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
-from fieldscribe.hexadecimal import spaced
+from fieldscribe.wording.buses import spaced
 from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:

@@ -9,18 +9,11 @@ from fieldscribe.text import line
 from fieldscribe.wording.buses import numbered, strange_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.families.uss.recognition import Part
     from fieldscribe.families.uss.telegrams import Link
     from fieldscribe.model import Code, Device
-
-REPLY_FAULTS: Mapping[str, str] = {
-    "wrong_unit": "it comes from another unit than was asked",
-    "wrong_parameter": "it is about another parameter or element",
-    "wrong_response": "its response does not belong to the task",
-    "wrong_length": "it has too few words for its response",
-}
 
 
 def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:

@@ -11,10 +11,9 @@ from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.uss.links import asked, link_of
 from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
-from fieldscribe.hexadecimal import spaced
 from fieldscribe.text import line
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import numbered
+from fieldscribe.wording.buses import numbered, spaced
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

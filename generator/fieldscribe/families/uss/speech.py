@@ -22,7 +22,7 @@ from fieldscribe.families.uss.recognition import (
 )
 from fieldscribe.families.uss.telegrams import START, Link, Request, parse, telegram
 from fieldscribe.hexadecimal import rejoined, typed_bytes
-from fieldscribe.wording.buses import element_text
+from fieldscribe.wording.buses import element_text, no_answer_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -133,7 +133,7 @@ class UssSpeech:
     ) -> Spoken:
         part_words, rest, fault = split(words, self._link, request=False)
         if not fault and status and status not in _ANSWERS:
-            fault = f"it does not answer the request: {remarks.REPLY_FAULTS.get(status, status)}"
+            fault = no_answer_text(status)
         base = replace(base, kind="reply", faults=(*base.faults, *((fault,) if fault else ())))
         part = part_of(part_words)
         carried: tuple[Carried, ...] = (ProcessData("response", rest),)
