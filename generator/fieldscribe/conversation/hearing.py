@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -24,7 +25,7 @@ class Hearing:
 
     device: Device
     directory: Directory
-    given: Settings
+    given: dict[str, int | Fraction]
     known: dict[str, int | Fraction] = field(default_factory=dict)
     words: dict[int, int] = field(default_factory=dict)
     waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
@@ -33,7 +34,7 @@ class Hearing:
     @property
     def settings(self) -> Settings:
         """What rules take: what was given, else what was heard."""
-        return {**self.known, **self.given}
+        return ChainMap(self.given, self.known)
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep what the device said of points."""

@@ -52,7 +52,7 @@ class Listener:
 
     def __init__(self, device: Device, settings: Settings, speech: Speech) -> None:
         self._device = device
-        self._given = settings
+        self._given = dict(settings)
         self._speech = speech
         self._directory = Directory(device, speech.space_of)
         self._course = Course()
