@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.asked import UnclearError
 from fieldscribe.families import family
+from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.families.answers import Sent
+    from fieldscribe.families.answers import Sent, Way
     from fieldscribe.model import Device, Point
 
 
@@ -38,4 +39,9 @@ def read_text(device: Device, point: Point) -> str:
 def write_text(device: Device, point: Point) -> str:
     """How the point is written, with an example; empty if it cannot be written."""
     part = family(device.family).part("explaining")
-    return str(part.write_text(device, point)) if part and point.writable and point.places else ""
+    way: Way | None = part.way_to_write(device, point) if part and point.writable and point.places else None
+    if way is None:
+        return ""
+    raw = None if way.shown is None else sample_raw(point)
+    shown = "" if way.shown is None or raw is None else way.shown(raw)
+    return way.how if raw is None or not shown else f"{way.how}{way.joint}{sample_said(point, raw)}{shown}"

@@ -10,7 +10,7 @@ from fieldscribe.wording import label
 from fieldscribe.wording.buses import units_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from fieldscribe.model import Bus, Point
 
@@ -104,6 +104,18 @@ class Sent:
 
     frames: tuple[str, ...]
     notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """How a point is written, in words, and how frames show it with a raw number as an example.
+
+    `shown` gives nothing where no frame can be built; `joint` stands between the words and the example.
+    """
+
+    how: str
+    shown: Callable[[int], str] | None = None
+    joint: str = "; "
 
 
 _WHY = {
