@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint
 
 ROOT = Path(__file__).resolve().parents[1]
-SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
+SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
 PROGRAMS = Path(__file__).resolve().parent / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
 MODELS: dict[str, Callable[[], Device]] = {
@@ -91,7 +91,8 @@ def write_workspace(out: Path) -> None:
     for device in SHIPPED:
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
         shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
-    members = json.dumps([*RUNTIMES, *MODELS, *SHIPPED])
+    devices = [*MODELS, *SHIPPED]
+    members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
     (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
 
 
@@ -103,7 +104,7 @@ def bring_up_to_date(kept: Path, made: Path) -> None:
         if not place.is_file() or place.read_bytes() != text:
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(text)
-    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/tests/*.rs")):
+    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/**/tests/*.rs")):
         if place.relative_to(kept) not in texts:
             place.unlink()
 
@@ -243,7 +244,7 @@ LONG = pytest.mark.full(seconds=6)
 
 @pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
 def test_conforms(workspace: Path, device: str) -> None:
-    done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", f"{device}_conformance", "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
     counts = counts_of((workspace.parent / "vectors" / f"{device}.txt").read_text("utf-8"), "rust")
     passed = dict(re.findall(r"^(\w+) (\d+) passed, 0 failed$", done.stdout, re.MULTILINE))
@@ -257,7 +258,7 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
     assert changed != text
     (tmp_path / "wrong.txt").write_text(changed, encoding="utf-8")
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
 
@@ -268,7 +269,7 @@ def test_vectors_of_another_description_are_refused(
     text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
     (tmp_path / "other.txt").write_text(text.replace("\t1.2.0\t", "\t1.2.1\t", 1), encoding="utf-8")
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "other.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert "is of another description" in done.stderr
 
@@ -277,7 +278,7 @@ def test_vectors_that_are_not_there_say_what_to_set(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "none.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert "set FIELDSCRIBE_VECTORS to the absolute path of sample_drive.txt" in done.stderr
     assert "panicked" not in done.stderr

@@ -156,7 +156,7 @@ fn parameters_are_read_and_written() {
     let umlaut = client.write::<points::Name>(Text::new("Gerät").unwrap());
     assert_eq!(umlaut, Err(ClientError::Point(Error::BadText(Some("name")))));
     assert_eq!(client.write::<points::Password>(1234), Ok(()));
-    assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came")));
+    assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came", None)));
     let bus = client.into_transport();
     assert_eq!(bus.sent[0], "ff0501fb0000fefe");
     assert!(bus.sent.contains(&"ee05000b2d00c30e".to_owned()));
@@ -175,17 +175,17 @@ fn receivers_hear_what_others_are_told() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
     // Its high word came once: nobody knows whether it was the same before the low one.
-    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn));
-    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing));
+    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn(None)));
+    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing(None)));
     // What was heard before is not taken for what is true now.
     assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
     assert_eq!(client.listener().raw::<points::Hours>(), Ok(0x0001_0009));
     let exponent = client.receive::<points::Exponent>().unwrap();
     assert_eq!(client.receive_with::<points::Power>(with::Power { exponent }), Ok(0.9));
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came")));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came", None)));
     let mut client = client.patient(0);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing)));
-    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing(None))));
+    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer(None)));
 }
 
 fn numbers_of_two_frames_are_waited_for() {
@@ -197,7 +197,7 @@ fn numbers_of_two_frames_are_waited_for() {
     assert_eq!(bus.later.len(), 1);
     let bus = Bus::default().then(&[low, high, part(2, [9, 0, 0]), part(1, [0, 0, 2])]);
     let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn)));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn(None))));
 }
 
 /// A device that takes the nearest number it likes.
@@ -205,7 +205,7 @@ fn other_numbers_are_told() {
     let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
     let bus = Bus::new(&[(507, 1)], vec![nearest]);
     let mut client = Client::new(bus, &PROFILE, 5);
-    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399)));
+    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399, None)));
 }
 
 fn listeners_are_lent_and_paired() {
@@ -216,13 +216,13 @@ fn listeners_are_lent_and_paired() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(receiver.raw::<points::Starts>(), Ok(0x0001_0002));
     assert_eq!(receiver.word(9), Ok(1));
-    assert_eq!(receiver.word(19), Err(ReceiveError::Missing));
-    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing));
+    assert_eq!(receiver.word(19), Err(ReceiveError::Missing(None)));
+    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing(None)));
 }
 
 fn units_are_checked() {
     let mut client = Client::new(Bus::default(), &PROFILE, 31);
-    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit)));
+    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit, None)));
     assert!(client.into_transport().sent.is_empty());
 }
 

@@ -168,7 +168,7 @@ fn runs_and_stops() {
     drive.lock().unwrap().faulty = true;
     let refused = client.read::<points::UserAccessLevel>().unwrap_err();
     let (error, name) = (exceptions::PARAMETER_NUMBER_NOT_ALLOWED, Some("parameter_number_not_allowed"));
-    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }));
+    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }, None));
     assert!(client.heard::<points::StatusWord>().unwrap().fault());
     assert!(drive.lock().unwrap().control & 1 == 1);
 }
@@ -201,7 +201,7 @@ fn wrong_links_are_noticed() {
     drive.lock().unwrap().single_first = true;
     let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
-    let wrong = ClientError::EchoMismatch(Value::Word(0));
+    let wrong = ClientError::EchoMismatch(Value::Word(0), None);
     assert_eq!(client.write::<points::CommandSource>(usual), Err(wrong));
     let mut client = Client::new(Port(drive), &PROFILE, Link::new(4, 2).single_first(), 3);
     assert_eq!(client.write::<points::CommandSource>(usual), Ok(()));

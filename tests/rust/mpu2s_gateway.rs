@@ -138,14 +138,14 @@ fn measured_values_are_published() {
     let wrong = with::GeneratorActivePower { generator_power_exponent: 100 };
     assert!(receiver.value_with::<points::GeneratorActivePower>(wrong).is_err());
     let empty = Receiver::<Visualisation>::new(UNIT).value::<points::GeneratorFrequency>();
-    assert_eq!(empty, Err(ReceiveError::Missing));
+    assert_eq!(empty, Err(ReceiveError::Missing(None)));
 }
 
 fn parameters_are_changed() {
     let mut client = Client::new(Device::new(), &PROFILE, UNIT);
     // Without the password the device keeps what it has, and says so.
     let locked = client.write::<points::GeneratorFrequencySetpoint>(60.0);
-    assert_eq!(locked, Err(ClientError::EchoMismatch(12800)));
+    assert_eq!(locked, Err(ClientError::EchoMismatch(12800, None)));
     assert_eq!(client.write::<points::PasswordLevel2>(1234), Ok(()));
     assert_eq!(client.write::<points::GeneratorFrequencySetpoint>(60.0), Ok(()));
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
@@ -163,7 +163,7 @@ fn a_late_answer_answers_nothing() {
     let mut client = Client::new(Device::new(), &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.transport().slow = 1;
     let late = client.read::<points::GeneratorFrequencySetpoint>();
-    assert_eq!(late, Err(ClientError::Transport("nothing came")));
+    assert_eq!(late, Err(ClientError::Transport("nothing came", None)));
     client.transport().parameters.insert(11, 15360);
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
     assert_eq!(client.listener().taken(), 2);

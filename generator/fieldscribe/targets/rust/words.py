@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -83,13 +83,31 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
                 flags=flags,
                 shown=(
                     *binding(4, "const NAME: &'static str", rust_string(subject.name)),
-                    *calls(4, "const FLAGS: &'static [runtime::Flag]", [_shown(flag) for flag in flags]),
+                    *_table(point.flags, flags),
                 ),
             )
 
 
+def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
+    """The constant that says how flags are shown, with the names of their numbers."""
+    left, shown = "const FLAGS: &'static [runtime::Flag]", [_shown(view) for view in views]
+    names = [line for flag in flags if flag.width > 1 and flag.values for line in _names(flag)]
+    if not names:
+        return calls(4, left, shown)
+    body = (*names, *called(8, shown))
+    return f"{left} = {{", *(f"    {line}" for line in body), "};"
+
+
+def _names(flag: Flag) -> tuple[str, ...]:
+    """The constant of the numbers of a flag that have names."""
+    rows = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
+    return calls(8, f"const {constant_name(flag)}: &[(u64, &str)]", rows)
+
+
 def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
     """The call that says how a flag is shown."""
+    if flag.values:
+        return "runtime::Flag::named", (flag.name, flag.mask, flag.constant)
     return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
 
 
