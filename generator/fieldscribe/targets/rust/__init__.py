@@ -1,4 +1,4 @@
-"""The Rust target: a `no_std` crate per device, with one beside it for its vectors, on top of one small runtime crate."""
+"""The Rust target: a `no_std` crate per device, and one for its vectors, on top of a small runtime crate."""
 
 from __future__ import annotations
 

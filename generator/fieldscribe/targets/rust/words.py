@@ -100,7 +100,7 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
 
 def _names(flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
-    rows = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
+    rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
     return calls(8, f"const {constant_name(flag)}: &[(u64, &str)]", rows)
 
 

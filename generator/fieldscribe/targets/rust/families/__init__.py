@@ -48,6 +48,11 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
+def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+    """For families whose devices send nothing unasked."""
+    return "", ()
+
+
 @dataclass(frozen=True, slots=True)
 class OfFamily:
     """What the part `targets.rust` of a family offers as `IN_RUST`.
@@ -55,7 +60,8 @@ class OfFamily:
     `context` is what the template of the family's items sees, `<family>.rs.j2`; `traits` are those that a point
     implements for its bus, each in a line; `identifiers` those of the family's own items. The conformance program asks
     for further `ways` of a point, for tables of points and of frames that only this family has, and for the kind of
-    vectors that the codes of refusals are.
+    vectors that the codes of refusals are. The first page of a crate imports these `names`; `heard` is the telegram
+    that it listens to, as a type, and what it does with points that come in it.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -65,6 +71,8 @@ class OfFamily:
     tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
+    names: tuple[str, ...] = ()
+    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:

@@ -15,7 +15,7 @@ use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED
 made_up!(Word u16, Holding 0x10, &[0x10], 1);
 made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
 made_up!(Group u16, Holding 0x30, &[0x30], 1);
-made_up!(Wide u16, Holding 0x21, &[0x21], 2);
+made_up!(Wide u32, Holding 0x21, &[0x21, 0x22], 2);
 made_up!(Beyond u32, Holding 0xFFFF, &[0xFFFF], 2);
 made_up!(Relay bool, Coil 0x40, &[0x40], 1);
 
@@ -591,7 +591,7 @@ macro_rules! conversations {
                 (
                     reply.value::<Long>(),
                     error(reply.value_with::<Word>(())),
-                    error(reply.raw::<Wide>()),
+                    reply.raw::<Wide>().unwrap_err().to_string(),
                 )
             });
             let text = |name| format!("{name}: the reply does not bring the point");

@@ -14,6 +14,9 @@ use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, N
 use crate::{Point, Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
+///
+/// These are data frames whose identifiers have as many bits as the device's ([`Profile::identifier_bits`]): a transport
+/// drops remote frames, and extended ones where the device's are not, since a [`Frame`] does not tell them apart.
 pub trait Transport {
     /// What can go wrong on the bus.
     type Error;
@@ -289,6 +292,12 @@ impl<E> From<Error> for ClientError<E> {
 impl<E> From<BuildError> for ClientError<E> {
     fn from(error: BuildError) -> Self {
         Self::Build(error, None)
+    }
+}
+
+impl<E> From<ReceiveError> for ClientError<E> {
+    fn from(error: ReceiveError) -> Self {
+        Self::Telegram(error)
     }
 }
 
