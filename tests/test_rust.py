@@ -330,11 +330,13 @@ def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: py
 @pytest.mark.parametrize("name", FAILS)
 def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> None:
     source = PROGRAMS / "fails" / f"{name}.rs"
-    expected = source.read_text("utf-8").splitlines()[0].removeprefix("// error: ")
+    text = source.read_text("utf-8")
+    expected = text.splitlines()[0].removeprefix("// error: ")
     out = shutil.copytree(libraries, tmp_path / "out")
-    done = rustc(source, out, "--emit=metadata", "--error-format=short")
+    done = rustc(source, out, "--emit=metadata")
     assert done.returncode != 0
     assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
+    assert all(said in done.stderr for said in re.findall("^// says: (.*)$", text, re.MULTILINE)), done.stderr
 
 
 @pytest.mark.parametrize(

@@ -648,6 +648,12 @@ macro_rules! conversations {
             assert_eq!($wait(client.receive::<Hours>()), Ok(0x0001_FFFF));
             let torn = ClientError::Telegram(ReceiveError::Missing(Some("Speed")));
             assert_eq!($wait(client.patient(2).receive::<Speed>()), Err(torn));
+            let bus = Bus::hears(&[low(5), low(7)]);
+            let mut client = $client::new(bus, &PROFILE, 5).listening(receiver.clone());
+            assert_eq!($wait(client.receive_count::<Speed>()), Ok([5]));
+            assert_eq!($wait(client.receive_raw::<Speed>()), Ok(7));
+            let lost = Err(ClientError::Transport(Lost, Some("Speed")));
+            assert_eq!($wait(client.receive_count_with::<Speed>(())), lost);
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
             let client = $client::new(bus, &PROFILE, 5).listening((Log::default(), Log::default()));
             let mut client = client;

@@ -735,6 +735,18 @@ macro_rules! conversations {
             assert_eq!(client.set_word(0, 0), Ok(()));
             assert_eq!($wait(client.broadcast([4, 0, 0, 0])), Ok(()));
             client.into_transport().done();
+            let line = Line::new(&[
+                step("0000 0000 0000", "00a1 00b2 00c3"),
+                step("0000 0005 0000", "00a1 00b2 00c3"),
+                step("0000 0005 0000", "?"),
+            ]);
+            let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
+            assert_eq!($wait(client.receive_count::<Speed>()), Ok([0xB2]));
+            assert_eq!($wait(client.send_count::<Speed>([5])), Ok(()));
+            assert_eq!($wait(client.send_count::<Speed>([0xFFFF])), Err(wrong));
+            let lost = Err(ClientError::Transport(Lost, Some("Position")));
+            assert_eq!($wait(client.receive_count_with::<Position>(())), lost);
+            client.into_transport().done();
             // A client keeps sixteen words and no more.
             let most = step(&"0000 ".repeat(15), &"0001".repeat(15)).0;
             assert_eq!(most.len(), 34);

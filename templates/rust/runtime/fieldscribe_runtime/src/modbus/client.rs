@@ -42,7 +42,7 @@ impl<E> ClientError<E> {
         match &mut self {
             Self::Point(error) => *error = error.of::<P>(),
             Self::Build(_, point) | Self::Reply(_, point) | Self::Transport(_, point) => {
-                *point = point.or(Some(P::NAME))
+                *point = point.or(Some(P::NAME));
             }
         }
         self
