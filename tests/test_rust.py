@@ -19,7 +19,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import left_out, wrapped
+from fieldscribe.targets.rust.documentation import left_out, point_doc, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
@@ -237,6 +237,49 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     versions = {int(found[1]) for text in texts if (found := re.search(r'rust-version = "1\.(\d+)"', text))}
     assert len(versions) == 1
     assert max(versions) <= 85
+
+
+def test_a_device_needs_the_runtime_alone(tmp_path: Path) -> None:
+    """A workspace takes the device and the runtime; the vectors stay in a crate of their own."""
+    write_crate(sample_device(), tmp_path / "made")
+    for name in ("sample_drive", "fieldscribe_runtime"):
+        shutil.copytree(tmp_path / "made/rust" / name, tmp_path / name)
+    (tmp_path / "Cargo.toml").write_text('[workspace]\nresolver = "2"\nmembers = ["sample_drive"]\n', encoding="utf-8")
+    done = cargo(tmp_path, "metadata", "--format-version=1")
+    assert done.returncode == 0, done.stderr
+    assert "fieldscribe_conformance" not in done.stdout
+
+
+def test_what_a_device_has_not_makes_no_module() -> None:
+    device = sample_device()
+    assert "pub mod exceptions {" in sources(device)["lib.rs"]
+    without = replace(device, bus=replace(device.bus, exceptions=()), commands=(), blocks={})
+    assert re.findall(r"pub mod (\w+) ?\{", sources(without)["lib.rs"]) == []
+
+
+def test_numbers_of_several_bits_are_shown_by_name() -> None:
+    switch = Flag(0, 2, "switch", titles("Switch"), 1, (entry(0, "off"), entry(3, "on")))
+    text = sources(sample_device((point("status", 0, flags=(switch,)),)))["flags.rs"]
+    assert 'const SWITCH: &[(u64, &str)] = &[(0, "off"), (3, "on")];' in text
+    assert 'runtime::Flag::named("switch", 0x0003, SWITCH)' in text
+
+
+def test_a_step_is_information() -> None:
+    docs = {one.item: " ".join(point_doc(one, ())) for one in kitchen_sink().points}
+    stepped = {one.item for one in kitchen_sink().points if one.steps}
+    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split())}
+    assert stepped
+
+
+@pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
+def test_the_first_page_runs(workspace: Path, device: str) -> None:
+    """What it shows compiles; nothing answers it."""
+    done = cargo(workspace, "test", "--quiet", "--package", device, "--doc")
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (workspace / device / "src/lib.rs").read_text("utf-8")
+    shown = {"kitchen_sink": (".write::<", ".write_with::<", "Reading::Special", ".read_block(", ".command(")}
+    assert all(one in page for one in shown.get(device, (".read::<",)))
+    assert (".receive::<" in page) is (device == "kitchen_can")
 
 
 LONG = pytest.mark.full(seconds=6)

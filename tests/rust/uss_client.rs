@@ -143,7 +143,7 @@ fn parameters_are_read_and_written() {
     assert_eq!(client.read::<points::WideIndex255>(), Ok(5));
     assert_eq!(client.write::<points::WideIndex255>(0x0001_0002), Ok(()));
     // The drive has no task that keeps double words of arrays.
-    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask, Some("wide_index255"))));
+    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask, Some("wide_index_255"))));
     assert_eq!(client.read::<points::LowBits>(), Ok(15));
     assert_eq!(client.update::<points::LowBits>(3), Ok(()));
     assert_eq!(client.store_update::<points::LowBits>(4), Ok(()));
