@@ -185,8 +185,8 @@ fn process_data_go_both_ways() {
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
     assert_eq!(client.set::<points::ControlWord>(flags::ControlWord(0x047F)), Ok(()));
     assert_eq!(client.set_bits::<points::Jog>(2), Ok(()));
-    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(Some("position"))));
-    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(Some("far_word"))));
+    assert_eq!(client.set::<points::Position>(1), Err(Error::BeyondLink(Some("position"))));
+    assert_eq!(client.set::<points::FarWord>(1), Err(Error::BeyondLink(Some("far_word"))));
     let setpoint = with::MainSetpoint { reference: fifty };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     let none = with::MainSetpoint { reference: 0x7F80_0000 };

@@ -79,6 +79,8 @@ def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
     for line, (name, arguments) in zip(flat, items, strict=True):
         if indent + 4 + len(line) + 1 <= _WIDTH and len(line) - len(name) - 2 <= _CALL_WIDTH:
             lines.append(f"    {line},")
+        elif len(items) == 1:
+            return f"&[{name}(", *(f"    {one}," for one in arguments), ")]"
         else:
             lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
     return (*lines, "]")

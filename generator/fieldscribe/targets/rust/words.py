@@ -90,25 +90,23 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
     """The constant that says how flags are shown, with the names of their numbers."""
-    left, shown = "const FLAGS: &'static [runtime::Flag]", [_shown(view) for view in views]
-    names = [line for flag in flags if flag.width > 1 and flag.values for line in _names(flag)]
+    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
+        if view.values:
+            names += _names(f"NAMES_{place}", flag)
+            shown.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
+        else:
+            made = "new" if view.active or not view.single else "active_low"
+            shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
     if not names:
         return calls(4, left, shown)
-    body = (*names, *called(8, shown))
-    return f"{left} = {{", *(f"    {line}" for line in body), "};"
+    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
 
 
-def _names(flag: Flag) -> tuple[str, ...]:
+def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
-    return calls(8, f"const {constant_name(flag)}: &[(u64, &str)]", rows)
-
-
-def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
-    """The call that says how a flag is shown."""
-    if flag.values:
-        return "runtime::Flag::named", (flag.name, flag.mask, flag.constant)
-    return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
+    return calls(8, f"const {constant}: runtime::Names", rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:

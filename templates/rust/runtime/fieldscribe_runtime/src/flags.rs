@@ -3,13 +3,16 @@
 
 use core::fmt;
 
+/// Numbers of several bits that have names.
+pub type Names = &'static [(u64, &'static str)];
+
 /// A bit of a word that has a name, or several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Flag {
     name: &'static str,
     mask: u64,
     is_active_low: bool,
-    names: &'static [(u64, &'static str)],
+    names: Names,
 }
 
 impl Flag {
@@ -37,11 +40,7 @@ impl Flag {
 
     /// Bits that are a number, and the numbers that have names.
     #[must_use]
-    pub const fn named(
-        name: &'static str,
-        mask: u64,
-        names: &'static [(u64, &'static str)],
-    ) -> Self {
+    pub const fn named(name: &'static str, mask: u64, names: Names) -> Self {
         Self {
             name,
             mask,
