@@ -280,11 +280,13 @@ impl<V> Decoded<V> for Result<V, Error> {
 )]
 pub trait NeedsNothing: Copy + Send {
     /// Nothing.
-    const NOTHING: Self;
+    #[must_use]
+    fn nothing() -> Self;
 }
 
 impl NeedsNothing for () {
-    const NOTHING: Self = ();
+    #[inline]
+    fn nothing() -> Self {}
 }
 
 /// A point that the device answers with.
@@ -308,7 +310,7 @@ pub trait Readable: Point {
     where
         Self::Factors: NeedsNothing,
     {
-        Self::decode_with(raw, NeedsNothing::NOTHING)
+        Self::decode_with(raw, NeedsNothing::nothing())
     }
 }
 
@@ -344,7 +346,7 @@ pub trait Writable: Point {
     where
         Self::With: NeedsNothing,
     {
-        Self::check_with(raw, NeedsNothing::NOTHING)
+        Self::check_with(raw, NeedsNothing::nothing())
     }
 }
 
@@ -370,7 +372,7 @@ pub trait Encodable: Writable {
     where
         Self::With: NeedsNothing,
     {
-        Self::encode_with(value, NeedsNothing::NOTHING)
+        Self::encode_with(value, NeedsNothing::nothing())
     }
 }
 
@@ -392,7 +394,7 @@ pub trait CountReadable: Readable {
     where
         Self::Factors: NeedsNothing,
     {
-        Self::decode_count_with(raw, NeedsNothing::NOTHING)
+        Self::decode_count_with(raw, NeedsNothing::nothing())
     }
 }
 
@@ -420,7 +422,7 @@ pub trait CountWritable: Writable {
     where
         Self::With: NeedsNothing,
     {
-        Self::encode_count_with(count, NeedsNothing::NOTHING)
+        Self::encode_count_with(count, NeedsNothing::nothing())
     }
 }
 

@@ -506,7 +506,7 @@ macro_rules! client {
             where
                 P: Readable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's value, by the raw numbers that its scale needs.
@@ -532,7 +532,7 @@ macro_rules! client {
             where
                 P: CountReadable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_count_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's count, by the raw numbers that its scale needs.
@@ -558,7 +558,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_with::<P>(value, NeedsNothing::NOTHING)$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a value to a parameter, by the raw numbers that its scale and its limits need.
@@ -586,7 +586,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_count_with::<P>(count, NeedsNothing::NOTHING)$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_count`, by the raw numbers that the point's scale and limits need.
@@ -613,7 +613,7 @@ macro_rules! client {
             where
                 P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_raw_with::<P>(raw, NeedsNothing::NOTHING)$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_raw`, by the raw numbers that the point's limits need.
@@ -676,7 +676,7 @@ macro_rules! client {
                 P: Received<Factors: NeedsNothing>,
                 L: Hears<P::Telegram>,
             {
-                self.receive_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// The same by the raw numbers that the point's scale needs.
@@ -704,7 +704,7 @@ macro_rules! client {
                 P: Received + CountReadable<Factors: NeedsNothing>,
                 L: Hears<P::Telegram>,
             {
-                self.receive_count_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// The same by the raw numbers that the point's scale needs.

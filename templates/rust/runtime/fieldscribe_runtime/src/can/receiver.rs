@@ -158,7 +158,7 @@ impl<T: Telegram> Receiver<T> {
     where
         P: Received<Telegram = T, Factors: NeedsNothing>,
     {
-        self.value_with::<P>(NeedsNothing::NOTHING)
+        self.value_with::<P>(NeedsNothing::nothing())
     }
 
     /// A point's value, by the raw numbers that its scale needs.
@@ -181,7 +181,7 @@ impl<T: Telegram> Receiver<T> {
     where
         P: Received<Telegram = T> + CountReadable<Factors: NeedsNothing>,
     {
-        self.count_with::<P>(NeedsNothing::NOTHING)
+        self.count_with::<P>(NeedsNothing::nothing())
     }
 
     /// A point's count, by the raw numbers that its scale needs.

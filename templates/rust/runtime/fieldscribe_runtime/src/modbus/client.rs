@@ -224,7 +224,7 @@ macro_rules! client {
             where
                 P: Readable<Factors: NeedsNothing>,
             {
-                self.read_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A point's value, by the raw numbers that its scale needs.
@@ -247,7 +247,7 @@ macro_rules! client {
             where
                 P: CountReadable<Factors: NeedsNothing>,
             {
-                self.read_count_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A point's count, by the raw numbers that its scale needs.
@@ -270,7 +270,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole,
             {
-                self.write_with::<P>(value, NeedsNothing::NOTHING)$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a value to a point, by the raw numbers that its scale and its limits need.
@@ -293,7 +293,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole,
             {
-                self.write_count_with::<P>(count, NeedsNothing::NOTHING)$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a count to a point, by the raw numbers that its scale and its limits need.
@@ -316,7 +316,7 @@ macro_rules! client {
             where
                 P: Writable<With: NeedsNothing> + Whole,
             {
-                self.write_raw_with::<P>(raw, NeedsNothing::NOTHING)$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a raw number to a point, if it may be written by the raw numbers that its limits need.

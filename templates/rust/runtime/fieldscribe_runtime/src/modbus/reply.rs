@@ -73,7 +73,7 @@ impl Reply<'_> {
     /// # Errors
     /// As for `raw`; what decoding says.
     pub fn value<P: Readable<Factors: NeedsNothing>>(&self) -> Result<P::Value, Error> {
-        self.value_with::<P>(NeedsNothing::NOTHING)
+        self.value_with::<P>(NeedsNothing::nothing())
     }
 
     /// The value of a point that the reply brings, by the raw numbers that its scale needs.

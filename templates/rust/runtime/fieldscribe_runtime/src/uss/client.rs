@@ -329,7 +329,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole + Sent,
             {
-                self.set_with::<P>(value, NeedsNothing::NOTHING)
+                self.set_with::<P>(value, NeedsNothing::nothing())
             }
 
             /// As `set`, by the raw numbers that the point's scale and limits need.
@@ -351,7 +351,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole + Sent,
             {
-                self.set_count_with::<P>(count, NeedsNothing::NOTHING)
+                self.set_count_with::<P>(count, NeedsNothing::nothing())
             }
 
             /// As `set_count`, by the raw numbers that the point's scale and limits need.
@@ -410,7 +410,7 @@ macro_rules! client {
             where
                 P: Readable<Factors: NeedsNothing> + Received,
             {
-                self.heard_with::<P>(NeedsNothing::NOTHING)
+                self.heard_with::<P>(NeedsNothing::nothing())
             }
 
             /// As `heard`, by the raw numbers that the point's scale needs.
@@ -432,7 +432,7 @@ macro_rules! client {
             where
                 P: CountReadable<Factors: NeedsNothing> + Received,
             {
-                self.heard_count_with::<P>(NeedsNothing::NOTHING)
+                self.heard_count_with::<P>(NeedsNothing::nothing())
             }
 
             /// As `heard_count`, by the raw numbers that the point's scale needs.
@@ -510,7 +510,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole + Sent,
             {
-                self.send_with::<P>(value, NeedsNothing::NOTHING)$($wait)*
+                self.send_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `send`, by the raw numbers that the point's scale and limits need.
@@ -538,7 +538,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole + Sent,
             {
-                self.send_count_with::<P>(count, NeedsNothing::NOTHING)$($wait)*
+                self.send_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `send_count`, by the raw numbers that the point's scale and limits need.
@@ -588,7 +588,7 @@ macro_rules! client {
             where
                 P: Readable<Factors: NeedsNothing> + Received,
             {
-                self.receive_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// As `receive`, by the raw numbers that the point's scale needs.
@@ -614,7 +614,7 @@ macro_rules! client {
             where
                 P: CountReadable<Factors: NeedsNothing> + Received,
             {
-                self.receive_count_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// As `receive_count`, by the raw numbers that the point's scale needs.
@@ -653,7 +653,7 @@ macro_rules! client {
             where
                 P: Readable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's value, by the raw numbers that its scale needs.
@@ -679,7 +679,7 @@ macro_rules! client {
             where
                 P: CountReadable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_count_with::<P>(NeedsNothing::NOTHING)$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's count, by the raw numbers that its scale needs.
@@ -705,7 +705,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_with::<P>(value, NeedsNothing::NOTHING)$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write`, by the raw numbers that the point's scale and limits need.
@@ -732,7 +732,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_count_with::<P>(count, NeedsNothing::NOTHING)$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_count`, by the raw numbers that the point's scale and limits need.
@@ -759,7 +759,7 @@ macro_rules! client {
             where
                 P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_raw_with::<P>(raw, NeedsNothing::NOTHING)$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_raw`, by the raw numbers that the point's limits need.
@@ -786,7 +786,7 @@ macro_rules! client {
             where
                 P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_with::<P>(value, NeedsNothing::NOTHING)$($wait)*
+                self.store_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store`, by the raw numbers that the point's scale and limits need.
@@ -813,7 +813,7 @@ macro_rules! client {
             where
                 P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_count_with::<P>(count, NeedsNothing::NOTHING)$($wait)*
+                self.store_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store_count`, by the raw numbers that the point's scale and limits need.
@@ -840,7 +840,7 @@ macro_rules! client {
             where
                 P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_raw_with::<P>(raw, NeedsNothing::NOTHING)$($wait)*
+                self.store_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store_raw`, by the raw numbers that the point's limits need.
