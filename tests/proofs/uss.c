@@ -69,6 +69,7 @@ void prove_write(uint8_t unit, size_t count)
     if (count <= WORDS) {
         //@ split count;
         request = fieldscribe_uss_write(unit, &writing, EXACTLY(count, words), count);
+        request = fieldscribe_uss_write(unit, &writing, NULL, count);
     }
 }
 
@@ -77,6 +78,7 @@ void prove_words_of_reply(size_t count)
     if (count <= WORDS) {
         //@ split count;
         (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(count, words), count);
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, NULL, count);
     }
 }
 
@@ -178,7 +180,10 @@ void prove_allows_pkw(size_t count, uint8_t pkw)
 
 void prove_allows_pzd(size_t count)
 {
-    (void)fieldscribe_uss_allows_pzd(&profile, &link, count);
+    send(words, count);
+    (void)fieldscribe_uss_allows_pzd(&profile, &link, &process);
+    send(NULL, count);
+    (void)fieldscribe_uss_allows_pzd(&profile, &link, &process);
 }
 
 void prove_allows(size_t count, size_t pzd_count)
@@ -186,7 +191,8 @@ void prove_allows(size_t count, size_t pzd_count)
     if (count <= KNOWN) {
         //@ split count;
         know(count);
-        (void)fieldscribe_uss_allows(&profile, &link, &request, pzd_count);
+        send(words, pzd_count);
+        (void)fieldscribe_uss_allows(&profile, &link, &request, &process);
     }
 }
 
@@ -268,6 +274,16 @@ void prove_build_broadcast__words(size_t pzd_count, size_t size)
     }
 }
 
+/* Words that are not there are as many as the link has: none is read. */
+void prove_build__no_words(size_t pzd_count)
+{
+    size_t length;
+    know(KNOWN);
+    send(NULL, pzd_count);
+    (void)fieldscribe_uss_build(&profile, &link, &request, &process, frame, FRAMES, &length);
+    (void)fieldscribe_uss_build_broadcast(&profile, &link, masks, &process, frame, FRAMES, &length);
+}
+
 void prove_fits(size_t count)
 {
     (void)fieldscribe_uss_fits(&link, count);
@@ -299,6 +315,16 @@ void prove_parse__long_frame(size_t length, size_t room)
         know(KNOWN);
         into(words, room);
         (void)fieldscribe_uss_parse(&profile, &link, &request, long_frame, length, &reply);
+    }
+}
+
+void prove_parse__no_words(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        know(KNOWN);
+        into(NULL, room);
+        (void)fieldscribe_uss_parse(&profile, &link, &request, EXACTLY(length, frame), length, &reply);
     }
 }
 

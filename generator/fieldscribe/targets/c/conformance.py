@@ -77,11 +77,7 @@ def conformance_view(
         extra.setdefault(function, []).append(case)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
-    groups = (
-        (group, f"{scope.prefix}_{group}_blocks", f"{scope.upper}_{upper(group)}_BLOCKS_COUNT")
-        for group, blocks in device.blocks.items()
-        if blocks
-    )
+    groups = ((group, f"{scope.prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks)
     return SuiteView(
         structs=tuple(one for point in points for one in _structs(point, scope)),
         adapters=tuple(_adapter(point, views[point.item], scope, extra) for point in points),
