@@ -367,6 +367,7 @@ int main(void)
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
         request.values = written;
+        request.first = written[0];
         request.given = 1U;
         for (at = 0; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);

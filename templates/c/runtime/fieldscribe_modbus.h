@@ -191,11 +191,11 @@ typedef fieldscribe_modbus_status (*fieldscribe_modbus_taking)(const fieldscribe
  */
 struct fieldscribe_modbus_request {
     uint16_t transaction;
+    uint16_t first;
     uint8_t unit;
     uint8_t function;
     uint16_t address;
     uint16_t count;
-    uint16_t first;
     const uint16_t *values;
     size_t given;
     fieldscribe_modbus_putting put;
@@ -224,7 +224,7 @@ static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
     uint8_t unit, const fieldscribe_modbus_reading *what)
 {
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, 0U, NULL, 0U,
+    const fieldscribe_modbus_request request = {0U, 0U, unit, what->function, what->address, what->count, NULL, 0U,
         &fieldscribe_modbus_put_reading,
         fieldscribe_modbus_reads_bits(what->function) ? &fieldscribe_modbus_take_bits : &fieldscribe_modbus_take_words};
     return request;
@@ -238,7 +238,7 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
     const uint16_t first = ((values != NULL) && (given > 0U)) ? values[0] : 0U;
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, first, values,
+    const fieldscribe_modbus_request request = {0U, first, unit, what->function, what->address, what->count, values,
         given, &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
     return request;
 }

@@ -389,7 +389,7 @@ static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, u
 static bool fieldscribe_uss_allows_pzd(
     const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, const fieldscribe_uss_words *process)
 {
-    return (process->count == link->pzd) && ((process->words != NULL) || (link->pzd == 0U)) &&
+    return (process->count == link->pzd) && ((process->words != NULL) || (process->count == 0U)) &&
         (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
 }
 
@@ -573,7 +573,7 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
     if (bytes[2] != request->unit) {
         return FIELDSCRIBE_USS_WRONG_UNIT;
     }
-    if ((reply->room < link->pzd) || ((reply->process == NULL) && (link->pzd > 0U))) {
+    if (((reply->process == NULL) ? 0U : reply->room) < link->pzd) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
     if (link->pkw != 0U) {
