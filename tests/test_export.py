@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
@@ -15,7 +14,7 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
-from models import linear, named, point, sample_device, scaled, titles, value_of
+from models import linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
@@ -253,9 +252,3 @@ def test_computed_ends_as_expressions() -> None:
     assert bound_of(Limit(rule, (), -32768, 32767), True, limited) == "(a.raw * 2 - 1) * 5 / b.raw / 2 - 1 / 2"
     power = linear(3, 0, value_of("c", -1, ten_to=True))
     assert bound_of(Limit(power, (), -32768, 100), False, limited) == "min(100, 3 / 10 ** c.raw)"
-
-
-def test_a_default_between_two_raw_numbers_is_text() -> None:
-    odd = replace(named(DEVICE, "base_frequency"), default=Fraction(1, 20))
-    exported: Any = export_model(sample_device((odd,)))
-    assert exported["points"][0]["default"] == "0.5"

@@ -11,7 +11,7 @@ from fieldscribe.families import families
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -295,7 +295,8 @@ def _address(citing: _Citing, point: Point, draft: Draft, code: str) -> Iterator
         return
     references = [Fraction(number) for number in point.references.values() if isinstance(number, int)]
     at = draft.get("at")
-    rule = [Fraction(int(str(at["number"]), 0))] if isinstance(at, Map) and str(at.get("number", "")).isdigit() else []
+    by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
+    rule = [Fraction(int(at))] if by_rule else []
     for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
         yield from citing.numbers("number", str(number), (number,), "code", optional=True)
     if code and any(str(number) in code for number in (point.address, *map(int, rule))):
@@ -444,7 +445,7 @@ def _lines(value: Any) -> Iterator[tuple[int, int]]:
     """`780`, `[780, 790]` or `780..790` as spans of lines."""
     for one in value if isinstance(value, Seq) else (value,):
         first, dots, last = str(one).partition("..")
-        yield int(first), int(last) if dots else 0
+        yield parse_integer(first), parse_integer(last) if dots else 0
 
 
 def _numbers(value: Any) -> list[Fraction]:

@@ -63,7 +63,7 @@ def _place(subject: Subject, point: Point, address: int) -> str:
 def _row(mine: Resolved, other: Resolved) -> int | None:
     """The row of the manual that both points were expanded from, if it is one: a wrong rule there is one finding."""
     one, another = mine.draft.element, other.draft.element
-    return id(one.at) if one is not None and another is not None and one.at is another.at else None
+    return id(mine.draft.own) if one and another and mine.draft.own is other.draft.own else None
 
 
 def _overlap(mine: Point, other: Point) -> bool:

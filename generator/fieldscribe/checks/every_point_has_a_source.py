@@ -69,5 +69,5 @@ def _tell_of_all(subject: Subject, one: _Lacks) -> None:
     what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {one.file}"
     if one.file is None:
         what, hint = "section and no page", "add `source: {document: …, section: …}` to the group"
-    message = f"no point of the group `{group['group']}` cites a {what.replace(' and no', ' or a')}"
-    subject.report.error("missing-source", message, group.span("group"), hint)
+    message = f"no point of the group `{group['name']}` cites a {what.replace(' and no', ' or a')}"
+    subject.report.error("missing-source", message, group.span("name"), hint)

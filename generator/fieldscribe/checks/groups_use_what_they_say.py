@@ -17,23 +17,20 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(subject: Subject) -> None:
-    """Findings for a telegram that no point is a word of, and for a wrong rule of addresses that no row uses."""
+    """Findings for a telegram that no point is a word of, and for a rule of addresses that is none."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
-    with_rows: set[int] = set()
     for one in subject.resolved:
         group = one.draft.group
         groups.setdefault(id(group), group)
         if one.point.space == SPACE or "space" in one.draft.failed:
             with_words.add(id(group))
-        if one.draft.element is not None:
-            with_rows.add(id(group))
     for key, group in groups.items():
         if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:
             message = f"no point of the group is a word of the telegram `{group['telegram']}`"
             hint = "write `space: telegram`, or leave `telegram` out"
             subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
-        if "addressing" in group and key not in with_rows:
+        if "addressing" in group:
             _readable(subject, group)
 
 

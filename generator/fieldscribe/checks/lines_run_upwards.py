@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.keys import lists_with
 from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,7 +41,7 @@ def _lines(subject: Subject, raw: Map) -> None:
         return
     for holder, at, text in _said(raw, "lines", said):
         first, dots, last = text.partition("..")
-        if dots and int(first) > int(last):
+        if dots and parse_integer(first) > parse_integer(last):
             subject.report.error(
                 "range-reversed", f"lines `{text}` run downwards", holder.span(at), f"write {last}..{first}"
             )

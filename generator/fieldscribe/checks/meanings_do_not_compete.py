@@ -27,6 +27,7 @@ _RIVALS = (
     ("fixed", "enum", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("fixed", "digits", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("range", "range_in_units", "give one of them; what the manual prints besides goes under `printed`"),
+    ("default", "default_in_units", "give one of them: `default` is a raw number, `default_in_units` a value"),
 )
 
 

@@ -42,8 +42,8 @@ class _EnumFound(NamedTuple):
 def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
     """What a description calls its groups, points and enums, which every target takes as it is."""
     for group in groups(subject.scope):
-        name = str(group["group"])
-        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
+        name = str(group["name"])
+        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("name"))
     for one in subject.resolved:
         yield from _names_of_point(subject, one)
     for enum in _enums(subject):
@@ -136,7 +136,7 @@ class Owners:
             listed = scope.listed(_LISTED[owner.kind])
             return next(raw.span("name") for raw in listed if raw["name"] == owner.name)
         if owner.kind == "group":
-            return next(raw.span("group") for raw in groups(scope) if raw["group"] == owner.name)
+            return next(raw.span("name") for raw in groups(scope) if raw["name"] == owner.name)
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None

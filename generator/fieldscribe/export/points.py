@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import PointsByName, bound_of, scale_of
-from fieldscribe.wording.exact import fixed_rule, number_text
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fieldscribe.existence import Comparison, Condition
@@ -76,13 +76,9 @@ def source_of(source: Source) -> dict[str, object]:
 
 def _default(point: Point) -> int | str | None:
     """The default as raw number; of f32 and f64 the value; null where the raw number depends on other points."""
-    if point.default is None or point.info.floating:
+    if point.info.floating:
         return None if point.default is None else number_text(point.default)
-    rule = fixed_rule(point)
-    if rule is None:
-        return None
-    raw = rule.argument(point.default)
-    return int(raw) if raw.denominator == 1 else number_text(raw)
+    return point.default_raw
 
 
 def _condition(condition: Condition) -> dict[str, object]:

@@ -63,8 +63,10 @@ class Point:
     """One addressable datum: what tells it from others, and the shape and the numbers of its limits.
 
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
-    manual prints no address. `bits` (high, low) is where in its word it lies, None for whole words. `steps` gives
-    (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
+    manual prints no address. `bits` (high, low) is where in its word it lies, None for whole words. `default` is the
+    factory setting in the unit, `default_raw` as it travels: each is None where only other points tell; a
+    floating-point number has the first alone. `steps` gives (from raw, step in raw). `generated` is False for what is
+    only documented; `reason` says why.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Point:
     unit: Unit
     allowed: Allowed
     default: Fraction | None
+    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
     record: str | None
     set: int | None

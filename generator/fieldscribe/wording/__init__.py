@@ -222,14 +222,12 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
 
 def default_text(point: Point, *, unit: bool = True) -> str:
     """The factory setting, mostly with its unit, or the name of the special code that it is; empty if there is none."""
+    raw = point.default_raw
+    special = None if raw is None else point.special(raw)
+    if special is not None:
+        return special.name
     if point.default is None:
-        return ""
-    rule = fixed_rule(point)
-    if point.specials and rule is not None and not point.info.floating:
-        raw = rule.argument(point.default)
-        special = point.special(raw.numerator) if raw.denominator == 1 else None
-        if special is not None:
-            return special.name
+        return "" if raw is None else f"raw {raw}"
     number = number_text(point.default)
     return with_unit(number, point) if unit else number
 

@@ -41,8 +41,8 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield from filter(None, (_range(point), *_steps(point)))
     spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
     yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
-    if point.default is not None:
-        yield f"default {default_text(point)}"
+    if default := default_text(point):
+        yield f"default {default}"
     if point.when is not None:
         yield f"exists only when {condition_text(point.when, scope.points)}"
     yield from width_texts(point)
