@@ -178,12 +178,17 @@ void prove_allows_pkw(size_t count, uint8_t pkw)
     }
 }
 
-void prove_allows_pzd(size_t count)
+void prove_count(size_t count)
 {
     send(words, count);
-    (void)fieldscribe_uss_allows_pzd(&profile, &link, &process);
+    (void)fieldscribe_uss_count(&process);
     send(NULL, count);
-    (void)fieldscribe_uss_allows_pzd(&profile, &link, &process);
+    (void)fieldscribe_uss_count(&process);
+}
+
+void prove_allows_pzd(size_t count)
+{
+    (void)fieldscribe_uss_allows_pzd(&profile, &link, count);
 }
 
 void prove_allows(size_t count, size_t pzd_count)
@@ -191,8 +196,7 @@ void prove_allows(size_t count, size_t pzd_count)
     if (count <= KNOWN) {
         //@ split count;
         know(count);
-        send(words, pzd_count);
-        (void)fieldscribe_uss_allows(&profile, &link, &request, &process);
+        (void)fieldscribe_uss_allows(&profile, &link, &request, pzd_count);
     }
 }
 

@@ -319,7 +319,7 @@ fieldscribe_uss_request fieldscribe_uss_write(
 {
     fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, what->width, 0U};
     size_t at;
-    if ((words == NULL) ? (what->width > 0U) : (count < what->width)) {
+    if ((words == NULL) || (count < what->width)) {
         request.width = FIELDSCRIBE_USS_TOO_FEW_WORDS;
         return request;
     }
@@ -385,19 +385,24 @@ static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, u
     return at < profile->pkw_count;
 }
 
-/* Whether the device can be set to so many words of process data, and those are there. */
-static bool fieldscribe_uss_allows_pzd(
-    const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, const fieldscribe_uss_words *process)
+/* How many words of process data there are to send. */
+static size_t fieldscribe_uss_count(const fieldscribe_uss_words *process)
 {
-    return (process->count == link->pzd) && ((process->words != NULL) || (process->count == 0U)) &&
-        (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
+    return (process->words == NULL) ? 0U : process->count;
+}
+
+/* Whether the device can be set to so many words of process data, and `count` is how many there are. */
+static bool fieldscribe_uss_allows_pzd(
+    const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
+{
+    return (count == link->pzd) && (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
 }
 
 /* Whether this device takes the request. */
 static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profile *profile,
-    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process)
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, size_t pzd_count)
 {
-    if (!fieldscribe_uss_allows_pkw(profile, link->pkw) || !fieldscribe_uss_allows_pzd(profile, link, process)) {
+    if (!fieldscribe_uss_allows_pkw(profile, link->pkw) || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
     if ((request->unit < profile->first_unit) || (request->unit > profile->last_unit)) {
@@ -425,19 +430,20 @@ static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const ui
 {
     const size_t most = (size < FIELDSCRIBE_USS_MOST) ? size : FIELDSCRIBE_USS_MOST;
     const size_t around = 4U + head_bytes; /* with start, length, address and check */
+    const size_t count = fieldscribe_uss_count(process);
     size_t used;
     size_t at;
-    if ((most < around) || (process->count > ((most - around) / 2U))) {
+    if ((most < around) || (count > ((most - around) / 2U))) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
-    used = around + (2U * process->count);
+    used = around + (2U * count);
     buffer[0] = 0x02U;
     buffer[1] = (uint8_t)((used - 2U) & 0xFFU);
     buffer[2] = address;
     for (at = 0U; at < head_bytes; ++at) {
         buffer[3U + at] = head[at];
     }
-    for (at = 0U; at < process->count; ++at) {
+    for (at = 0U; at < count; ++at) {
         fieldscribe_uss_put(buffer + 3U + head_bytes + (2U * at), process->words[at]);
     }
     buffer[used - 1U] = fieldscribe_uss_check(buffer, used - 1U);
@@ -449,7 +455,8 @@ fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *prof
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process,
     uint8_t *buffer, size_t size, size_t *length)
 {
-    const fieldscribe_uss_status status = fieldscribe_uss_allows(profile, link, request, process);
+    const fieldscribe_uss_status status =
+        fieldscribe_uss_allows(profile, link, request, fieldscribe_uss_count(process));
     uint32_t value = request->value;
     uint8_t head[8];
     *length = 0U;
@@ -474,7 +481,7 @@ fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_pro
     uint8_t head[8];
     size_t at;
     *length = 0U;
-    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, process)) {
+    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, fieldscribe_uss_count(process))) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
     for (at = 0U; at < 4U; ++at) {
