@@ -386,7 +386,8 @@ int main(void)
                 exact[length - 1U] = (uint8_t)(crc >> 8);
             }
         }
-        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 999U, length) > 300U) {
+        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 300U, length) >
+            300U - length) { /* whatever they say of their length, no more than fit */
             return 2;
         }
         if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&

@@ -454,7 +454,7 @@ def test_headers_of_two_descriptions_do_not_compile_together(family: str, tmp_pa
     device = kitchen(name)
     write_headers(device, tmp_path)
     frames = tmp_path / "c" / f"{name}_{family}.h"
-    check = [tool("gcc"), "-std=c99", *WARNINGS, "-fsyntax-only", "-x", "c", frames]
+    check: list[str | Path] = [tool("gcc"), "-std=c99", *WARNINGS, "-fsyntax-only", "-x", "c", frames]
     succeed(check)
     write_headers(replace(device, digest="0123456789abcdef" * 4), tmp_path / "next")
     (tmp_path / "c" / f"{name}.h").write_bytes((tmp_path / "next" / "c" / f"{name}.h").read_bytes())
