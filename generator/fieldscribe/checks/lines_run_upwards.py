@@ -1,4 +1,4 @@
-"""Places in the manual's text that are intervals run upwards."""
+"""Intervals of cited lines run upwards."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ _LISTS = lists_with(DEVICE, "lines")
 def check(subject: Subject) -> None:
     """Findings for `lines` such as 9..3."""
     seen: set[int] = set()
-    for one in subject.resolved:
-        for layer in one.draft.layers:
+    for resolved in subject.resolved:
+        for layer in resolved.draft.layers:
             if id(layer) not in seen:
                 seen.add(id(layer))
                 _lines(subject, layer)
@@ -36,10 +36,10 @@ def check(subject: Subject) -> None:
 
 
 def _lines(subject: Subject, raw: Map) -> None:
-    said = raw.get("lines")
-    if said is None:
+    lines = raw.get("lines")
+    if lines is None:
         return
-    for holder, at, text in _said(raw, "lines", said):
+    for holder, at, text in _texts_in(raw, "lines", lines):
         first, dots, last = text.partition("..")
         if dots and parse_integer(first) > parse_integer(last):
             subject.report.error(
@@ -47,12 +47,12 @@ def _lines(subject: Subject, raw: Map) -> None:
             )
 
 
-def _said(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
+def _texts_in(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
     if isinstance(value, Map):
-        for key, one in value.items():
-            yield from _said(value, key, one)
+        for key, item in value.items():
+            yield from _texts_in(value, key, item)
     elif isinstance(value, Seq):
-        for place, one in enumerate(value):
-            yield from _said(value, place, one)
+        for place, item in enumerate(value):
+            yield from _texts_in(value, place, item)
     else:
         yield holder, at, str(value)

@@ -1,4 +1,4 @@
-"""What is named exists: the command of `keep_with`, the point that a command's `busy` names."""
+"""Names refer to what exists: `keep_with` to a command, a command's `busy` to a point."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 def check(subject: Subject) -> None:
-    """Names of commands and points that nothing has."""
+    """Findings for names of commands and points that do not exist."""
     scope = subject.scope
     declared = {str(raw["name"]) for raw in scope.listed("commands")}
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
         if keeps == "choice" and not scope.family.chooses_memory:
             message = f"a {scope.family.name} request cannot choose where the device keeps the value"
-            choosers = " and ".join(one.name for one in families() if one.chooses_memory)
+            choosers = " and ".join(family.name for family in families() if family.chooses_memory)
             hint = (
                 "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores; "
                 f"`choice` is for the tasks of {choosers}"
