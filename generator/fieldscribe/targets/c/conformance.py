@@ -26,7 +26,7 @@ class SuiteView:
     adapters: tuple[AdapterView, ...]
     statuses: tuple[tuple[str, str], ...]
     family: str
-    groups: tuple[tuple[str, str, str], ...]
+    groups: tuple[tuple[str, str], ...]
     codes: tuple[tuple[str, str, str], ...]
     names: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
