@@ -24,6 +24,7 @@
 
 #define HITACHI_L200_DESCRIPTION_VERSION "1.0.0"
 #define HITACHI_L200_DESCRIPTION_DIGEST "82c26539e27de375"
+#define HITACHI_L200_DESCRIPTION 0x82c26539U /* for #if */
 
 #ifdef __cplusplus
 extern "C" {

@@ -17,6 +17,9 @@
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
+#if HITACHI_L200_DESCRIPTION != 0x82c26539U
+#error "hitachi_l200.h is of another description: take the one that was generated with this header."
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,13 +27,13 @@ extern "C" {
 
 /* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
 static const fieldscribe_modbus_function hitachi_l200_modbus_functions[] = {
-    {0x01U, 32U, false}, /* read_coils */
-    {0x03U, 4U, false}, /* read_holding_registers */
-    {0x05U, 1U, true}, /* write_coil */
-    {0x06U, 1U, true}, /* write_register */
-    {0x08U, 1U, false}, /* diagnostics */
-    {0x0FU, 32U, false}, /* write_coils */
-    {0x10U, 4U, false} /* write_registers */
+    {1U, 32U, false}, /* read_coils */
+    {3U, 4U, false}, /* read_holding_registers */
+    {5U, 1U, true}, /* write_coil */
+    {6U, 1U, true}, /* write_register */
+    {8U, 1U, false}, /* diagnostics */
+    {15U, 32U, false}, /* write_coils */
+    {16U, 4U, false} /* write_registers */
 };
 
 static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
@@ -56,143 +59,137 @@ enum {
 
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
-#define HITACHI_L200_COILS_BLOCKS_COUNT 2U
+#define HITACHI_L200_BLOCK_MOST 18U /* the words, or bits, of the largest */
+
 static const fieldscribe_modbus_reading hitachi_l200_coils_blocks[] = {
-    {0x01U, 0x0000U, 11U},
-    {0x01U, 0x000DU, 18U}
+    {1U, 0x0000U, 11U}, /* run_command..digital_input_5 */
+    {1U, 0x000DU, 18U} /* running..checksum_error */
 };
 
-#define HITACHI_L200_STATUS_BLOCKS_COUNT 2U
 static const fieldscribe_modbus_reading hitachi_l200_status_blocks[] = {
-    {0x03U, 0x0001U, 2U},
-    {0x03U, 0x0004U, 1U}
+    {3U, 0x0001U, 2U}, /* network_frequency_setpoint..inverter_status */
+    {3U, 0x0004U, 1U} /* network_process_value */
 };
 
-#define HITACHI_L200_MONITOR_D_BLOCKS_COUNT 14U
 static const fieldscribe_modbus_reading hitachi_l200_monitor_d_blocks[] = {
-    {0x03U, 0x0010U, 2U},
-    {0x03U, 0x0013U, 1U},
-    {0x03U, 0x0015U, 4U},
-    {0x03U, 0x0019U, 3U},
-    {0x03U, 0x001DU, 1U},
-    {0x03U, 0x001FU, 4U},
-    {0x03U, 0x0023U, 3U},
-    {0x03U, 0x0027U, 1U},
-    {0x03U, 0x0029U, 4U},
-    {0x03U, 0x002DU, 2U},
-    {0x03U, 0x1001U, 3U},
-    {0x03U, 0x1004U, 4U},
-    {0x03U, 0x100BU, 1U},
-    {0x03U, 0x100DU, 4U}
+    {3U, 0x0010U, 2U}, /* d080..d081 */
+    {3U, 0x0013U, 1U}, /* d081 */
+    {3U, 0x0015U, 4U}, /* d081 */
+    {3U, 0x0019U, 3U}, /* d081..d082 */
+    {3U, 0x001DU, 1U}, /* d082 */
+    {3U, 0x001FU, 4U}, /* d082 */
+    {3U, 0x0023U, 3U}, /* d082..d083 */
+    {3U, 0x0027U, 1U}, /* d083 */
+    {3U, 0x0029U, 4U}, /* d083 */
+    {3U, 0x002DU, 2U}, /* d083 */
+    {3U, 0x1001U, 3U}, /* d001..d003 */
+    {3U, 0x1004U, 4U}, /* d004..d006 */
+    {3U, 0x100BU, 1U}, /* d013 */
+    {3U, 0x100DU, 4U} /* d016..d017 */
 };
 
-#define HITACHI_L200_BASIC_F_BLOCKS_COUNT 3U
 static const fieldscribe_modbus_reading hitachi_l200_basic_f_blocks[] = {
-    {0x03U, 0x1013U, 4U},
-    {0x03U, 0x1017U, 1U},
-    {0x03U, 0x1500U, 4U}
+    {3U, 0x1013U, 4U}, /* F002..F003 */
+    {3U, 0x1017U, 1U}, /* F004 */
+    {3U, 0x1500U, 4U} /* F202..F203 */
 };
 
-#define HITACHI_L200_STANDARD_A_BLOCKS_COUNT 48U
 static const fieldscribe_modbus_reading hitachi_l200_standard_a_blocks[] = {
-    {0x03U, 0x1018U, 4U},
-    {0x03U, 0x101CU, 1U},
-    {0x03U, 0x101FU, 1U},
-    {0x03U, 0x1021U, 4U},
-    {0x03U, 0x1025U, 1U},
-    {0x03U, 0x1028U, 1U},
-    {0x03U, 0x102AU, 1U},
-    {0x03U, 0x102CU, 1U},
-    {0x03U, 0x102EU, 1U},
-    {0x03U, 0x1030U, 1U},
-    {0x03U, 0x1032U, 1U},
-    {0x03U, 0x1034U, 1U},
-    {0x03U, 0x1036U, 1U},
-    {0x03U, 0x1038U, 1U},
-    {0x03U, 0x103AU, 1U},
-    {0x03U, 0x103CU, 1U},
-    {0x03U, 0x103EU, 1U},
-    {0x03U, 0x1040U, 1U},
-    {0x03U, 0x1042U, 1U},
-    {0x03U, 0x1044U, 1U},
-    {0x03U, 0x1046U, 4U},
-    {0x03U, 0x104AU, 4U},
-    {0x03U, 0x1050U, 4U},
-    {0x03U, 0x1054U, 2U},
-    {0x03U, 0x1059U, 2U},
-    {0x03U, 0x105CU, 2U},
-    {0x03U, 0x105FU, 2U},
-    {0x03U, 0x1062U, 2U},
-    {0x03U, 0x1067U, 4U},
-    {0x03U, 0x106BU, 4U},
-    {0x03U, 0x106FU, 2U},
-    {0x03U, 0x1073U, 4U},
-    {0x03U, 0x1077U, 1U},
-    {0x03U, 0x1079U, 1U},
-    {0x03U, 0x107BU, 3U},
-    {0x03U, 0x107FU, 1U},
-    {0x03U, 0x1081U, 4U},
-    {0x03U, 0x108DU, 4U},
-    {0x03U, 0x1092U, 1U},
-    {0x03U, 0x1094U, 1U},
-    {0x03U, 0x1096U, 4U},
-    {0x03U, 0x1509U, 4U},
-    {0x03U, 0x150EU, 4U},
-    {0x03U, 0x1512U, 2U},
-    {0x03U, 0x1516U, 2U},
-    {0x03U, 0x1519U, 3U},
-    {0x03U, 0x151DU, 1U},
-    {0x03U, 0x151FU, 1U}
+    {3U, 0x1018U, 4U}, /* A001..A004 */
+    {3U, 0x101CU, 1U}, /* A005 */
+    {3U, 0x101FU, 1U}, /* A011 */
+    {3U, 0x1021U, 4U}, /* A012..A015 */
+    {3U, 0x1025U, 1U}, /* A016 */
+    {3U, 0x1028U, 1U}, /* A020 */
+    {3U, 0x102AU, 1U}, /* A021 */
+    {3U, 0x102CU, 1U}, /* A022 */
+    {3U, 0x102EU, 1U}, /* A023 */
+    {3U, 0x1030U, 1U}, /* A024 */
+    {3U, 0x1032U, 1U}, /* A025 */
+    {3U, 0x1034U, 1U}, /* A026 */
+    {3U, 0x1036U, 1U}, /* A027 */
+    {3U, 0x1038U, 1U}, /* A028 */
+    {3U, 0x103AU, 1U}, /* A029 */
+    {3U, 0x103CU, 1U}, /* A030 */
+    {3U, 0x103EU, 1U}, /* A031 */
+    {3U, 0x1040U, 1U}, /* A032 */
+    {3U, 0x1042U, 1U}, /* A033 */
+    {3U, 0x1044U, 1U}, /* A034 */
+    {3U, 0x1046U, 4U}, /* A035..A041 */
+    {3U, 0x104AU, 4U}, /* A042..A045 */
+    {3U, 0x1050U, 4U}, /* A051..A054 */
+    {3U, 0x1054U, 2U}, /* A055..A056 */
+    {3U, 0x1059U, 2U}, /* A061..A062 */
+    {3U, 0x105CU, 2U}, /* A063..A064 */
+    {3U, 0x105FU, 2U}, /* A065..A066 */
+    {3U, 0x1062U, 2U}, /* A067..A068 */
+    {3U, 0x1067U, 4U}, /* A071..A074 */
+    {3U, 0x106BU, 4U}, /* A075..A078 */
+    {3U, 0x106FU, 2U}, /* A081..A082 */
+    {3U, 0x1073U, 4U}, /* A092..A093 */
+    {3U, 0x1077U, 1U}, /* A094 */
+    {3U, 0x1079U, 1U}, /* A095 */
+    {3U, 0x107BU, 3U}, /* A096..A098 */
+    {3U, 0x107FU, 1U}, /* A101 */
+    {3U, 0x1081U, 4U}, /* A102..A105 */
+    {3U, 0x108DU, 4U}, /* A141..A145 */
+    {3U, 0x1092U, 1U}, /* A146 */
+    {3U, 0x1094U, 1U}, /* A151 */
+    {3U, 0x1096U, 4U}, /* A152..A155 */
+    {3U, 0x1509U, 4U}, /* A201..A204 */
+    {3U, 0x150EU, 4U}, /* A220..A243 */
+    {3U, 0x1512U, 2U}, /* A244..A245 */
+    {3U, 0x1516U, 2U}, /* A261..A262 */
+    {3U, 0x1519U, 3U}, /* A293..A294 */
+    {3U, 0x151DU, 1U}, /* A295 */
+    {3U, 0x151FU, 1U} /* A296 */
 };
 
-#define HITACHI_L200_FINE_TUNING_B_BLOCKS_COUNT 12U
 static const fieldscribe_modbus_reading hitachi_l200_fine_tuning_b_blocks[] = {
-    {0x03U, 0x10A4U, 4U},
-    {0x03U, 0x10A8U, 1U},
-    {0x03U, 0x10ACU, 2U},
-    {0x03U, 0x10B4U, 3U},
-    {0x03U, 0x10BAU, 2U},
-    {0x03U, 0x10CEU, 1U},
-    {0x03U, 0x10D0U, 3U},
-    {0x03U, 0x10D4U, 4U},
-    {0x03U, 0x10D9U, 1U},
-    {0x03U, 0x10F4U, 2U},
-    {0x03U, 0x1525U, 4U},
-    {0x03U, 0x1529U, 2U}
+    {3U, 0x10A4U, 4U}, /* b001..b004 */
+    {3U, 0x10A8U, 1U}, /* b005 */
+    {3U, 0x10ACU, 2U}, /* b012..b013 */
+    {3U, 0x10B4U, 3U}, /* b021..b023 */
+    {3U, 0x10BAU, 2U}, /* b028..b031 */
+    {3U, 0x10CEU, 1U}, /* b080 */
+    {3U, 0x10D0U, 3U}, /* b082..b084 */
+    {3U, 0x10D4U, 4U}, /* b086..b089 */
+    {3U, 0x10D9U, 1U}, /* b091 */
+    {3U, 0x10F4U, 2U}, /* b130..b131 */
+    {3U, 0x1525U, 4U}, /* b212..b222 */
+    {3U, 0x1529U, 2U} /* b223..b228 */
 };
 
-#define HITACHI_L200_CONTROL_C_BLOCKS_COUNT 22U
 static const fieldscribe_modbus_reading hitachi_l200_control_c_blocks[] = {
-    {0x03U, 0x1102U, 4U},
-    {0x03U, 0x1106U, 1U},
-    {0x03U, 0x110AU, 4U},
-    {0x03U, 0x110EU, 1U},
-    {0x03U, 0x1113U, 2U},
-    {0x03U, 0x1118U, 1U},
-    {0x03U, 0x111AU, 1U},
-    {0x03U, 0x111CU, 2U},
-    {0x03U, 0x1121U, 1U},
-    {0x03U, 0x1123U, 1U},
-    {0x03U, 0x1125U, 1U},
-    {0x03U, 0x1127U, 2U},
-    {0x03U, 0x112DU, 2U},
-    {0x03U, 0x1140U, 2U},
-    {0x03U, 0x1143U, 2U},
-    {0x03U, 0x1148U, 2U},
-    {0x03U, 0x114FU, 4U},
-    {0x03U, 0x1153U, 4U},
-    {0x03U, 0x1157U, 1U},
-    {0x03U, 0x1530U, 4U},
-    {0x03U, 0x1534U, 1U},
-    {0x03U, 0x1538U, 1U}
+    {3U, 0x1102U, 4U}, /* C001..C004 */
+    {3U, 0x1106U, 1U}, /* C005 */
+    {3U, 0x110AU, 4U}, /* C011..C014 */
+    {3U, 0x110EU, 1U}, /* C015 */
+    {3U, 0x1113U, 2U}, /* C021..C022 */
+    {3U, 0x1118U, 1U}, /* C026 */
+    {3U, 0x111AU, 1U}, /* C028 */
+    {3U, 0x111CU, 2U}, /* C031..C032 */
+    {3U, 0x1121U, 1U}, /* C036 */
+    {3U, 0x1123U, 1U}, /* C041 */
+    {3U, 0x1125U, 1U}, /* C042 */
+    {3U, 0x1127U, 2U}, /* C043..C044 */
+    {3U, 0x112DU, 2U}, /* C052..C053 */
+    {3U, 0x1140U, 2U}, /* C081..C082 */
+    {3U, 0x1143U, 2U}, /* C085..C086 */
+    {3U, 0x1148U, 2U}, /* C101..C102 */
+    {3U, 0x114FU, 4U}, /* C141..C144 */
+    {3U, 0x1153U, 4U}, /* C145..C148 */
+    {3U, 0x1157U, 1U}, /* C149 */
+    {3U, 0x1530U, 4U}, /* C201..C204 */
+    {3U, 0x1534U, 1U}, /* C205 */
+    {3U, 0x1538U, 1U} /* C241 */
 };
 
-#define HITACHI_L200_MOTOR_H_BLOCKS_COUNT 4U
 static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
-    {0x03U, 0x1164U, 2U},
-    {0x03U, 0x1167U, 1U},
-    {0x03U, 0x153FU, 2U},
-    {0x03U, 0x1542U, 1U}
+    {3U, 0x1164U, 2U}, /* H003..H004 */
+    {3U, 0x1167U, 1U}, /* H006 */
+    {3U, 0x153FU, 2U}, /* H203..H204 */
+    {3U, 0x1542U, 1U} /* H206 */
 };
 
 /* ---- Commands ---- */
@@ -201,7 +198,7 @@ static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
 #define HITACHI_L200_COMMAND_ENTER_ADDRESS 0x0900U
 #define HITACHI_L200_COMMAND_ENTER_VALUE 1U
 static const fieldscribe_modbus_command hitachi_l200_command_enter =
-    {{0x06U, HITACHI_L200_COMMAND_ENTER_ADDRESS, 1U}, HITACHI_L200_COMMAND_ENTER_VALUE};
+    {{6U, HITACHI_L200_COMMAND_ENTER_ADDRESS, 1U}, HITACHI_L200_COMMAND_ENTER_VALUE};
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
@@ -215,457 +212,453 @@ static const fieldscribe_layout hitachi_l200_layout_u32_order_01 =
 /* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
 
 static const fieldscribe_modbus_rw hitachi_l200_run_command_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0000U, 1U}, {0x05U, 0x0000U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0000U, 1U}, {5U, 0x0000U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_direction_command_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0001U, 1U}, {0x05U, 0x0001U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0001U, 1U}, {5U, 0x0001U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_external_trip_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0002U, 1U}, {0x05U, 0x0002U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0002U, 1U}, {5U, 0x0002U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_trip_reset_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0003U, 1U}, {0x05U, 0x0003U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0003U, 1U}, {5U, 0x0003U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0006U, 1U}, {0x05U, 0x0006U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0006U, 1U}, {5U, 0x0006U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0007U, 1U}, {0x05U, 0x0007U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0007U, 1U}, {5U, 0x0007U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0008U, 1U}, {0x05U, 0x0008U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0008U, 1U}, {5U, 0x0008U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0009U, 1U}, {0x05U, 0x0009U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0009U, 1U}, {5U, 0x0009U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x000AU, 1U}, {0x05U, 0x000AU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_running_frame = {&hitachi_l200_layout_bit, {0x01U, 0x000DU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_direction_status_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x000EU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_ready_frame = {&hitachi_l200_layout_bit, {0x01U, 0x000FU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_alarm_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0013U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_pid_deviation_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0014U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_overload_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0015U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x000AU, 1U}, {5U, 0x000AU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_running_frame = {&hitachi_l200_layout_bit, {1U, 0x000DU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_direction_status_frame = {&hitachi_l200_layout_bit, {1U, 0x000EU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_ready_frame = {&hitachi_l200_layout_bit, {1U, 0x000FU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_alarm_frame = {&hitachi_l200_layout_bit, {1U, 0x0013U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_pid_deviation_frame = {&hitachi_l200_layout_bit, {1U, 0x0014U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_overload_frame = {&hitachi_l200_layout_bit, {1U, 0x0015U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_in_acceleration_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0016U, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0016U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_frequency_arrival_at_constant_speed_frame =
-    {&hitachi_l200_layout_bit, {0x01U, 0x0017U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_run_mode_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0018U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_data_write_frame = {&hitachi_l200_layout_bit, {0x01U, 0x0019U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_crc_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001AU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_overrun_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001BU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_framing_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001CU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_parity_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001DU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_checksum_error_frame = {&hitachi_l200_layout_bit, {0x01U, 0x001EU, 1U}};
+    {&hitachi_l200_layout_bit, {1U, 0x0017U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_run_mode_frame = {&hitachi_l200_layout_bit, {1U, 0x0018U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_data_write_frame = {&hitachi_l200_layout_bit, {1U, 0x0019U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_crc_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001AU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_overrun_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001BU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_framing_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001CU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_parity_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001DU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_checksum_error_frame = {&hitachi_l200_layout_bit, {1U, 0x001EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_network_frequency_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0001U, 1U}, {0x06U, 0x0001U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0001U, 1U}, {6U, 0x0001U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_inverter_status_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0002U, 1U}, {0x06U, 0x0002U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0002U, 1U}, {6U, 0x0002U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_network_process_value_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0004U, 1U}, {0x06U, 0x0004U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_output_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1001U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_motor_current_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1002U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_rotation_direction_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1003U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0004U, 1U}, {6U, 0x0004U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_output_frequency_frame = {&hitachi_l200_layout_u16, {3U, 0x1001U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_motor_current_frame = {&hitachi_l200_layout_u16, {3U, 0x1002U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_rotation_direction_frame = {&hitachi_l200_layout_u16, {3U, 0x1003U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_scaled_process_value_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1004U, 2U}};
-static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1006U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_digital_outputs_frame = {&hitachi_l200_layout_u16, {0x03U, 0x1007U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_output_voltage_frame = {&hitachi_l200_layout_u16, {0x03U, 0x100BU, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_run_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x100DU, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1004U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_digital_inputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1006U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_digital_outputs_frame = {&hitachi_l200_layout_u16, {3U, 0x1007U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_output_voltage_frame = {&hitachi_l200_layout_u16, {3U, 0x100BU, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_run_time_frame = {&hitachi_l200_layout_u32_order_01, {3U, 0x100DU, 2U}};
 static const fieldscribe_modbus_r hitachi_l200_power_on_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x100FU, 2U}};
-static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0010U, 1U}};
-static const fieldscribe_modbus_r hitachi_l200_trip_1_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0011U, 1U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x100FU, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_count_frame = {&hitachi_l200_layout_u16, {3U, 0x0010U, 1U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_1_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0011U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_1_output_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0013U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0013U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_1_motor_current_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0015U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0015U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_1_dc_bus_voltage_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0016U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0016U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_1_run_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0017U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x0017U, 2U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_1_power_on_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0019U, 2U}};
-static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x001BU, 1U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x0019U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_2_error_frame = {&hitachi_l200_layout_u16, {3U, 0x001BU, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_2_output_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x001DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x001DU, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_2_motor_current_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x001FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x001FU, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_2_dc_bus_voltage_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0020U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0020U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_2_run_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0021U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x0021U, 2U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_2_power_on_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x0023U, 2U}};
-static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {0x03U, 0x0025U, 1U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x0023U, 2U}};
+static const fieldscribe_modbus_r hitachi_l200_trip_3_error_frame = {&hitachi_l200_layout_u16, {3U, 0x0025U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_3_output_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0027U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0027U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_3_motor_current_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x0029U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x0029U, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_3_dc_bus_voltage_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x002AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x002AU, 1U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_3_run_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x002BU, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x002BU, 2U}};
 static const fieldscribe_modbus_r hitachi_l200_trip_3_power_on_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x002DU, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x002DU, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1013U, 2U}, {0x10U, 0x1013U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1013U, 2U}, {16U, 0x1013U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_set_2_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1500U, 2U}, {0x10U, 0x1500U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1500U, 2U}, {16U, 0x1500U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1015U, 2U}, {0x10U, 0x1015U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1015U, 2U}, {16U, 0x1015U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_set_2_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1502U, 2U}, {0x10U, 0x1502U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1502U, 2U}, {16U, 0x1502U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_direction_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1017U, 1U}, {0x06U, 0x1017U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1017U, 1U}, {6U, 0x1017U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_frequency_source_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1018U, 1U}, {0x06U, 0x1018U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1018U, 1U}, {6U, 0x1018U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_frequency_source_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1509U, 1U}, {0x06U, 0x1509U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1509U, 1U}, {6U, 0x1509U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_run_source_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1019U, 1U}, {0x06U, 0x1019U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1019U, 1U}, {6U, 0x1019U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_run_source_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x150AU, 1U}, {0x06U, 0x150AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x150AU, 1U}, {6U, 0x150AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x101AU, 1U}, {0x06U, 0x101AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x101AU, 1U}, {6U, 0x101AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_rated_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x150BU, 1U}, {0x06U, 0x150BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x150BU, 1U}, {6U, 0x150BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x101BU, 1U}, {0x06U, 0x101BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x101BU, 1U}, {6U, 0x101BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_maximum_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x150CU, 1U}, {0x06U, 0x150CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x150CU, 1U}, {6U, 0x150CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_at_terminal_selection_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x101CU, 1U}, {0x06U, 0x101CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x101CU, 1U}, {6U, 0x101CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x101FU, 1U}, {0x06U, 0x101FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x101FU, 1U}, {6U, 0x101FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1021U, 1U}, {0x06U, 0x1021U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1021U, 1U}, {6U, 0x1021U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_minimum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1022U, 1U}, {0x06U, 0x1022U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1022U, 1U}, {6U, 0x1022U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_maximum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1023U, 1U}, {0x06U, 0x1023U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1023U, 1U}, {6U, 0x1023U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_start_condition_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1024U, 1U}, {0x06U, 0x1024U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1024U, 1U}, {6U, 0x1024U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_analog_input_filter_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1025U, 1U}, {0x06U, 0x1025U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1025U, 1U}, {6U, 0x1025U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_base_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1028U, 1U}, {0x06U, 0x1028U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1028U, 1U}, {6U, 0x1028U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_base_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x150EU, 1U}, {0x06U, 0x150EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x150EU, 1U}, {6U, 0x150EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_1_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x102AU, 1U}, {0x06U, 0x102AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x102AU, 1U}, {6U, 0x102AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x102CU, 1U}, {0x06U, 0x102CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x102CU, 1U}, {6U, 0x102CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_3_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x102EU, 1U}, {0x06U, 0x102EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x102EU, 1U}, {6U, 0x102EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_4_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1030U, 1U}, {0x06U, 0x1030U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1030U, 1U}, {6U, 0x1030U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_5_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1032U, 1U}, {0x06U, 0x1032U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1032U, 1U}, {6U, 0x1032U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_6_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1034U, 1U}, {0x06U, 0x1034U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1034U, 1U}, {6U, 0x1034U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_7_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1036U, 1U}, {0x06U, 0x1036U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1036U, 1U}, {6U, 0x1036U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_8_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1038U, 1U}, {0x06U, 0x1038U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1038U, 1U}, {6U, 0x1038U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_9_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x103AU, 1U}, {0x06U, 0x103AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x103AU, 1U}, {6U, 0x103AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_10_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x103CU, 1U}, {0x06U, 0x103CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x103CU, 1U}, {6U, 0x103CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_11_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x103EU, 1U}, {0x06U, 0x103EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x103EU, 1U}, {6U, 0x103EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_12_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1040U, 1U}, {0x06U, 0x1040U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1040U, 1U}, {6U, 0x1040U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_13_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1042U, 1U}, {0x06U, 0x1042U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1042U, 1U}, {6U, 0x1042U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_14_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1044U, 1U}, {0x06U, 0x1044U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1044U, 1U}, {6U, 0x1044U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_fixed_frequency_15_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1046U, 1U}, {0x06U, 0x1046U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1046U, 1U}, {6U, 0x1046U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jog_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1047U, 1U}, {0x06U, 0x1047U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1047U, 1U}, {6U, 0x1047U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jog_stop_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1048U, 1U}, {0x06U, 0x1048U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1048U, 1U}, {6U, 0x1048U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_boost_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1049U, 1U}, {0x06U, 0x1049U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1049U, 1U}, {6U, 0x1049U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_boost_mode_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x150FU, 1U}, {0x06U, 0x150FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x150FU, 1U}, {6U, 0x150FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x104AU, 1U}, {0x06U, 0x104AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x104AU, 1U}, {6U, 0x104AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1510U, 1U}, {0x06U, 0x1510U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1510U, 1U}, {6U, 0x1510U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x104BU, 1U}, {0x06U, 0x104BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x104BU, 1U}, {6U, 0x104BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_manual_boost_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1511U, 1U}, {0x06U, 0x1511U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1511U, 1U}, {6U, 0x1511U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x104CU, 1U}, {0x06U, 0x104CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x104CU, 1U}, {6U, 0x104CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_vf_characteristic_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1512U, 1U}, {0x06U, 0x1512U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1512U, 1U}, {6U, 0x1512U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x104DU, 1U}, {0x06U, 0x104DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x104DU, 1U}, {6U, 0x104DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_output_voltage_setting_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1513U, 1U}, {0x06U, 0x1513U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1513U, 1U}, {6U, 0x1513U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_enable_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1050U, 1U}, {0x06U, 0x1050U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1050U, 1U}, {6U, 0x1050U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1051U, 1U}, {0x06U, 0x1051U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1051U, 1U}, {6U, 0x1051U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1052U, 1U}, {0x06U, 0x1052U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1052U, 1U}, {6U, 0x1052U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_torque_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1053U, 1U}, {0x06U, 0x1053U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1053U, 1U}, {6U, 0x1053U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_time_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1054U, 1U}, {0x06U, 0x1054U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1054U, 1U}, {6U, 0x1054U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_dc_brake_trigger_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1055U, 1U}, {0x06U, 0x1055U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1055U, 1U}, {6U, 0x1055U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1059U, 1U}, {0x06U, 0x1059U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1059U, 1U}, {6U, 0x1059U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_upper_frequency_limit_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1516U, 1U}, {0x06U, 0x1516U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1516U, 1U}, {6U, 0x1516U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x105AU, 1U}, {0x06U, 0x105AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x105AU, 1U}, {6U, 0x105AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_lower_frequency_limit_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1517U, 1U}, {0x06U, 0x1517U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1517U, 1U}, {6U, 0x1517U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x105CU, 1U}, {0x06U, 0x105CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x105CU, 1U}, {6U, 0x105CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_1_width_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x105DU, 1U}, {0x06U, 0x105DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x105DU, 1U}, {6U, 0x105DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x105FU, 1U}, {0x06U, 0x105FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x105FU, 1U}, {6U, 0x105FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_2_width_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1060U, 1U}, {0x06U, 0x1060U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1060U, 1U}, {6U, 0x1060U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1062U, 1U}, {0x06U, 0x1062U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1062U, 1U}, {6U, 0x1062U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_jump_frequency_3_width_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1063U, 1U}, {0x06U, 0x1063U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1063U, 1U}, {6U, 0x1063U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_enable_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1067U, 1U}, {0x06U, 0x1067U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1067U, 1U}, {6U, 0x1067U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_proportional_gain_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1068U, 1U}, {0x06U, 0x1068U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1068U, 1U}, {6U, 0x1068U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_integral_time_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1069U, 1U}, {0x06U, 0x1069U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1069U, 1U}, {6U, 0x1069U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_derivative_time_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106AU, 1U}, {0x06U, 0x106AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106AU, 1U}, {6U, 0x106AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_display_factor_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106BU, 1U}, {0x06U, 0x106BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106BU, 1U}, {6U, 0x106BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_source_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106CU, 1U}, {0x06U, 0x106CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106CU, 1U}, {6U, 0x106CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_inversion_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106DU, 1U}, {0x06U, 0x106DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106DU, 1U}, {6U, 0x106DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_output_limit_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106EU, 1U}, {0x06U, 0x106EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106EU, 1U}, {6U, 0x106EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_avr_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x106FU, 1U}, {0x06U, 0x106FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x106FU, 1U}, {6U, 0x106FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_voltage_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1070U, 1U}, {0x06U, 0x1070U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1070U, 1U}, {6U, 0x1070U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_time_2_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1073U, 2U}, {0x10U, 0x1073U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1073U, 2U}, {16U, 0x1073U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1075U, 2U}, {0x10U, 0x1075U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1075U, 2U}, {16U, 0x1075U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_time_2_set_2_frame =
-    {&hitachi_l200_layout_u32_order_01, {0x03U, 0x1519U, 2U}, {0x10U, 0x1519U, 2U}};
+    {&hitachi_l200_layout_u32_order_01, {3U, 0x1519U, 2U}, {16U, 0x1519U, 2U}};
 static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1077U, 1U}, {0x06U, 0x1077U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1077U, 1U}, {6U, 0x1077U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_ramp_2_selection_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x151BU, 1U}, {0x06U, 0x151BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x151BU, 1U}, {6U, 0x151BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1079U, 1U}, {0x06U, 0x1079U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1079U, 1U}, {6U, 0x1079U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_change_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x151DU, 1U}, {0x06U, 0x151DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x151DU, 1U}, {6U, 0x151DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x107BU, 1U}, {0x06U, 0x107BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x107BU, 1U}, {6U, 0x107BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_change_frequency_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x151FU, 1U}, {0x06U, 0x151FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x151FU, 1U}, {6U, 0x151FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_acceleration_curve_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x107CU, 1U}, {0x06U, 0x107CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x107CU, 1U}, {6U, 0x107CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_deceleration_curve_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x107DU, 1U}, {0x06U, 0x107DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x107DU, 1U}, {6U, 0x107DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x107FU, 1U}, {0x06U, 0x107FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x107FU, 1U}, {6U, 0x107FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1081U, 1U}, {0x06U, 0x1081U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1081U, 1U}, {6U, 0x1081U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_minimum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1082U, 1U}, {0x06U, 0x1082U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1082U, 1U}, {6U, 0x1082U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_maximum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1083U, 1U}, {0x06U, 0x1083U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1083U, 1U}, {6U, 0x1083U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_start_condition_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1084U, 1U}, {0x06U, 0x1084U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1084U, 1U}, {6U, 0x1084U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_calculation_input_a_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x108DU, 1U}, {0x06U, 0x108DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x108DU, 1U}, {6U, 0x108DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_calculation_input_b_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x108EU, 1U}, {0x06U, 0x108EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x108EU, 1U}, {6U, 0x108EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_calculation_operator_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x108FU, 1U}, {0x06U, 0x108FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x108FU, 1U}, {6U, 0x108FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1090U, 1U}, {0x06U, 0x1090U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1090U, 1U}, {6U, 0x1090U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_frequency_offset_sign_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1092U, 1U}, {0x06U, 0x1092U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1092U, 1U}, {6U, 0x1092U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1094U, 1U}, {0x06U, 0x1094U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1094U, 1U}, {6U, 0x1094U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1096U, 1U}, {0x06U, 0x1096U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1096U, 1U}, {6U, 0x1096U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_minimum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1097U, 1U}, {0x06U, 0x1097U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1097U, 1U}, {6U, 0x1097U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_maximum_setpoint_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1098U, 1U}, {0x06U, 0x1098U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1098U, 1U}, {6U, 0x1098U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_potentiometer_start_condition_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1099U, 1U}, {0x06U, 0x1099U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1099U, 1U}, {6U, 0x1099U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_restart_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10A4U, 1U}, {0x06U, 0x10A4U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10A4U, 1U}, {6U, 0x10A4U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_allowed_power_failure_time_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10A5U, 1U}, {0x06U, 0x10A5U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10A5U, 1U}, {6U, 0x10A5U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_restart_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10A6U, 1U}, {0x06U, 0x10A6U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10A6U, 1U}, {6U, 0x10A6U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_power_failure_trip_at_standstill_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10A7U, 1U}, {0x06U, 0x10A7U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10A7U, 1U}, {6U, 0x10A7U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_power_failure_restarts_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10A8U, 1U}, {0x06U, 0x10A8U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10A8U, 1U}, {6U, 0x10A8U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10ACU, 1U}, {0x06U, 0x10ACU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10ACU, 1U}, {6U, 0x10ACU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_level_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1525U, 1U}, {0x06U, 0x1525U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1525U, 1U}, {6U, 0x1525U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10ADU, 1U}, {0x06U, 0x10ADU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10ADU, 1U}, {6U, 0x10ADU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_protection_characteristic_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1526U, 1U}, {0x06U, 0x1526U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1526U, 1U}, {6U, 0x1526U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10B4U, 1U}, {0x06U, 0x10B4U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10B4U, 1U}, {6U, 0x10B4U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_mode_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1527U, 1U}, {0x06U, 0x1527U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1527U, 1U}, {6U, 0x1527U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10B5U, 1U}, {0x06U, 0x10B5U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10B5U, 1U}, {6U, 0x10B5U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_level_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1528U, 1U}, {0x06U, 0x1528U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1528U, 1U}, {6U, 0x1528U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10B6U, 1U}, {0x06U, 0x10B6U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10B6U, 1U}, {6U, 0x10B6U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_time_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1529U, 1U}, {0x06U, 0x1529U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1529U, 1U}, {6U, 0x1529U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10BAU, 1U}, {0x06U, 0x10BAU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10BAU, 1U}, {6U, 0x10BAU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_current_limit_source_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x152AU, 1U}, {0x06U, 0x152AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x152AU, 1U}, {6U, 0x152AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_parameter_lock_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10BBU, 1U}, {0x06U, 0x10BBU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10BBU, 1U}, {6U, 0x10BBU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_gain_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10CEU, 1U}, {0x06U, 0x10CEU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10CEU, 1U}, {6U, 0x10CEU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_start_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D0U, 1U}, {0x06U, 0x10D0U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D0U, 1U}, {6U, 0x10D0U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_carrier_frequency_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D1U, 1U}, {0x06U, 0x10D1U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D1U, 1U}, {6U, 0x10D1U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_initialization_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D2U, 1U}, {0x06U, 0x10D2U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D2U, 1U}, {6U, 0x10D2U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_frequency_display_factor_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D4U, 1U}, {0x06U, 0x10D4U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D4U, 1U}, {6U, 0x10D4U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_stop_key_lock_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D5U, 1U}, {0x06U, 0x10D5U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D5U, 1U}, {6U, 0x10D5U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_coast_restart_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D6U, 1U}, {0x06U, 0x10D6U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D6U, 1U}, {6U, 0x10D6U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_network_display_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D7U, 1U}, {0x06U, 0x10D7U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D7U, 1U}, {6U, 0x10D7U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_stop_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10D9U, 1U}, {0x06U, 0x10D9U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10D9U, 1U}, {6U, 0x10D9U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_enable_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10F4U, 1U}, {0x06U, 0x10F4U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10F4U, 1U}, {6U, 0x10F4U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_200v_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10F5U, 1U}, {0x06U, 0x10F5U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10F5U, 1U}, {6U, 0x10F5U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_overvoltage_deceleration_level_400v_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x10F5U, 1U}, {0x06U, 0x10F5U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x10F5U, 1U}, {6U, 0x10F5U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1102U, 1U}, {0x06U, 0x1102U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1102U, 1U}, {6U, 0x1102U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_function_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1530U, 1U}, {0x06U, 0x1530U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1530U, 1U}, {6U, 0x1530U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1103U, 1U}, {0x06U, 0x1103U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1103U, 1U}, {6U, 0x1103U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_function_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1531U, 1U}, {0x06U, 0x1531U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1531U, 1U}, {6U, 0x1531U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1104U, 1U}, {0x06U, 0x1104U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1104U, 1U}, {6U, 0x1104U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_function_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1532U, 1U}, {0x06U, 0x1532U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1532U, 1U}, {6U, 0x1532U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1105U, 1U}, {0x06U, 0x1105U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1105U, 1U}, {6U, 0x1105U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_function_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1533U, 1U}, {0x06U, 0x1533U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1533U, 1U}, {6U, 0x1533U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1106U, 1U}, {0x06U, 0x1106U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1106U, 1U}, {6U, 0x1106U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_function_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1534U, 1U}, {0x06U, 0x1534U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1534U, 1U}, {6U, 0x1534U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_1_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x110AU, 1U}, {0x06U, 0x110AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x110AU, 1U}, {6U, 0x110AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_2_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x110BU, 1U}, {0x06U, 0x110BU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x110BU, 1U}, {6U, 0x110BU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_3_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x110CU, 1U}, {0x06U, 0x110CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x110CU, 1U}, {6U, 0x110CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_4_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x110DU, 1U}, {0x06U, 0x110DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x110DU, 1U}, {6U, 0x110DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_input_5_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x110EU, 1U}, {0x06U, 0x110EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x110EU, 1U}, {6U, 0x110EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1113U, 1U}, {0x06U, 0x1113U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1113U, 1U}, {6U, 0x1113U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1114U, 1U}, {0x06U, 0x1114U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1114U, 1U}, {6U, 0x1114U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_function_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1118U, 1U}, {0x06U, 0x1118U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1118U, 1U}, {6U, 0x1118U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_source_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x111AU, 1U}, {0x06U, 0x111AU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x111AU, 1U}, {6U, 0x111AU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x111CU, 1U}, {0x06U, 0x111CU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x111CU, 1U}, {6U, 0x111CU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x111DU, 1U}, {0x06U, 0x111DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x111DU, 1U}, {6U, 0x111DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_contact_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1121U, 1U}, {0x06U, 0x1121U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1121U, 1U}, {6U, 0x1121U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1123U, 1U}, {0x06U, 0x1123U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1123U, 1U}, {6U, 0x1123U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_overload_alarm_level_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1538U, 1U}, {0x06U, 0x1538U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1538U, 1U}, {6U, 0x1538U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_acceleration_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1125U, 1U}, {0x06U, 0x1125U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1125U, 1U}, {6U, 0x1125U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_arrival_frequency_deceleration_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1127U, 1U}, {0x06U, 0x1127U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1127U, 1U}, {6U, 0x1127U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_deviation_level_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1128U, 1U}, {0x06U, 0x1128U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1128U, 1U}, {6U, 0x1128U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_upper_limit_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x112DU, 1U}, {0x06U, 0x112DU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x112DU, 1U}, {6U, 0x112DU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_pid_process_value_lower_limit_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x112EU, 1U}, {0x06U, 0x112EU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x112EU, 1U}, {6U, 0x112EU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_o_calibration_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1140U, 1U}, {0x06U, 0x1140U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1140U, 1U}, {6U, 0x1140U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_input_oi_calibration_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1141U, 1U}, {0x06U, 0x1141U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1141U, 1U}, {6U, 0x1141U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_thermistor_input_calibration_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1143U, 1U}, {0x06U, 0x1143U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1143U, 1U}, {6U, 0x1143U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_analog_output_offset_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1144U, 1U}, {0x06U, 0x1144U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1144U, 1U}, {6U, 0x1144U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_potentiometer_memory_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1148U, 1U}, {0x06U, 0x1148U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1148U, 1U}, {6U, 0x1148U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_reset_mode_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1149U, 1U}, {0x06U, 0x1149U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1149U, 1U}, {6U, 0x1149U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_logic_input_a_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x114FU, 1U}, {0x06U, 0x114FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x114FU, 1U}, {6U, 0x114FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_logic_input_b_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1150U, 1U}, {0x06U, 0x1150U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1150U, 1U}, {6U, 0x1150U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_logic_operator_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1151U, 1U}, {0x06U, 0x1151U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1151U, 1U}, {6U, 0x1151U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_on_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1152U, 1U}, {0x06U, 0x1152U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1152U, 1U}, {6U, 0x1152U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_11_off_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1153U, 1U}, {0x06U, 0x1153U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1153U, 1U}, {6U, 0x1153U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_on_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1154U, 1U}, {0x06U, 0x1154U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1154U, 1U}, {6U, 0x1154U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_digital_output_12_off_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1155U, 1U}, {0x06U, 0x1155U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1155U, 1U}, {6U, 0x1155U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_on_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1156U, 1U}, {0x06U, 0x1156U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1156U, 1U}, {6U, 0x1156U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_relay_output_off_delay_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1157U, 1U}, {0x06U, 0x1157U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1157U, 1U}, {6U, 0x1157U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_power_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1164U, 1U}, {0x06U, 0x1164U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1164U, 1U}, {6U, 0x1164U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_power_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x153FU, 1U}, {0x06U, 0x153FU, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x153FU, 1U}, {6U, 0x153FU, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_poles_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1165U, 1U}, {0x06U, 0x1165U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1165U, 1U}, {6U, 0x1165U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_motor_poles_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1540U, 1U}, {0x06U, 0x1540U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1540U, 1U}, {6U, 0x1540U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1167U, 1U}, {0x06U, 0x1167U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1167U, 1U}, {6U, 0x1167U, 1U}};
 static const fieldscribe_modbus_rw hitachi_l200_stabilization_constant_set_2_frame =
-    {&hitachi_l200_layout_u16, {0x03U, 0x1542U, 1U}, {0x06U, 0x1542U, 1U}};
+    {&hitachi_l200_layout_u16, {3U, 0x1542U, 1U}, {6U, 0x1542U, 1U}};
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@
 
 #define JUMO_CONTROLLER_DESCRIPTION_VERSION "1.0.0"
 #define JUMO_CONTROLLER_DESCRIPTION_DIGEST "be2792d9863863fa"
+#define JUMO_CONTROLLER_DESCRIPTION 0xbe2792d9U /* for #if */
 
 #ifdef __cplusplus
 extern "C" {

@@ -17,6 +17,9 @@
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
+#if JUMO_CONTROLLER_DESCRIPTION != 0xbe2792d9U
+#error "jumo_controller.h is of another description: take the one that was generated with this header."
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,10 +27,10 @@ extern "C" {
 
 /* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
 static const fieldscribe_modbus_function jumo_controller_modbus_functions[] = {
-    {0x03U, 32U, false}, /* read_holding_registers */
-    {0x04U, 32U, false}, /* read_input_registers */
-    {0x06U, 1U, true}, /* write_register */
-    {0x10U, 32U, true} /* write_registers */
+    {3U, 32U, false}, /* read_holding_registers */
+    {4U, 32U, false}, /* read_input_registers */
+    {6U, 1U, true}, /* write_register */
+    {16U, 32U, true} /* write_registers */
 };
 
 static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
@@ -51,26 +54,25 @@ enum {
 
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
-#define JUMO_CONTROLLER_PROCESS_DATA_BLOCKS_COUNT 6U
+#define JUMO_CONTROLLER_BLOCK_MOST 8U /* the words, or bits, of the largest */
+
 static const fieldscribe_modbus_reading jumo_controller_process_data_blocks[] = {
-    {0x03U, 0x001FU, 3U},
-    {0x03U, 0x0023U, 1U},
-    {0x03U, 0x0025U, 3U},
-    {0x03U, 0x005BU, 4U},
-    {0x03U, 0x0061U, 4U},
-    {0x03U, 0x0067U, 8U}
+    {3U, 0x001FU, 3U}, /* program_status..binary_outputs */
+    {3U, 0x0023U, 1U}, /* binary_inputs */
+    {3U, 0x0025U, 3U}, /* control_contacts..binary_output_control */
+    {3U, 0x005BU, 4U}, /* program_run_time..program_remaining_time */
+    {3U, 0x0061U, 4U}, /* section_run_time..section_remaining_time */
+    {3U, 0x0067U, 8U} /* timer_1_run_time..timer_4_run_time */
 };
 
-#define JUMO_CONTROLLER_EXAMPLES_BLOCKS_COUNT 3U
 static const fieldscribe_modbus_reading jumo_controller_examples_blocks[] = {
-    {0x03U, 0x00CEU, 2U},
-    {0x03U, 0x3014U, 2U},
-    {0x03U, 0x3100U, 4U}
+    {3U, 0x00CEU, 2U}, /* value_00ce */
+    {3U, 0x3014U, 2U}, /* Pb1 */
+    {3U, 0x3100U, 4U} /* setpoint_1..setpoint_2 */
 };
 
-#define JUMO_CONTROLLER_COMMAND_WORDS_BLOCKS_COUNT 1U
 static const fieldscribe_modbus_reading jumo_controller_command_words_blocks[] = {
-    {0x03U, 0x006FU, 4U}
+    {3U, 0x006FU, 4U} /* program_controller_commands..timer_commands */
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
@@ -87,53 +89,53 @@ static const fieldscribe_layout jumo_controller_layout_u32_order_10 =
 /* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
 
 static const fieldscribe_modbus_r jumo_controller_program_status_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x001FU, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x001FU, 1U}};
 static const fieldscribe_modbus_r jumo_controller_controller_status_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0020U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0020U, 1U}};
 static const fieldscribe_modbus_r jumo_controller_binary_outputs_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0021U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0021U, 1U}};
 static const fieldscribe_modbus_r jumo_controller_binary_inputs_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0023U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0023U, 1U}};
 static const fieldscribe_modbus_r jumo_controller_control_contacts_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0025U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0025U, 1U}};
 static const fieldscribe_modbus_r jumo_controller_binary_signals_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0026U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0026U, 1U}};
 static const fieldscribe_modbus_rw jumo_controller_binary_output_control_frame =
-    {&jumo_controller_layout_u16_fixed_8000_8000, {0x03U, 0x0027U, 1U}, {0x06U, 0x0027U, 1U}};
+    {&jumo_controller_layout_u16_fixed_8000_8000, {3U, 0x0027U, 1U}, {6U, 0x0027U, 1U}};
 static const fieldscribe_modbus_r jumo_controller_program_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x005BU, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x005BU, 2U}};
 static const fieldscribe_modbus_r jumo_controller_program_remaining_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x005DU, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x005DU, 2U}};
 static const fieldscribe_modbus_r jumo_controller_section_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0061U, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x0061U, 2U}};
 static const fieldscribe_modbus_r jumo_controller_section_remaining_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0063U, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x0063U, 2U}};
 static const fieldscribe_modbus_r jumo_controller_timer_1_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0067U, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x0067U, 2U}};
 static const fieldscribe_modbus_r jumo_controller_timer_2_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x0069U, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x0069U, 2U}};
 static const fieldscribe_modbus_r jumo_controller_timer_3_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x006BU, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x006BU, 2U}};
 static const fieldscribe_modbus_r jumo_controller_timer_4_run_time_frame =
-    {&jumo_controller_layout_u32_order_01, {0x03U, 0x006DU, 2U}};
+    {&jumo_controller_layout_u32_order_01, {3U, 0x006DU, 2U}};
 static const fieldscribe_modbus_rw jumo_controller_setpoint_1_frame =
-    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3100U, 2U}, {0x10U, 0x3100U, 2U}};
+    {&jumo_controller_layout_u32_order_10, {3U, 0x3100U, 2U}, {16U, 0x3100U, 2U}};
 static const fieldscribe_modbus_rw jumo_controller_setpoint_2_frame =
-    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3102U, 2U}, {0x10U, 0x3102U, 2U}};
+    {&jumo_controller_layout_u32_order_10, {3U, 0x3102U, 2U}, {16U, 0x3102U, 2U}};
 static const fieldscribe_modbus_rw jumo_controller_proportional_band_1_set_2_frame =
-    {&jumo_controller_layout_u32_order_10, {0x03U, 0x3014U, 2U}, {0x10U, 0x3014U, 2U}};
+    {&jumo_controller_layout_u32_order_10, {3U, 0x3014U, 2U}, {16U, 0x3014U, 2U}};
 static const fieldscribe_modbus_w jumo_controller_value_0077_frame =
-    {&jumo_controller_layout_u32_order_10, {0x10U, 0x0077U, 2U}};
+    {&jumo_controller_layout_u32_order_10, {16U, 0x0077U, 2U}};
 static const fieldscribe_modbus_r jumo_controller_value_00ce_frame =
-    {&jumo_controller_layout_u32_order_10, {0x03U, 0x00CEU, 2U}};
+    {&jumo_controller_layout_u32_order_10, {3U, 0x00CEU, 2U}};
 static const fieldscribe_modbus_rw jumo_controller_program_controller_commands_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x006FU, 1U}, {0x06U, 0x006FU, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x006FU, 1U}, {6U, 0x006FU, 1U}};
 static const fieldscribe_modbus_rw jumo_controller_controller_commands_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0070U, 1U}, {0x06U, 0x0070U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0070U, 1U}, {6U, 0x0070U, 1U}};
 static const fieldscribe_modbus_rw jumo_controller_operation_commands_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0071U, 1U}, {0x06U, 0x0071U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0071U, 1U}, {6U, 0x0071U, 1U}};
 static const fieldscribe_modbus_rw jumo_controller_timer_commands_frame =
-    {&jumo_controller_layout_u16, {0x03U, 0x0072U, 1U}, {0x06U, 0x0072U, 1U}};
+    {&jumo_controller_layout_u16, {3U, 0x0072U, 1U}, {6U, 0x0072U, 1U}};
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@
 
 #define NORD_SK5XXE_DESCRIPTION_VERSION "1.0.0"
 #define NORD_SK5XXE_DESCRIPTION_DIGEST "722df37c776b1f0d"
+#define NORD_SK5XXE_DESCRIPTION 0x722df37cU /* for #if */
 
 #ifdef __cplusplus
 extern "C" {

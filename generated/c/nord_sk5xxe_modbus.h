@@ -17,6 +17,9 @@
 #if FIELDSCRIBE_MODBUS_INTERFACE != 2
 #error "fieldscribe_modbus.h is of another version: take the one that was generated with this header."
 #endif
+#if NORD_SK5XXE_DESCRIPTION != 0x722df37cU
+#error "nord_sk5xxe.h is of another description: take the one that was generated with this header."
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,12 +27,12 @@ extern "C" {
 
 /* What the device understands, how many items one request may carry, and whether it may go to all units at once. */
 static const fieldscribe_modbus_function nord_sk5xxe_modbus_functions[] = {
-    {0x01U, 2000U, false}, /* read_coils */
-    {0x05U, 1U, true}, /* write_coil */
-    {0x0FU, 1968U, true}, /* write_coils */
-    {0x03U, 125U, false}, /* read_holding_registers */
-    {0x06U, 1U, true}, /* write_register */
-    {0x10U, 123U, true} /* write_registers */
+    {1U, 2000U, false}, /* read_coils */
+    {5U, 1U, true}, /* write_coil */
+    {15U, 1968U, true}, /* write_coils */
+    {3U, 125U, false}, /* read_holding_registers */
+    {6U, 1U, true}, /* write_register */
+    {16U, 123U, true} /* write_registers */
 };
 
 static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
@@ -45,10 +48,11 @@ static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
 
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
 
-#define NORD_SK5XXE_PROCESS_DATA_BLOCKS_COUNT 2U
+#define NORD_SK5XXE_BLOCK_MOST 6U /* the words, or bits, of the largest */
+
 static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
-    {0x03U, 0x0C80U, 6U},
-    {0x03U, 0x0CC0U, 6U}
+    {3U, 0x0C80U, 6U}, /* P050[1]..P050[6] */
+    {3U, 0x0CC0U, 6U} /* P051[1]..P051[6] */
 };
 
 /* ---- Commands ---- */
@@ -57,14 +61,13 @@ static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
 #define NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS 0x0C80U
 #define NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE 1150U
 static const fieldscribe_modbus_command nord_sk5xxe_command_make_ready_to_switch_on =
-    {{0x06U, NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS, 1U},
-        NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE};
+    {{6U, NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_ADDRESS, 1U}, NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE};
 
 /* Switch on. */
 #define NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS 0x0C80U
 #define NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE 1151U
 static const fieldscribe_modbus_command nord_sk5xxe_command_switch_on =
-    {{0x06U, NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS, 1U}, NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE};
+    {{6U, NORD_SK5XXE_COMMAND_SWITCH_ON_ADDRESS, 1U}, NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE};
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
@@ -74,23 +77,23 @@ static const fieldscribe_layout nord_sk5xxe_layout_u16 =
 /* ---- Points: how the number lies in words, what reads it, what writes it (function, address, words) ---- */
 
 static const fieldscribe_modbus_rw nord_sk5xxe_control_word_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C80U, 1U}, {0x06U, 0x0C80U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C80U, 1U}, {6U, 0x0C80U, 1U}};
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_1_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C81U, 1U}, {0x06U, 0x0C81U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C81U, 1U}, {6U, 0x0C81U, 1U}};
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_2_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C82U, 1U}, {0x06U, 0x0C82U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C82U, 1U}, {6U, 0x0C82U, 1U}};
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_3_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C83U, 1U}, {0x06U, 0x0C83U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C83U, 1U}, {6U, 0x0C83U, 1U}};
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_4_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C84U, 1U}, {0x06U, 0x0C84U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C84U, 1U}, {6U, 0x0C84U, 1U}};
 static const fieldscribe_modbus_rw nord_sk5xxe_setpoint_5_frame =
-    {&nord_sk5xxe_layout_u16, {0x03U, 0x0C85U, 1U}, {0x06U, 0x0C85U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_status_word_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC0U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_actual_value_1_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC1U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_actual_value_2_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC2U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_actual_value_3_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC3U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_actual_value_4_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC4U, 1U}};
-static const fieldscribe_modbus_r nord_sk5xxe_actual_value_5_frame = {&nord_sk5xxe_layout_u16, {0x03U, 0x0CC5U, 1U}};
+    {&nord_sk5xxe_layout_u16, {3U, 0x0C85U, 1U}, {6U, 0x0C85U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_status_word_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC0U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_1_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC1U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_2_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC2U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_3_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC3U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_4_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC4U, 1U}};
+static const fieldscribe_modbus_r nord_sk5xxe_actual_value_5_frame = {&nord_sk5xxe_layout_u16, {3U, 0x0CC5U, 1U}};
 
 #ifdef __cplusplus
 }

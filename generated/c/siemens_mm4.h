@@ -24,6 +24,7 @@
 
 #define SIEMENS_MM4_DESCRIPTION_VERSION "1.0.0"
 #define SIEMENS_MM4_DESCRIPTION_DIGEST "12aa9e675f8dfd6c"
+#define SIEMENS_MM4_DESCRIPTION 0x12aa9e67U /* for #if */
 
 #ifdef __cplusplus
 extern "C" {

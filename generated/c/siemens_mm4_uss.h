@@ -18,6 +18,9 @@
 #if FIELDSCRIBE_USS_INTERFACE != 3
 #error "fieldscribe_uss.h is of another version: take the one that was generated with this header."
 #endif
+#if SIEMENS_MM4_DESCRIPTION != 0x12aa9e67U
+#error "siemens_mm4.h is of another description: take the one that was generated with this header."
+#endif
 
 #ifdef __cplusplus
 extern "C" {

@@ -24,6 +24,7 @@
 
 #define WOODWARD_MPU2S_DESCRIPTION_VERSION "1.0.0"
 #define WOODWARD_MPU2S_DESCRIPTION_DIGEST "10d95ee1df2db400"
+#define WOODWARD_MPU2S_DESCRIPTION 0x10d95ee1U /* for #if */
 
 #ifdef __cplusplus
 extern "C" {

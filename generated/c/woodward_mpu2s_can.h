@@ -18,6 +18,9 @@
 #if FIELDSCRIBE_CAN_INTERFACE != 2
 #error "fieldscribe_can.h is of another version: take the one that was generated with this header."
 #endif
+#if WOODWARD_MPU2S_DESCRIPTION != 0x10d95ee1U
+#error "woodward_mpu2s.h is of another description: take the one that was generated with this header."
+#endif
 
 #ifdef __cplusplus
 extern "C" {

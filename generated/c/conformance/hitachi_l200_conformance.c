@@ -4245,28 +4245,21 @@ static const char *const telegrams[] = {
 };
 
 static const fieldscribe_blocks blocks[] = {
-    {"coils", hitachi_l200_coils_blocks, HITACHI_L200_COILS_BLOCKS_COUNT, sizeof hitachi_l200_coils_blocks / sizeof
-        hitachi_l200_coils_blocks[0]},
-    {"status", hitachi_l200_status_blocks, HITACHI_L200_STATUS_BLOCKS_COUNT, sizeof hitachi_l200_status_blocks / sizeof
-        hitachi_l200_status_blocks[0]},
-    {"monitor_d", hitachi_l200_monitor_d_blocks, HITACHI_L200_MONITOR_D_BLOCKS_COUNT, sizeof
-        hitachi_l200_monitor_d_blocks / sizeof hitachi_l200_monitor_d_blocks[0]},
-    {"basic_f", hitachi_l200_basic_f_blocks, HITACHI_L200_BASIC_F_BLOCKS_COUNT, sizeof hitachi_l200_basic_f_blocks /
-        sizeof hitachi_l200_basic_f_blocks[0]},
-    {"standard_a", hitachi_l200_standard_a_blocks, HITACHI_L200_STANDARD_A_BLOCKS_COUNT, sizeof
-        hitachi_l200_standard_a_blocks / sizeof hitachi_l200_standard_a_blocks[0]},
-    {"fine_tuning_b", hitachi_l200_fine_tuning_b_blocks, HITACHI_L200_FINE_TUNING_B_BLOCKS_COUNT, sizeof
-        hitachi_l200_fine_tuning_b_blocks / sizeof hitachi_l200_fine_tuning_b_blocks[0]},
-    {"control_c", hitachi_l200_control_c_blocks, HITACHI_L200_CONTROL_C_BLOCKS_COUNT, sizeof
-        hitachi_l200_control_c_blocks / sizeof hitachi_l200_control_c_blocks[0]},
-    {"motor_h", hitachi_l200_motor_h_blocks, HITACHI_L200_MOTOR_H_BLOCKS_COUNT, sizeof hitachi_l200_motor_h_blocks /
-        sizeof hitachi_l200_motor_h_blocks[0]},
-    {NULL, NULL, 0U, 0U}
+    {"coils", hitachi_l200_coils_blocks, FIELDSCRIBE_COUNT(hitachi_l200_coils_blocks)},
+    {"status", hitachi_l200_status_blocks, FIELDSCRIBE_COUNT(hitachi_l200_status_blocks)},
+    {"monitor_d", hitachi_l200_monitor_d_blocks, FIELDSCRIBE_COUNT(hitachi_l200_monitor_d_blocks)},
+    {"basic_f", hitachi_l200_basic_f_blocks, FIELDSCRIBE_COUNT(hitachi_l200_basic_f_blocks)},
+    {"standard_a", hitachi_l200_standard_a_blocks, FIELDSCRIBE_COUNT(hitachi_l200_standard_a_blocks)},
+    {"fine_tuning_b", hitachi_l200_fine_tuning_b_blocks, FIELDSCRIBE_COUNT(hitachi_l200_fine_tuning_b_blocks)},
+    {"control_c", hitachi_l200_control_c_blocks, FIELDSCRIBE_COUNT(hitachi_l200_control_c_blocks)},
+    {"motor_h", hitachi_l200_motor_h_blocks, FIELDSCRIBE_COUNT(hitachi_l200_motor_h_blocks)},
+    {NULL, NULL, 0U}
 };
 
 static const fieldscribe_tables tables = {
     &hitachi_l200_modbus_profile,
-    blocks
+    blocks,
+    HITACHI_L200_BLOCK_MOST
 };
 
 static void run_code(fieldscribe_vector *v)

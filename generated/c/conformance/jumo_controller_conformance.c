@@ -502,18 +502,16 @@ static const char *const telegrams[] = {
 };
 
 static const fieldscribe_blocks blocks[] = {
-    {"process_data", jumo_controller_process_data_blocks, JUMO_CONTROLLER_PROCESS_DATA_BLOCKS_COUNT, sizeof
-        jumo_controller_process_data_blocks / sizeof jumo_controller_process_data_blocks[0]},
-    {"examples", jumo_controller_examples_blocks, JUMO_CONTROLLER_EXAMPLES_BLOCKS_COUNT, sizeof
-        jumo_controller_examples_blocks / sizeof jumo_controller_examples_blocks[0]},
-    {"command_words", jumo_controller_command_words_blocks, JUMO_CONTROLLER_COMMAND_WORDS_BLOCKS_COUNT, sizeof
-        jumo_controller_command_words_blocks / sizeof jumo_controller_command_words_blocks[0]},
-    {NULL, NULL, 0U, 0U}
+    {"process_data", jumo_controller_process_data_blocks, FIELDSCRIBE_COUNT(jumo_controller_process_data_blocks)},
+    {"examples", jumo_controller_examples_blocks, FIELDSCRIBE_COUNT(jumo_controller_examples_blocks)},
+    {"command_words", jumo_controller_command_words_blocks, FIELDSCRIBE_COUNT(jumo_controller_command_words_blocks)},
+    {NULL, NULL, 0U}
 };
 
 static const fieldscribe_tables tables = {
     &jumo_controller_modbus_profile,
-    blocks
+    blocks,
+    JUMO_CONTROLLER_BLOCK_MOST
 };
 
 static void run_code(fieldscribe_vector *v)

@@ -288,14 +288,14 @@ static const char *const telegrams[] = {
 };
 
 static const fieldscribe_blocks blocks[] = {
-    {"process_data", nord_sk5xxe_process_data_blocks, NORD_SK5XXE_PROCESS_DATA_BLOCKS_COUNT, sizeof
-        nord_sk5xxe_process_data_blocks / sizeof nord_sk5xxe_process_data_blocks[0]},
-    {NULL, NULL, 0U, 0U}
+    {"process_data", nord_sk5xxe_process_data_blocks, FIELDSCRIBE_COUNT(nord_sk5xxe_process_data_blocks)},
+    {NULL, NULL, 0U}
 };
 
 static const fieldscribe_tables tables = {
     &nord_sk5xxe_modbus_profile,
-    blocks
+    blocks,
+    NORD_SK5XXE_BLOCK_MOST
 };
 
 static void run_code(fieldscribe_vector *v)
