@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -32,6 +32,7 @@ from fieldscribe.model import (
     Place,
     Point,
     ScaleCase,
+    Shape,
     Source,
     Special,
     Unit,
@@ -85,18 +86,29 @@ def entry(raw: int, name: str, english: str | None = None, quantity: str | None 
     return Entry(raw, name, titles(english or name), quantity)
 
 
+_SHAPED = frozenset(one.name for one in fields(Shape))
+
+
+def changed(point: Point, **facts: Any) -> Point:
+    """The point with other facts, be they its own or of its shape."""
+    shaped = {key: value for key, value in facts.items() if key in _SHAPED}
+    own = {key: value for key, value in facts.items() if key not in _SHAPED}
+    bits = own.get("bits", point.bits)
+    width = TYPES[shaped.get("type", point.type)].bits if bits is None else bits[0] - bits[1] + 1
+    return replace(point, shape=replace(point.shape, **{"width": width, **shaped}), **own)
+
+
 def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) -> Point:
     """A readable and writable holding register (or pair, ...); any field of the model may be said otherwise.
 
     `order` gives the addresses of the words, the high part first.
     """
     info, bits = TYPES[type_name], facts.get("bits")
-    width = info.bits if bits is None else bits[0] - bits[1] + 1
     count = 1 if bits else max(1, info.bits // 16)
     space, order = facts.get("space", "holding"), facts.pop("order", None)
     known = address is not None
     addresses = () if address is None else tuple(order or range(address, address + count))
-    whole = allowed((-(1 << (width - 1)) if info.signed else 0, (1 << (width - info.signed)) - 1))
+    shape = Shape(type_name, info.bits, "rw", scale=None, decimals=0, enum=None, flags=(), specials=())
     base = Point(
         name=name,
         variant=None,
@@ -105,20 +117,14 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
         space=space,
         places=(Place("read", space, addresses, None),) if addresses else (),
         references={"modicon": address + 1} if address is not None else {},
-        type=type_name,
-        bits=bits,
-        access="rw",
+        shape=shape,
+        bits=None,
         title=titles(name.replace("_", " ").capitalize()),
         note={},
         unit=NUMBER,
-        scale=None,
-        decimals=0,
-        allowed=Allowed((), False, ()) if info.floating else whole,
+        allowed=Allowed((), False, ()),
         default=None,
         steps=(),
-        enum=None,
-        flags=(),
-        specials=(),
         record=None,
         set=None,
         changes=None,
@@ -134,7 +140,10 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
         generated=known,
         reason=None if known else "the manual prints no address",
     )
-    return replace(base, **facts)
+    made = changed(base, **facts)
+    if info.floating or "allowed" in facts:
+        return made
+    return replace(made, allowed=allowed((made.least, made.greatest)))
 
 
 FREQUENCY_SOURCE = Enum(

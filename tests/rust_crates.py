@@ -28,7 +28,7 @@ from fieldscribe.model import (
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust, vectors
-from models import SOURCE, allowed, entry, linear, point, sample_device, scaled, titles, units, value_of
+from models import SOURCE, allowed, changed, entry, linear, point, sample_device, scaled, titles, units, value_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -185,8 +185,8 @@ def can_points() -> tuple[Point, ...]:
         point("strange_word", 406, "s16", enum=mixed, **parameter),
         point("actual", 407, access="r", **parameter),
         point("password", 408, access="w", **parameter),
-        replace(point("name", 732, order=range(739, 731, -1), **parameter), type="text", text=Text(16, "ascii")),
-        replace(point(LONG, 800, order=range(800, 830), **parameter), type="text", text=Text(60, "latin-1")),
+        changed(point("name", 732, order=range(739, 731, -1), **parameter), type="text", text=Text(16, "ascii")),
+        changed(point(LONG, 800, order=range(800, 830), **parameter), type="text", text=Text(60, "latin-1")),
         point("frequency", 0, scale=scaled(100), decimals=2, **heard),
         point("power", 1, "s16", scale=scaled(1, 0, exponent), **heard),
         point("exponent", 2, "s8", bits=(15, 8), allowed=allowed((-4, 4)), **heard),
@@ -194,7 +194,7 @@ def can_points() -> tuple[Point, ...]:
         point("hours_turned", 5, "s32", order=(6, 5), **heard),
         point("starts", 9, "u32", **heard),
         point("energy", 8, "f32", **heard),
-        replace(point("display", 16, order=(17, 16), **heard), type="text", text=Text(4, "ascii")),
+        changed(point("display", 16, order=(17, 16), **heard), type="text", text=Text(4, "ascii")),
         point("beats", 0, **{**heard, "telegram": "telegram"}),
     )  # fmt: skip
 

@@ -49,7 +49,9 @@ vendor: Nobody
 model: Drive
 title: A drive
 family: modbus
-documents: {manual: {title: Manual, language: en, file: manual.txt, sha256: SHA}}
+documents:
+  manual:
+    {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
 bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
 groups:
 - group: main
@@ -257,7 +259,8 @@ vendor: Nobody
 model: Drive
 title: A drive
 family: uss
-documents: {manual: {title: Manual, language: en, file: manual.txt, sha256: SHA}}
+documents:
+  manual: {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {31..16: [PWE1], 15..0: [PWE2]}}
 bus:
   units: 0..31
   pkw: [127]
@@ -470,6 +473,7 @@ enums:
         ("Bit 3 are", "Bit 4 are", ["fixed bits 3"]),
         ("always zero", "always one", []),  # the 0 of bit 0 stands there too
         ("Bit 0 = 1 => on", "else on", ["flag values active 1"]),
+        ("Highbyte", "Upper byte", ["bits 8", "bits 15"]),
         ("16 characters", "18 characters", ["characters 16"]),
         ("ID 94", "ID 99", ["address 94"]),
     ],

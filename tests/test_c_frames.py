@@ -982,14 +982,15 @@ def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
         plain = replace(made, points=tuple(replace(one, was=()) for one in made.points))
         points = tuple(replace(one, was=(f"old_{one.name}",)) if one.generated else one for one in plain.points)
         device = replace(plain, points=points)
-        names = {one.name for one in c.identifiers(device)}
-        assert {one.name for one in c.identifiers(plain)} < names
+        names = {name for one in c.identifiers(device) for name in one.names}
+        assert {name for one in c.identifiers(plain) for name in one.names} < names
+        generated = {point.item for point in points if point.generated}
+        begin = len(f"{name}_")
         for one in c.identifiers(plain):
-            if one.owner.kind == "point":
-                begin = len(f"{name}_")
-                old = "OLD_" if one.name.isupper() else "old_"
-                known = one.owner.name in {point.item for point in points if point.generated}
-                assert not known or f"{one.name[:begin]}{old}{one.name[begin:]}" in names
+            whole = one.owner.of or one.owner
+            for known in one.names if whole.kind == "point" and whole.name in generated else ():
+                old = "OLD_" if known.isupper() else "old_"
+                assert f"{known[:begin]}{old}{known[begin:]}" in names
     write_headers(device, tmp_path)
     (tmp_path / "old.c").write_text(RENAMED, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, f"-I{tmp_path / 'c'}")

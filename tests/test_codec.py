@@ -9,8 +9,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.conversation import codec
-from fieldscribe.conversation.codec import CodecError
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError
+from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.hexadecimal import HexError, parse_hex
 from fieldscribe.conversation.meanings import meaning_of
@@ -20,7 +21,7 @@ from fieldscribe.conversation.typed_values import read_settings, read_value
 from fieldscribe.model import Special
 from hypothesis import given
 from hypothesis import strategies as st
-from models import FILTER_MODE, HERTZ, SECOND, allowed, entry, named, point, sample_device, scaled, titles
+from models import FILTER_MODE, HERTZ, SECOND, allowed, changed, entry, named, point, sample_device, scaled, titles
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -147,7 +148,7 @@ def test_dependent_limits() -> None:
 
 def test_limits_that_leave_nothing() -> None:
     nothing = replace(_point("upper_limit"), allowed=replace(_point("upper_limit").allowed))
-    nothing = replace(nothing, allowed=allowed((nothing.allowed.intervals[0].low, 10)), specials=())
+    nothing = changed(nothing, allowed=allowed((nothing.allowed.intervals[0].low, 10)), specials=())
     with pytest.raises(RefusedError, match="nothing"):
         encode_point(DEVICE, nothing, "50", {"lower_limit": 4000})
 
@@ -243,7 +244,7 @@ def test_choosing() -> None:
 @given(st.integers(0, 0xFFFF))
 def test_every_raw_survives(raw: int) -> None:
     for item in ("base_frequency", "temperature", "third", "inverse", "frequency_fine"):
-        one = replace(_point(item), specials=())
+        one = changed(_point(item), specials=())
         own = raw - 0x10000 if one.info.signed and raw > one.greatest else raw
         assert codec.encode(one, codec.decode(one, own, {}), {}) == own
 
@@ -261,9 +262,9 @@ def test_float_patterns_survive(raw: int) -> None:
 
 @given(st.fractions())
 def test_halves_go_away_from_zero(number: Fraction) -> None:
-    nearest = codec.half_away(number)
+    nearest = half_away(number)
     assert abs(nearest - number) <= Fraction(1, 2)
-    assert codec.half_away(-number) == -nearest
+    assert half_away(-number) == -nearest
     if abs(nearest - number) == Fraction(1, 2):
         assert abs(nearest) > abs(number)
 

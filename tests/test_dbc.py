@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import cantools
 import pytest
 from devices_by_family import shipped
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
-from fieldscribe.conversation import codec
-from fieldscribe.conversation.words import raw_of
 from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
 from fieldscribe.families.can.export.dbc import export_dbc

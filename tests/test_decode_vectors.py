@@ -13,7 +13,7 @@ from fieldscribe.families.modbus.conversation import decode as decode_modbus
 from fieldscribe.families.modbus.functions import profile_of
 from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.families.uss.conversation import decode as decode_uss
-from fieldscribe.targets.vectors import collect
+from fieldscribe.targets.vectors.collection import collect
 from models import made
 from vector_file import File
 

@@ -13,7 +13,7 @@ import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.plain import digest, for_code
-from fieldscribe.targets import FOR_PEOPLE, TARGETS
+from fieldscribe.targets import TARGETS, target
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 DEVICES = Path(__file__).parent / "devices"
-CODE = [name for name in TARGETS if name not in FOR_PEOPLE]
+CODE = [name for name in TARGETS if not target(name).FOR_PEOPLE]
 
 Step = tuple[str, Any]
 """A field, an index or a key on the way to a value."""

@@ -12,7 +12,7 @@ import pytest
 from fieldscribe.model import Device, Enum, Special
 from fieldscribe.render import render
 from fieldscribe.targets.docs import outputs
-from models import NUMBER, entry, point, sample_device, titles
+from models import NUMBER, changed, entry, point, sample_device, titles
 
 HOSTILE = "a | b `c` </td><script>alert(1)</script> [x](http://e) {{ 7*7 }} \\"
 DEVICE = sample_device()
@@ -171,7 +171,7 @@ def _hostile() -> Device:
     group = replace(DEVICE.groups[0], title=titles, note={"en": "1. one"})
     enum = replace(DEVICE.enums[0], title=titles, entries=(entry(0, "zero", HOSTILE),))
     errata = (replace(DEVICE.errata[0], printed=HOSTILE, why=HOSTILE, points=("bad",)),)
-    made = sample_device((bad, replace(bad, name="worse", unit=unit, enum=enum)))
+    made = sample_device((bad, changed(bad, name="worse", unit=unit, enum=enum)))
     return replace(made, title=titles, note=titles, groups=(group,), enums=(enum,), errata=errata, vendor=HOSTILE)
 
 

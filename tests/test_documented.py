@@ -107,6 +107,9 @@ def test_python_says_why(package: Any, name: str, message: str) -> None:
     class Nowhere:
         framing = "rtu"
 
+        def exchange(self, request: bytes) -> bytes:
+            raise AssertionError(request)
+
     drive = package.MadeUp(Nowhere(), 1)
     with pytest.raises(AttributeError) as caught:
         getattr(drive, name)

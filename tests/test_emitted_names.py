@@ -12,12 +12,17 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
-from fieldscribe.targets import NAMESPACES, target
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import target
+from fieldscribe.targets.rust.identifiers import CONSTANTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
+
+LANGUAGES = ("c", "python", "rust")
+"""Targets in which names of the description become identifiers."""
 
 DEVICES = Path(__file__).parent / "devices"
 SEEDS = 60
@@ -119,6 +124,7 @@ def c_names(text: str) -> Iterator[str]:
     yield from (one for one, value in both if defines[one] != value)  # only other definitions of one name are errors
     yield from defines
     yield from re.findall(r"^    ([A-Z]\w+) = ", text, re.MULTILINE)
+    yield from re.findall(r"^static const .*?\b(\w+)(?:\[\w*\])? = ", text, re.MULTILINE)
     yield from re.findall(r"^static [^;=]*?\b(\w+)\([^;]*?\)\n\{", text, re.MULTILINE)
 
 
@@ -159,7 +165,7 @@ def rust_names(text: str) -> Iterator[tuple[str, str]]:
 def doubles(device: Device) -> list[object]:
     """Names that generated code defines twice in one place."""
     found: list[object] = []
-    for _, path, text in outputs(device, NAMESPACES):
+    for _, path, text in outputs(device, LANGUAGES):
         copied = any(one in path.removeprefix("c/") for one in ("fieldscribe_", "conformance", "/runner/"))
         if copied or device.id not in path:
             continue
@@ -185,11 +191,22 @@ def test_nasty_names(part: int, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("folder", sorted(DEVICES.iterdir()), ids=lambda one: one.name)
 def test_the_lists_hold_what_is_defined(folder: Path) -> None:
-    """Every name that the header of the points defines is one that the target lists."""
+    """Every name that the headers define is one that the target lists, and no other is."""
     device = load_device(folder / "device.yaml", Report())
     assert device is not None
-    listed = {one.name.lower() for one in target("c").identifiers(device)}
-    [header] = [text for _, path, text in outputs(device, ["c"]) if path == f"c/{device.id}.h"]
-    assert {one for one in c_names(header) if one.lower() not in listed} == set()
-    for name in NAMESPACES:
+    listed = {name for one in target("c").identifiers(device) for name in one.names}
+    headers = [text for _, path, text in outputs(device, ["c"]) if path.startswith(f"c/{device.id}")]
+    assert len(headers) == 2
+    assert {name for header in headers for name in c_names(header)} - listed == set()
+    code = re.sub(r"/\*.*?\*/", "", "\n".join(headers), flags=re.DOTALL)
+    assert listed - set(re.findall(r"\w+", code)) == set(), "a name that no header has would be refused for nothing"
+    for name in LANGUAGES:
         assert len(list(target(name).identifiers(device))) > len(device.points)
+
+
+def test_the_constants_of_rust_are_those_of_its_traits() -> None:
+    """The traits have no constant that a special code could hide without a finding."""
+    runtime = templates_dir() / "rust" / "runtime" / "fieldscribe_runtime" / "src" / "point.rs"
+    constants = re.findall(r"^    const ([A-Z_]+):", runtime.read_text("utf-8"), re.MULTILINE)
+    assert constants
+    assert {name.lower() for name in constants} <= CONSTANTS

@@ -22,6 +22,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     ("words, places, files of the package", "__init__ text names diagnostics kinds reading report resources render"),
     ("the neutral model", "existence model plain"),
+    ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),
     ("facts and frames of a family", "families.*"),
@@ -30,6 +31,7 @@ ROOMS = (
     ("text to nodes", "language"),
     ("nodes to the model", "resolve"),
     ("what a family reads of its own keys", "families.*.reading families.*.messages"),
+    ("what compiled languages need alike", "lowered"),
     ("the registry of targets", "targets targets.identifiers"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),
@@ -49,7 +51,6 @@ UPWARDS = {
 """Imports that go up, with the reason."""
 
 NAMES_A_FAMILY = {
-    "checks.prefixes": "it lists what the C header defines, which the target itself should say",
     "export": "`can_id` is a key of the published contract",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",

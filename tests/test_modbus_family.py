@@ -14,7 +14,7 @@ from fieldscribe.families.modbus.requests import Request, build, crc16, frame, p
 from fieldscribe.model import Bus, Code, Place, Point
 from hypothesis import given
 from hypothesis import strategies as st
-from models import point, sample_bus, titles
+from models import changed, point, sample_bus, titles
 from pymodbus.framer import FramerRTU, FramerSocket
 from pymodbus.pdu import DecodePDU, ModbusPDU
 from pymodbus.pdu.bit_message import (
@@ -354,7 +354,7 @@ def test_blocks_cross_reserved_addresses_but_no_unknown_ones() -> None:
     reserved = replace(at(11), generated=False, reserved=True)
     assert planned([at(10), reserved, at(12)]) == [(10, 3, ("p10", "p12"))]
     assert planned([at(10), at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
-    write_only = replace(at(11), access="w")
+    write_only = changed(at(11), access="w")
     assert planned([at(10), write_only, at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
     assert planned([reserved]) == []
 
@@ -366,8 +366,8 @@ def test_blocks_do_not_cross_gaps() -> None:
 
 
 def test_points_at_one_address_count_once() -> None:
-    group = replace(at(10), name="low", bits=(3, 0), type="u8")
-    other = replace(at(10), name="high", bits=(7, 4), type="u8")
+    group = changed(at(10), name="low", bits=(3, 0), type="u8")
+    other = changed(at(10), name="high", bits=(7, 4), type="u8")
     variants = [replace(at(11), variant=f"class={name}") for name in ("200V", "400V")]
     assert planned([group, other, *variants, at(12)]) == [(10, 3, ("high", "low", "p11", "p12"))]
 
@@ -376,7 +376,7 @@ def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
     """A device refuses all of a read that touches one address that it does not have."""
     large = Condition(((Comparison("class", "==", ("400V",)),),))
     for facts in ({"when": large}, {"since": "firmware 2"}, {"until": "firmware 3"}, {"variant": "class=400V"}):
-        found = planned([at(10), replace(at(11), **facts), at(12)])
+        found = planned([at(10), changed(at(11), **facts), at(12)])
         assert found == [(10, 1, ("p10",)), (11, 1, ("p11",)), (12, 1, ("p12",))], facts
     both = [replace(at(11), variant="class=200V"), replace(at(12), name="p11", variant="class=400V")]
     assert planned([at(10), *both, at(13)]) == [
@@ -391,10 +391,10 @@ def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
 
 def test_what_stands_where_another_point_always_is_shares_its_block() -> None:
     large = Condition(((Comparison("class", "==", ("400V",)),),))
-    word, bits = at(11), replace(at(11), name="bits", bits=(3, 0), type="u8", when=large)
+    word, bits = at(11), changed(at(11), name="bits", bits=(3, 0), type="u8", when=large)
     assert planned([at(10), word, bits, at(12)]) == [(10, 3, ("p10", "bits", "p11", "p12"))]
     alone = [
-        replace(at(11), name=name, bits=(high, high - 3), type="u8", when=large) for name, high in (("a", 3), ("b", 7))
+        changed(at(11), name=name, bits=(high, high - 3), type="u8", when=large) for name, high in (("a", 3), ("b", 7))
     ]
     assert planned([at(10), *alone]) == [(10, 1, ("p10",)), (11, 1, ("a", "b"))]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import importlib
 import math
+import pydoc
 import subprocess
 import sys
 from dataclasses import replace
@@ -17,7 +18,8 @@ from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
-from models import HERTZ, STATUS_FLAGS, entry, plain_points, point, sample_device, titles, trip_device
+from models import HERTZ, STATUS_FLAGS, changed, entry, plain_points, point, sample_device, titles, trip_device
+from python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
 from python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
@@ -459,8 +461,8 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
     link = uss.Link(4, 2)
     devices = (
         *(runtime.Device(Slave(), 1), runtime.AsyncDevice(AsyncSlave(Slave()), 1)),
-        *(can.CanDevice(None, 1), can.AsyncCanDevice(None, 1)),
-        *(uss.UssDevice(None, 1, link), uss.AsyncUssDevice(None, 1, link)),
+        *(can.CanDevice(CanUnit(can.Frame, 1), 1), can.AsyncCanDevice(AsyncCanUnit(CanUnit(can.Frame, 1)), 1)),
+        *(uss.UssDevice(UssDrive(), 1, link), uss.AsyncUssDevice(AsyncUssDrive(UssDrive()), 1, link)),
     )
     public = {name for device in devices for name in dir(device) if not name.startswith("_") and name.islower()}
     assert public == DEVICE_MEMBERS
@@ -644,7 +646,7 @@ def test_long_names_of_words_are_formatted(tmp_path: Path) -> None:
 
 def test_separate_places(tmp_path: Path) -> None:
     both = (Place("read", "input", (7,), None), Place("write", "holding", (9,), 16))
-    device = sample_device((replace(plain_points()[2], places=both, errata=()), replace(plain_points()[1], access="w")))
+    device = sample_device((replace(plain_points()[2], places=both, errata=()), changed(plain_points()[1], access="w")))
     folder = write_package(replace(device, blocks={}, id="placed"), tmp_path)
     text = (folder / "placed" / "points.py").read_text("utf-8")
     assert "at=input_register(0x0007)," in text
@@ -656,3 +658,61 @@ def test_separate_places(tmp_path: Path) -> None:
         drive.running.write(False)
         assert slave.log == [(16, 9, 1), (5, 13, 1)]
         assert not hasattr(drive.running, "read")
+
+
+@pytest.mark.filterwarnings("ignore:main_frequency is now called")
+def test_help_shows_how_a_device_is_used(folder: Path) -> None:
+    for package in imported(folder, "sample_drive"):
+        drive, awaited = package.SampleDrive, package.SampleDriveAsync
+        for text in (package.__doc__, drive.__doc__):
+            lines = [line.strip() for line in text.splitlines()]
+            assert lines[2:8] == [
+                "drive = SampleDrive(transport, 1, voltage_class='200V')",
+                "drive.base_frequency.read()",
+                "drive.base_frequency.write(value)",
+                "drive.read_many('main')",
+                "SampleDrive.base_frequency.decode(raw)",
+                "help(SampleDrive.base_frequency)",
+            ]
+        assert "await drive.base_frequency.read()" in awaited.__doc__
+        assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
+        told = pydoc.plain(pydoc.render_doc(drive))
+        assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())
+        assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
+        assert "a command: it writes any number (1 if none is given)" in drive.enter.__doc__
+    ruff("check", folder)
+
+
+def test_devices_without_points_have_help_too(tmp_path: Path) -> None:
+    folder = write_package(replace(sample_device((point("nowhere", None),)), errata=(), blocks={}, id="bare"), tmp_path)
+    for package in imported(folder, "bare"):
+        assert package.__doc__.splitlines()[2].startswith("A transport carries bytes")
+        assert package.Bare.__doc__.strip() == "Acme S1 over a transport: `drive.point.read()`."
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "bare")
+
+
+def test_documented_points_are_found_by_code(package: Any, drive: Any) -> None:
+    documented = {name: facts.code for name, facts in package.SampleDrive.DOCUMENTED.items() if facts.code}
+    assert documented
+    for name, code in documented.items():
+        assert status(drive.point, code)[1].startswith(f"{code} is documented only, as {name}: ")
+        assert status(drive.point, name)[1].startswith(f"{name} is documented only: ")
+
+
+def test_an_async_device_works_in_one_loop_after_the_other(package: Any, slave: Slave) -> None:
+    slave.words[0x1028] = 500
+    drive = package.SampleDriveAsync(AsyncSlave(slave), unit=5, voltage_class="200V")
+
+    async def both() -> list[float]:
+        return [*await asyncio.gather(drive.base_frequency.read(), drive.base_frequency.read())]
+
+    assert [asyncio.run(both()) for _ in range(2)] == [[50.0, 50.0]] * 2
+
+
+def test_reads_of_groups_say_what_failed(drive: Any, slave: Slave) -> None:
+    slave.refuses[0x1028] = 2
+    failure = error(drive.read_many, "main")
+    assert (failure.group, failure.status) == ("main", "exception")
+    assert "A020 base_frequency" in failure.point
+    assert str(failure).startswith(f"group main: {failure.point}: the device answered exception 02h")

@@ -88,7 +88,7 @@ def test_units_that_the_device_cannot_have_are_refused(kitchen_package: Any) -> 
     profile = kitchen_package.KitchenCan.PROFILE
     for unit in (0, 31, 256, "5"):
         assert error(can.Receiver, profile, "heartbeat", unit).status == "bad_unit"
-        assert error(kitchen_package.KitchenCan, None, unit).status == "bad_unit"
+        assert error(kitchen_package.KitchenCan, CanUnit(can.Frame, 1), unit).status == "bad_unit"
     data = bytes((5, 31, 0, 0, 0, 0, 5, 31))
     assert hear_kitchen(f"71F#{data.hex()}").kind == "other"
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.rust.subjects import Subject
+    from fieldscribe.targets.rust.subjects import CratePoint
 
 ROOT = Path(__file__).resolve().parents[1]
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
@@ -172,9 +172,11 @@ def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
     many = filled("a [", ", ", [f"0x{number:04X}" for number in range(40)], "];")
     assert max(map(len, many)) <= 104
     assert "".join(line.strip() for line in many).count("0x") == 40
-    steps = "?".join(f".times(with.factor_{number})" for number in range(9))
-    assert chained("Rule::new(1, 1).times(with.a)") == ("Rule::new(1, 1).times(with.a)",)
-    assert chained(f"Rule::new(1, 1){steps}")[1] == "    ?.times(with.factor_1)"
+    steps = [f".times(with.factor_{number})" for number in range(9)]
+    assert chained(("Rule::new(1, 1).times(with.a)", ".over(with.b)")) == (
+        "Rule::new(1, 1).times(with.a)?.over(with.b)",
+    )
+    assert chained((f"Rule::new(1, 1){steps[0]}", *steps[1:]))[1] == "    ?.times(with.factor_1)"
     assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
 
 
@@ -421,7 +423,7 @@ def probe_source(device: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[str, str]]:
+def client_probes(subject: CratePoint, name: str, traits: str) -> Iterator[tuple[str, str]]:
     """Heads and bodies of functions that call what a client that blocks offers for a point."""
     point, read, write = subject.point, f"<{name} as Readable>", f"<{name} as Writable>"
     client, value = "client: &mut Client<Line>", f"<{name} as Point>::Value"
@@ -436,7 +438,7 @@ def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[st
         yield f"hear(all: &mut {receiver}, frame: &Frame) -> bool", f"all.take(frame) && all.raw::<{name}>().is_ok()"
 
 
-def parameter_probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
+def parameter_probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
     """Heads and bodies of functions that read and write a point over a client: values, counts, raw numbers."""
     point, client, with_ = subject.point, "client: &mut Client<Line>", f"with: <{name} as Writable>::With"
     value, raw, factors = (f"<{name} as {one}" for one in ("Point>::Value", "Point>::Raw", "Readable>::Factors"))
@@ -458,12 +460,12 @@ def parameter_probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
         yield head, f"client.write_count_with::<{name}>(count, with).is_ok()"
 
 
-def is_counted(subject: Subject) -> bool:
+def is_counted(subject: CratePoint) -> bool:
     """Whether the point has counts."""
     return subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
 
 
-def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
+def probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
     """Heads and bodies of functions that call what a point offers; the name stands for the point's type."""
     raw, value, words = (
         f"<{name} as Point>::Raw",

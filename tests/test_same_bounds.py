@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from c_device import kitchen
 from devices_by_family import shipped
-from fieldscribe.conversation.codec import CodecError, check, decode, encode_checked, setting_of
+from fieldscribe.arithmetic.codec import CodecError, check, decode, encode_checked, setting_of
 from models import kitchen_sink, named
 from python_package import imported, write_package
 

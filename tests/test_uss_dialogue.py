@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 from asked import asked
 from devices_by_family import coded, shipped, uss_bytes
-from fieldscribe.conversation import codec
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find
@@ -398,7 +398,7 @@ def test_every_point_comes_back_from_its_telegram(pkw_words: int, keep: bool) ->
         raw = sample_raw(one) if one.writable and one.generated else None
         if raw is None or (keep and one.telegram is not None):
             continue
-        raw = codec.with_fixed(one, raw)
+        raw = with_fixed(one, raw)
         options = asked(pkw=pkw_words, pzd=8, keep=keep)
         (frame,) = frames_for(DEVICE, one, raw, {}, options).frames
         (heard,) = hear(frame, options=asked(pkw=pkw_words, pzd=8))

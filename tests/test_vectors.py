@@ -22,7 +22,7 @@ from fieldscribe.targets.vectors.oracle import fixed_ratio
 from fieldscribe.targets.vectors.samples import halves
 from hypothesis import given as property_of
 from hypothesis import strategies as st
-from models import allowed, linear, named, point, sample_bus, sample_device, scaled, titles, units, value_of
+from models import allowed, changed, linear, named, point, sample_bus, sample_device, scaled, titles, units, value_of
 from vector_file import Vector, counts_of, plain, vectors_of
 
 if TYPE_CHECKING:
@@ -585,7 +585,7 @@ def test_what_decodes_in_range_encodes_back() -> None:
 # What the vectors catch: one fact changed at a time must make the plain reading fail
 
 
-def changed(item: str, change: Callable[[Point], Point]) -> Device:
+def sample_with(item: str, change: Callable[[Point], Point]) -> Device:
     """The sample with one point changed."""
     return replace(SAMPLE, points=tuple(change(one) if one.item == item else one for one in SAMPLE.points))
 
@@ -608,9 +608,9 @@ def one_fact_at_a_time(subject: Point) -> Iterator[tuple[str, Point]]:
         for what, changed_case in near_cases(case):
             cases = list(subject.scale or ())
             cases[index] = changed_case
-            yield f"case {index}: {what}", replace(subject, scale=tuple(cases))
+            yield f"case {index}: {what}", changed(subject, scale=tuple(cases))
     if subject.scale is not None:
-        yield "decimals", replace(subject, decimals=(subject.decimals or 0) + 1)
+        yield "decimals", changed(subject, decimals=(subject.decimals or 0) + 1)
     yield from names_and_places(subject)
 
 
@@ -651,14 +651,14 @@ def near_codes(subject: Point) -> Iterator[tuple[str, Point]]:
     for index, special in enumerate(subject.specials):
         specials = list(subject.specials)
         specials[index] = replace(special, low=special.low - 1)
-        yield f"special {special.name}", replace(subject, specials=tuple(specials))
+        yield f"special {special.name}", changed(subject, specials=tuple(specials))
         specials[index] = replace(special, no_value=not special.no_value)
-        yield f"no value {special.name}", replace(subject, specials=tuple(specials))
+        yield f"no value {special.name}", changed(subject, specials=tuple(specials))
         if subject.writable:
             specials[index] = replace(special, writable=not special.writable)
-            yield f"writable {special.name}", replace(subject, specials=tuple(specials))
+            yield f"writable {special.name}", changed(subject, specials=tuple(specials))
     if subject.specials:
-        yield "no specials", replace(subject, specials=())
+        yield "no specials", changed(subject, specials=())
 
 
 def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
@@ -667,7 +667,7 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         assert subject.enum is not None
         entries = list(subject.enum.entries)
         entries[index] = replace(entry, raw=entry.raw + 5)
-        yield f"entry {entry.name}", replace(subject, enum=replace(subject.enum, entries=tuple(entries)))
+        yield f"entry {entry.name}", changed(subject, enum=replace(subject.enum, entries=tuple(entries)))
     for index, flag in enumerate(subject.flags):
         flags = list(subject.flags)
         others = [replace(flag, low=flag.low + 1), replace(flag, width=flag.width + 1)]
@@ -676,7 +676,7 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
             others.append(replace(flag, values=(moved, *flag.values[1:])))
         for other in others:
             flags[index] = other
-            yield f"flag {flag.name}", replace(subject, flags=tuple(flags))
+            yield f"flag {flag.name}", changed(subject, flags=tuple(flags))
     yield from near_codes(subject)
     place = subject.places[0]
     yield "code", replace(subject, code=f"{subject.code}x")
@@ -688,8 +688,8 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         yield "word order", replace(subject, places=(replace(place, addresses=place.addresses[::-1]),))
     if subject.bits is not None:
         high, low = subject.bits
-        yield "lower bits", replace(subject, bits=(high - 1, low - 1))
-        yield "fewer bits", replace(subject, bits=(high - 1, low))
+        yield "lower bits", changed(subject, bits=(high - 1, low - 1))
+        yield "fewer bits", changed(subject, bits=(high - 1, low))
 
 
 CHANGES = [
@@ -703,7 +703,7 @@ CHANGES = [
 @pytest.mark.parametrize(("item", "other"), CHANGES)
 def test_a_changed_fact_is_caught(item: str, other: Point) -> None:
     own = [vector for vector in VECTORS if vector.get("point") == item]
-    assert next(wrong(changed(item, lambda _: other), own), None) is not None
+    assert next(wrong(sample_with(item, lambda _: other), own), None) is not None
 
 
 # Corners that the sample does not have

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from c_device import WARNINGS, write_headers
-from fieldscribe.conversation.codec import decode, setting_of
+from fieldscribe.arithmetic.codec import decode, setting_of
+from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
@@ -109,6 +110,37 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
         succeed(
             [compiled("gcc", ("-std=c99", switch, *WARNINGS, "-I", str(tmp_path / "c")), program, tmp_path / "run")]
         )
+
+
+SURVIVORS = """
+  - {{name: subject, at: 0, type: u64, range: 0..{most}, scale: {scale}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("scale", "top", "bottom", "offset"),
+    [
+        ("value = raw / 3", 3, 1, 0),
+        ("value = raw * 0.1 * 3", 10, 3, 0),
+        ("value = raw / 7 + 1234", 7, 1, -8638),
+        ("value = raw * 1234567 / 9", 9, 1234567, 0),
+    ],
+)
+def test_every_raw_number_survives_its_value(scale: str, top: int, bottom: int, offset: int, tmp_path: Path) -> None:
+    """What encodes values finds each raw number again, in the steps of all languages; without, it might not."""
+    head = BEYOND[: BEYOND.index("  - {name: a")]
+    for exponent, encodes in ((50, True), (53, False)):
+        most = (1 << exponent) - 20000
+        file = tmp_path / f"{exponent}.yaml"
+        file.write_text(head + SURVIVORS.format(most=most, scale=scale), "utf-8")
+        device = load_device(file, Report())
+        assert device is not None
+        assert device.points[0].encodes_values == encodes
+        draw = random.Random(SEED)
+        raws = [draw.randrange(most // 2, most) for _ in range(4000)]
+        values = [float(Fraction((raw - offset) * bottom, top)) for raw in raws]
+        found = [half_away(Fraction(value * top / bottom + offset)) for value in values]
+        assert (found == raws) == encodes
 
 
 @pytest.fixture(scope="module")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.language.files import Files
     from fieldscribe.model import Device
     from fieldscribe.reading import Inputs
+    from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"
 
@@ -105,26 +106,23 @@ def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, 
     Raises TargetError for whatever fails inside a target.
     """
     from fieldscribe.plain import for_code
-    from fieldscribe.targets import FOR_PEOPLE
+    from fieldscribe.targets import target
 
     plain: Device | None = None
     for name in targets:
         try:
-            if name not in FOR_PEOPLE:
-                plain = plain or for_code(device)
-            seen = device if name in FOR_PEOPLE or plain is None else plain
-            for path, text in _of_target(name, seen):
+            made = target(name)
+            plain = plain or for_code(device)
+            for path, text in _of_target(made, device if made.FOR_PEOPLE else plain):
                 yield name, path, text
         except Exception as error:
             raise TargetError(name) from error
 
 
-def _of_target(name: str, device: Device) -> Iterator[tuple[str, str]]:
+def _of_target(made: Target, device: Device) -> Iterator[tuple[str, str]]:
     from fieldscribe.render import render
     from fieldscribe.resources import templates_dir
-    from fieldscribe.targets import target
 
-    made = target(name)
     yield from made.outputs(device, render)
     for path, template in made.runtime(device):
         yield path, (templates_dir() / template).read_text("utf-8")

@@ -9,7 +9,7 @@ import hashlib
 from dataclasses import fields, replace
 from functools import lru_cache
 
-from fieldscribe.model import Code, Device, Entry, Enum, Flag, Own, Point, Source, Special, Titles
+from fieldscribe.model import Code, Device, Entry, Enum, Flag, Interner, Own, Point, Shape, Source, Special, Titles
 
 _NOWHERE = Source("", None, None, None)
 
@@ -17,6 +17,9 @@ _NOWHERE = Source("", None, None, None)
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
     enums = {id(enum): _enum(enum) for enum in device.enums}
+    shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
+    interner = Interner()  # titles told some of them apart
+    shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
     return replace(
         device,
         title={},
@@ -32,7 +35,7 @@ def for_code(device: Device) -> Device:
             own=device.bus.own and _own(device.bus.own),
         ),
         groups=tuple(replace(group, title=_plain(group.name), note={}, source=_NOWHERE) for group in device.groups),
-        points=tuple(_point(point, enums) for point in device.points),
+        points=tuple(_point(point, shapes[id(point.shape)]) for point in device.points),
         enums=tuple(enums.values()),
         commands=tuple(replace(one, title=_plain(one.name), note={}, source=_NOWHERE) for one in device.commands),
         frames=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.frames),
@@ -69,22 +72,29 @@ def _own(own: Own) -> Own:
     return replace(own, **{name: _codes(value) for name, value in codes.items()})
 
 
-def _point(point: Point, enums: dict[int, Enum]) -> Point:
-    digits = point.digits
+def _point(point: Point, shape: Shape) -> Point:
     return replace(
         point,
+        shape=shape,
         title=_plain(point.item),
         note={},
         source=_NOWHERE,
-        enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
-        digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
-        flags=tuple(_flag(flag) for flag in point.flags),
         unit=replace(point.unit, name="", quantity=""),
         since=None if point.since is None and point.until is None else "",  # that not every firmware has it
         until=None,
         record=None,
         untyped=None if point.untyped is None else "",
-        specials=tuple(_special(special) for special in point.specials),
+    )
+
+
+def _shape(shape: Shape, enums: dict[int, Enum]) -> Shape:
+    digits = shape.digits
+    return replace(
+        shape,
+        enum=shape.enum and (enums.get(id(shape.enum)) or _enum(shape.enum)),
+        digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
+        flags=tuple(_flag(flag) for flag in shape.flags),
+        specials=tuple(_special(special) for special in shape.specials),
     )
 
 

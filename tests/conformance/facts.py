@@ -93,7 +93,9 @@ def left_out(package: Package, vector: Vector) -> bool:
         except AttributeError as error:
             said.append(str(error))
     reasons = [f"{name} is documented only: {one}" for name, one in documented.items()]
-    return [name.rstrip("_") for name in documented] == vector["names"] and said == reasons
+    codes = [one.code or "none" for one in documented.values()]
+    same = ([name.rstrip("_") for name in documented], codes) == (vector["names"], vector["codes"])
+    return bool(same and said == reasons)
 
 
 def documented(package: Package, vector: Vector) -> bool:

@@ -9,15 +9,18 @@ from typing import Any
 class FieldscribeError(Exception):
     """Base of all errors of generated devices; `status` is a stable name for programs.
 
-    `point` says which point was asked for, with its code, where it was one.
+    `point` says which point was asked for, with its code, where it was one; of several that one request reads, which
+    they are. `group` is the group that was read, where it was one, and `needs` another point that had to be read first.
     """
 
     status: str = "error"
+    group: str | None = None
     point: str | None = None
+    needs: str | None = None
 
     def __str__(self) -> str:
-        reason = super().__str__()
-        return reason if self.point is None else f"{self.point}: {reason}"
+        about = [self.group and f"group {self.group}", self.point, self.needs and f"needs {self.needs}"]
+        return ": ".join([*filter(None, about), super().__str__()])
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copies, also those between processes, have the message and all that is told beside it."""

@@ -72,10 +72,11 @@ class Place(Record):
 
 
 class Documented(Record):
-    """A point that is documented only: why, and where its words are if a master can reach them."""
+    """A point that is documented only: why, where its words are if a master can reach them, and the manual's code."""
 
     reason: str
     at: Place | None = None
+    code: str | None = None
 
     def __str__(self) -> str:
         """The reason, and what still works."""

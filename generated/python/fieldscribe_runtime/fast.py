@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     """Takes a raw number or a value, and the raw numbers that are needed of other points."""
 
 _NUMBERS = (float, int)
+_INTEGERS = {int}
 _REMEMBERED = 256
 """For so many raw numbers of another point its part of a scale is remembered."""
 
@@ -43,6 +44,20 @@ def listed(known: Mapping[int, Any], slow: Way) -> Way:
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
         """The value (or special code) of a raw number; raises as the point's class says."""
+        if type(raw) is int:
+            try:
+                return known[raw]
+            except KeyError:
+                pass
+        return slow(raw, raws)
+
+    return decode
+
+
+def found(known: Mapping[int, Any], slow: Way) -> Way:
+    """As `listed` for what is known to be an integer."""
+
+    def decode(raw: int, raws: Raws) -> Any:
         try:
             return known[raw]
         except KeyError:
@@ -103,24 +118,92 @@ def itself(raw: int, raws: Raws) -> int:
 
 
 def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """From raw numbers of a range to values, by a scale that other points decide: these seldom change."""
-    points = tuple([factor.point for factor in rule.factors])
-    point = points[0]
+    """From raw numbers of a range to values, by a scale that one other point decides: these seldom change."""
+    point = rule.factors[0].point
     lines: dict[Any, Line] = {}
+    learned = _learner(lines, rule, (low, high), slow)
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
         """The value (or special code) of a raw number; raises as the point's class says."""
-        numbers = raws.get(point) if len(points) == 1 else tuple(map(raws.get, points))
-        line = lines.get(numbers)
-        if line is not None and type(raw) is int and low <= raw <= high:
+        try:
+            number = raws[point]
+        except (KeyError, TypeError):
+            return slow(raw, raws)
+        if type(number) is int and type(raw) is int and low <= raw <= high:
+            line = lines.get(number)
+            if line is not None:
+                times, less, over = line
+                return (raw * times - less) / over
+            return learned(number, raw, raws)
+        return slow(raw, raws)
+
+    return decode
+
+
+def scaled_by_several(rule: Rule, low: int, high: int, slow: Way) -> Way:
+    """The same by a scale that several other points decide."""
+    points = tuple([factor.point for factor in rule.factors])
+    lines: dict[Any, Line] = {}
+    learned = _learner(lines, rule, (low, high), slow)
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        try:
+            numbers = tuple([raws[name] for name in points])
+        except (KeyError, TypeError):
+            return slow(raw, raws)
+        if type(raw) is int and low <= raw <= high and {*map(type, numbers)} == _INTEGERS:
+            line = lines.get(numbers)
+            if line is not None:
+                times, less, over = line
+                return (raw * times - less) / over
+            return learned(numbers, raw, raws)
+        return slow(raw, raws)
+
+    return decode
+
+
+def surely_scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
+    """As the two before for what is known to be a raw number of the point."""
+    points = tuple([factor.point for factor in rule.factors])
+    point = points[0]
+    lines: dict[Any, Line] = {}
+    learned = _learner(lines, rule, (low, high), slow)
+
+    def decode(raw: int, raws: Raws) -> Any:
+        try:
+            line = lines.get(raws[point])
+        except (KeyError, TypeError):
+            return slow(raw, raws)
+        if line is not None:
             times, less, over = line
             return (raw * times - less) / over
+        return learned(raws[point], raw, raws)
+
+    def decode_by_several(raw: int, raws: Raws) -> Any:
+        try:
+            numbers = tuple(map(raws.__getitem__, points))
+            line = lines.get(numbers)
+        except (KeyError, TypeError, AttributeError):
+            return slow(raw, raws)
+        if line is not None:
+            times, less, over = line
+            return (raw * times - less) / over
+        return learned(numbers, raw, raws)
+
+    return decode if len(points) == 1 else decode_by_several
+
+
+def _learner(lines: dict[Any, Line], rule: Rule, ends: tuple[int, int], slow: Way) -> Way:
+    """The slow way, which adds the scale for these numbers of other points to the lines."""
+
+    def learned(numbers: Any, raw: int, raws: Raws) -> Any:
         value = slow(raw, raws)  # raises what is to be raised
-        if len(lines) < _REMEMBERED and rule.is_safe(raws, low, high):
+        if len(lines) < _REMEMBERED and rule.is_safe(raws, *ends):
             lines[numbers] = rule.line(raws)
         return value
 
-    return decode
+    return learned
 
 
 def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -> Way:
@@ -178,11 +261,22 @@ def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: flo
     return encode
 
 
-def coded(find: Callable[[int], Special | None], plain: Way) -> Way:
+def coded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
     """From raw numbers to special codes, else the `plain` way."""
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
         """The value (or special code) of a raw number; raises as the point's class says."""
+        if type(raw) is int:
+            return find(raw) or plain(raw, raws)
+        return slow(raw, raws)
+
+    return decode
+
+
+def surely_coded(find: Callable[[int], Special | None], plain: Way) -> Way:
+    """As `coded` for what is known to be a raw number of the point."""
+
+    def decode(raw: int, raws: Raws) -> Any:
         return find(raw) or plain(raw, raws)
 
     return decode
@@ -218,7 +312,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
         """The values in the bytes; raises as the layout's class says."""
         try:
             fields = unpack(data)
-        except struct.error:
+        except (struct.error, TypeError):
             return slow(data, raws)
         return {name: way(fields[at], raws) for name, at, way in plan}
 
@@ -229,7 +323,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
             """The values in the bytes; raises as the layout's class says."""
             try:
                 fields = unpack(data)
-            except struct.error:
+            except (struct.error, TypeError):
                 return slow(data, raws)
             return {
                 name_1: way_1(fields[at_1], raws),
@@ -245,7 +339,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
             """The values in the bytes; raises as the layout's class says."""
             try:
                 fields = unpack(data)
-            except struct.error:
+            except (struct.error, TypeError):
                 return slow(data, raws)
             return {
                 name_1: way_1(fields[at_1], raws),

@@ -4,17 +4,12 @@
 from __future__ import annotations
 
 import enum
-import operator
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from .errors import (
-    CodecError,
-    RangeError,
-    UnknownValueError,
-    WrongTypeError,
-)
-from .fast import chosen, itself, listed, same
+from .arguments import whole
+from .errors import CodecError, RangeError, UnknownValueError
+from .fast import chosen, found, itself, listed, same
 from .records import Record
 from .rules import Bound, Raws, high_end, low_end
 from .special import NO_CODES
@@ -54,22 +49,6 @@ BIT = Type(1)
 U8, U16, U32, U64 = Type(8), Type(16), Type(32), Type(64)
 S8, S16, S32, S64 = Type(8, True), Type(16, True), Type(32, True), Type(64, True)
 F32, F64 = Type(32), Type(64)
-
-
-def whole(number: int) -> int:
-    """The number itself as a plain int.
-
-    Raises RangeError for a number that is no integer, and WrongTypeError for what is no number: a bool too, since True
-    for a number is a mistake more often than a 1.
-    """
-    if isinstance(number, bool):
-        raise WrongTypeError(f"takes a number, not {number}")
-    try:
-        return operator.index(number)
-    except TypeError:
-        if hasattr(number, "__float__"):
-            raise RangeError(f"{number!r} is no integer") from None
-        raise WrongTypeError(f"takes an integer, not {number!r}") from None
 
 
 class Decodes(Generic[R_co]):
@@ -147,7 +126,7 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         return raw == other
 
     def choices(self, unit: str) -> str | None:
-        """What may be written, in words, where it is not the range of raw numbers that decides; limits with `unit`."""
+        """What a refused value is, where it is not the range of raw numbers that decides; limits with `unit`."""
         return None
 
     def name_of(self, raw: int) -> str | None:
@@ -201,6 +180,10 @@ class Bit(Form[bool, bool]):
         """Both states as they are listed."""
         return listed({0: False, 1: True}, slow)
 
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same."""
+        return found({0: False, 1: True}, slow)
+
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """Both states as they are listed, if both may be written."""
         return chosen(bool, {False: 0, True: 1}, slow) if allowed == ((0, 1),) else slow
@@ -250,6 +233,10 @@ class Named(Form[E, E]):
         """The members as they are listed, and others as they came before."""
         return listed(_Members(self, low, high), slow)
 
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same."""
+        return found(_Members(self, low, high), slow)
+
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """The members that may be written, as they are listed."""
         ends = fixed_ends(allowed)
@@ -261,7 +248,7 @@ class Named(Form[E, E]):
 
     def decode(self, raw: int, raws: Raws) -> E:
         """The member, also for a number without a name."""
-        return self.names(operator.index(raw))
+        return self.names(raw)
 
     def converted(self, value: E, raws: Raws) -> int | None:
         """The member's number; a member of another enum raises UnknownValueError."""
@@ -302,6 +289,10 @@ class Flags(Form[F, F]):
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """Words that have come before, as they were then."""
         return listed(_Members(self, low, high), slow)
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same."""
+        return found(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:
         """All bits of the word."""

@@ -15,12 +15,12 @@ def find(points: Iterable[PointAttribute[Any, Any]], what: str) -> list[PointAtt
     """The points with a code, in capitals or not; `P0731[1]` is the element 1 of an array."""
     code, bracket, rest = what.partition("[")
     index = rest.removesuffix("]") if bracket else None
-    wanted = code.casefold()
-    return [
-        point
-        for point in points
-        if point.facts.code and point.facts.code.casefold() == wanted and index in (None, str(point.facts.at.index))
-    ]
+    return [point for point in points if is_code(point.facts.code, code) and index in (None, str(point.facts.at.index))]
+
+
+def is_code(code: str | None, what: str) -> bool:
+    """Whether a code is meant, in capitals or not."""
+    return code is not None and code.casefold() == what.casefold()
 
 
 def nearest(points: Iterable[PointAttribute[Any, Any]], what: str) -> list[str]:

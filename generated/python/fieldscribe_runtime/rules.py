@@ -8,16 +8,29 @@ import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from .errors import MissingRawError, NoCaseError, ResultOverflowError, ZeroFactorError
+from .arguments import shown, whole
+from .errors import (
+    CodecError,
+    MissingRawError,
+    NoCaseError,
+    RangeError,
+    ResultOverflowError,
+    WrongTypeError,
+    ZeroFactorError,
+)
 from .records import Record
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from fractions import Fraction
 
 Raws = Mapping[str, int]
 """Raw numbers of other points by name."""
 
 NO_RAWS: Raws = {}
+
+_WIDEST = 64
+"""So many bits has a number at most that others need."""
 
 Line = tuple[int, int, int]
 """A scale as (times, less, over): value = (raw * times - less) / over, exactly, and `over` is positive."""
@@ -39,9 +52,19 @@ def round_float(value: float) -> int:
 def raw_of(point: str, raws: Raws) -> int:
     """The raw number of another point, or an error that says that it is needed."""
     try:
-        return raws[point]
+        raw = raws[point]
     except KeyError:
         raise MissingRawError(f"needs the raw number of {point}: pass raws={{{point!r}: ...}}") from None
+    except TypeError:
+        raise WrongTypeError(f"raws are raw numbers by name, as {{{point!r}: 1}}, not {shown(raws)}") from None
+    if type(raw) is not int:
+        try:
+            raw = whole(raw)
+        except CodecError:
+            raise WrongTypeError(f"the raw number of {point} is an integer, not {shown(raw)}") from None
+    if raw.bit_length() > _WIDEST:
+        raise RangeError(f"{shown(raw)} is no raw number of {point}: it has more than {_WIDEST} bits")
+    return raw
 
 
 def _binary32(pattern: int) -> Fraction:
@@ -221,3 +244,11 @@ def high_end(bound: Bound, raws: Raws) -> int:
         return bound
     raw = bound.raw(raws)
     return bound.greatest if raw is None else min(raw, bound.greatest)
+
+
+def outside(intervals: Sequence[tuple[str, str]], unit: str) -> str:
+    """What a refused number is, by the limits of what may be written, as people read them."""
+    texts = [low if low == high else f"{low}..{high}" for low, high in intervals]
+    if all(low != high for low, high in intervals):
+        return f"outside {' or '.join(texts)}{unit}"
+    return f"{'not' if len(texts) == 1 else 'none of'} {', '.join(texts)}{unit}"

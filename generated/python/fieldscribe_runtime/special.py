@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .arguments import raw_number, shown
 from .records import Record
 
 if TYPE_CHECKING:
@@ -48,7 +49,9 @@ class Codes:
         self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
 
     def __call__(self, raw: int) -> Special | None:
-        """The code that a raw number is; None for a quantity."""
+        """The code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
+        if type(raw) is not int:
+            raw = raw_number(raw, 0)
         found = self._single.get(raw)
         if found is None and self._bands:
             return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)
@@ -61,6 +64,8 @@ class Codes:
 
     def __getitem__(self, name: str) -> Special:
         """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
+        if not isinstance(name, str) or name not in self._spans:
+            raise KeyError(self._no_such(name))
         low, high = self._spans[name]
         if low != high:
             raise KeyError(f"{name} is all of {low}..{high}: call the codes with the raw number that is meant")
@@ -68,11 +73,15 @@ class Codes:
 
     def __getattr__(self, name: str) -> Special:
         if name not in self.__dict__.get("_spans", ()):  # which a copy has not from the beginning
-            raise AttributeError(f"there is no special code {name}")
+            raise AttributeError(self._no_such(name))
         try:
             return self[name]
         except KeyError as error:
             raise AttributeError(error.args[0]) from None
+
+    def _no_such(self, name: object) -> str:
+        known = f", only {', '.join(self)}" if self.__dict__.get("_spans") else ""
+        return f"there is no special code {name if isinstance(name, str) else shown(name)}{known}"
 
     def __iter__(self) -> Iterator[str]:
         """The names."""

@@ -27,15 +27,8 @@ _LINES = re.compile(r"\blines?\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*(?:\
 _QUOTED = re.compile('["\u201e\u201c]([^"\u201c\u201d]+)["\u201c\u201d]')
 _ELEMENT = re.compile(r"\[.*|\(.*")
 _CODE = re.compile("([A-Za-z]+)([0-9]+)")
-_SPELT = {"P": ("Parameter",)}
-"""Letters of codes, and the words that manuals write in their place."""
-_HALVES = {(15, 8): ("Highbyte", "High-Byte", "High Byte"), (7, 0): ("Lowbyte", "Low-Byte", "Low Byte")}
-"""How manuals name the halves of a word."""
-_WORDS = {(31, 16): ("PWE1", "High-Word", "High word"), (15, 0): ("PWE2", "Low-Word", "Low word")}
-"""How manuals name the words of a double word."""
 _LINES_OF = {"range_in_units": "range", "pairs": "printed"}
 """The key of `lines` for what is printed, where it is another."""
-_ZERO = ("Null", "zero")
 _OWN_PRINTED = keys_of(PRINTED)
 
 
@@ -90,8 +83,9 @@ class PrintedErratum:
 
 def claims_of(subject: Subject) -> Iterator[Claim]:
     """All facts of points, frames, codes of the bus, messages and telegrams that name a line."""
+    written = Written(subject.scope.header["documents"])
     for resolved in subject.resolved:
-        yield from _of_point(resolved.point, resolved.draft, subject.scope.named_enums)
+        yield from _of_point(resolved.point, resolved.draft, subject.scope.named_enums, written)
     for name, entries in subject.scope.named_enums.items():
         yield from _of_enum(name, entries)
     for file in subject.scope.files:
@@ -142,6 +136,28 @@ def looked_through_of(subject: Subject) -> set[int]:
     return {line for first, last in spans for line in range(first, max(first, last) + 1)}
 
 
+class Written:
+    """How the manuals of a device write what its description writes otherwise: what `writes` of its documents says."""
+
+    def __init__(self, documents: Map) -> None:
+        self._words: dict[str, list[str]] = {}
+        for document in documents.values():
+            for ours, theirs in document.get("writes", {}).items():
+                self._words.setdefault(str(ours), []).extend(theirs)
+
+    def code(self, letters: str) -> list[str]:
+        """The words in place of the letters of a code: `Parameter` of `P`."""
+        return self._words.get(letters, [])
+
+    def bits(self, high: int, low: int) -> list[str]:
+        """The names of a part of a word: `Highbyte` of 15..8."""
+        return self._words.get(f"{high}..{low}", [])
+
+    def number(self, number: Fraction) -> list[str]:
+        """The words for a number: `zero` of 0."""
+        return self._words.get(str(number), [])
+
+
 class _Citing:
     """Makes the claims of one subject: at its line, or at the lines that `lines` names for a fact."""
 
@@ -183,31 +199,31 @@ class _Citing:
             yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, point=self.point)
 
 
-def _of_point(point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
+def _of_point(point: Point, draft: Draft, enums: Mapping[str, Map], written: Written) -> Iterator[Claim]:
     citing = _Citing(point.item, point.source.line, draft.get("lines"), point.name)
     code = None if point.code is None else _ELEMENT.sub("", point.code).strip()
     if code:
-        yield from citing.words("code", *_codes_of(code), str(point.code))
+        yield from citing.words("code", *_codes_of(code, written), str(point.code))
     if _says(draft, "section"):
         yield from citing.words("section", str(draft.get("section")))
     yield from _address(citing, point, draft, code or "")
     yield from citing.title({**point.title, "": (point.variant or "").partition("=")[2]})
-    yield from _numbers_of(citing, point, draft)
+    yield from _numbers_of(citing, point, draft, written)
     yield from _enum_of(citing, point, draft, enums)
-    yield from _flags(citing, point)
+    yield from _flags(citing, point, written)
     yield from _printed(citing, draft)
 
 
-def _codes_of(code: str) -> tuple[str, ...]:
-    """How a manual writes a code: `P601`, `P 601`, `Parameter 601`."""
+def _codes_of(code: str, written: Written) -> tuple[str, ...]:
+    """How a manual writes a code: `P601`, `P 601`, and with the words that it has for the letters."""
     found = _CODE.fullmatch(code)
     if found is None:
         return (code,)
     letters, digits = found.groups()
-    return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in _SPELT.get(letters, ())))
+    return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in written.code(letters)))
 
 
-def _numbers_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
+def _numbers_of(citing: _Citing, point: Point, draft: Draft, written: Written) -> Iterator[Claim]:
     """The limits, the scale, the bits of the word, the numbers of the enum."""
     for key in ("range", "range_in_units"):
         if _says(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
@@ -215,7 +231,7 @@ def _numbers_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
                 yield from citing.numbers(
                     "range", str(number), _either(point, number, in_units=key == "range_in_units")
                 )
-    yield from _bits_of(citing, point, draft)
+    yield from _bits_of(citing, point, draft, written)
     if point.text is not None and _says(draft, "characters"):
         yield from citing.numbers("characters", str(point.text.characters), (Fraction(point.text.characters),), "range")
     if _says(draft, "scale"):
@@ -223,10 +239,10 @@ def _numbers_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
             yield from citing.numbers("scale", str(number), (number, 1 / number))
 
 
-def _bits_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
+def _bits_of(citing: _Citing, point: Point, draft: Draft, written: Written) -> Iterator[Claim]:
     """The bits that the point takes, and those beside it that are always the same."""
     if point.bits is not None:
-        words = _HALVES.get(point.bits, ())
+        words = tuple(written.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
             yield from citing.numbers(
@@ -238,7 +254,7 @@ def _bits_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
             yield from citing.numbers("fixed bits", str(bit), (bit, Fraction(1 << int(bit))), "bits")
         for number in _numbers(constant):
             yield from citing.numbers(
-                "fixed bits", f"= {number}", (number,), "bits", words=_ZERO if number == 0 else ()
+                "fixed bits", f"= {number}", (number,), "bits", words=tuple(written.number(number))
             )
 
 
@@ -318,7 +334,7 @@ def _scale_numbers(raw: Any) -> list[Fraction]:
     return [number for text in texts for number in _numbers(text) if number not in (0, 1)]
 
 
-def _flags(citing: _Citing, point: Point) -> Iterator[Claim]:
+def _flags(citing: _Citing, point: Point, written: Written) -> Iterator[Claim]:
     above = point.bits[1] if point.bits else 0
     always = point.fixed.bits if point.fixed is not None else 0
     for flag in point.flags:
@@ -331,8 +347,7 @@ def _flags(citing: _Citing, point: Point) -> Iterator[Claim]:
             )
             run = _run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
-            whole = _WORDS.get((flag.low + flag.width - 1, flag.low), ()) if point.width == 32 else ()
-            words = (*whole, *_joined("bit", bit + above))
+            words = (*written.bits(flag.low + flag.width - 1, flag.low), *_joined("bit", bit + above))
             yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words)
         yield from citing.title(flag.title, "flags")
         for entry in flag.values:

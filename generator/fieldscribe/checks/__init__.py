@@ -16,7 +16,7 @@ def run_checks(subject: Subject) -> None:
         addresses_do_not_overlap,
         conditions_can_hold,
         defaults_are_allowed,
-        emitted_names_do_not_clash,
+        device_name_is_free,
         enums_fit_their_range,
         errata_are_used,
         every_point_has_a_source,
@@ -32,6 +32,7 @@ def run_checks(subject: Subject) -> None:
 
     own = subject.scope.family.part("checks")
     checks: tuple[Callable[[Subject], None], ...] = (
+        device_name_is_free.check,
         every_point_has_a_source.check,
         lines_run_upwards.check,
         meanings_do_not_compete.check,
@@ -45,9 +46,8 @@ def run_checks(subject: Subject) -> None:
         printed_facts_agree.check,
         *(() if own is None else own.CHECKS),
         frames_agree.check,
-        names_do_not_clash.check,
         errata_are_used.check,
-        emitted_names_do_not_clash.check,
+        names_do_not_clash.check,
     )
     for check in checks:
         check(subject)

@@ -6,7 +6,6 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.meetings import Meetings
-from fieldscribe.checks.subject import inside
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
@@ -62,13 +61,13 @@ def _place(subject: Subject, point: Point, address: int) -> str:
 
 
 def _row(mine: Resolved, other: Resolved) -> int | None:
-    """The row that both are elements of, if they are: where its rule is wrong, one finding is enough."""
+    """The row of the manual that both points were expanded from, if it is one: a wrong rule there is one finding."""
     one, another = mine.draft.element, other.draft.element
     return id(one.at) if one is not None and another is not None and one.at is another.at else None
 
 
 def _overlap(mine: Point, other: Point) -> bool:
-    """Whether the two take the same bits of a word that both take."""
+    """Whether two points at one address have bits in common."""
     return (mine.bits or _WHOLE)[1] <= (other.bits or _WHOLE)[0] and (other.bits or _WHOLE)[1] <= (mine.bits or _WHOLE)[
         0
     ]
@@ -117,7 +116,7 @@ def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | Non
 def _writes_a_value(command: Command, point: Point) -> bool:
     """Whether the command is a name for writing one allowed value to the point."""
     whole = point.writable and point.bits is None and len(point.addresses) == 1 and not point.info.floating
-    return whole and command.value is not None and inside(command.value, point.allowed)
+    return whole and command.value is not None and point.allowed.holds(command.value)
 
 
 def _commands(subject: Subject, taken: Taken) -> None:

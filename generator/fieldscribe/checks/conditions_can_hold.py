@@ -39,7 +39,7 @@ def check(subject: Subject) -> None:
 
 
 def _circles(subject: Subject) -> None:
-    """Findings for points that exist only if points do that exist only if they do."""
+    """Findings for conditions in a circle: a point that exists only if another does, and that one only if the first."""
     from graphlib import CycleError, TopologicalSorter
 
     drafts = {one.point.name: one for one in subject.resolved if one.point.when is not None}

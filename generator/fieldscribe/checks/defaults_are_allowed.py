@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject, inside
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
 
@@ -33,10 +33,10 @@ def _fault(point: Point, default: Fraction) -> str | None:
         return None if held else "the range does not allow it"
     if point.scale is None:
         raw = default
-    elif len(point.scale) > 1 or point.scale[0].rule.factors:
+    elif point.fixed_scale is None:
         return None  # only other points tell
     else:
-        raw = default * point.scale[0].rule.ratio + point.scale[0].rule.offset
+        raw = point.fixed_scale.at(default)
     if raw.denominator != 1:
         shown = number_text(raw)
         return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
@@ -46,7 +46,7 @@ def _fault(point: Point, default: Fraction) -> str | None:
 
 
 def _forbidden(point: Point, raw: int) -> str | None:
-    if not inside(raw, point.allowed):
+    if not point.allowed.holds(raw):
         return f"the range does not allow its raw number {raw}"
     if point.digits is not None:
         names = {str(entry.raw) for entry in point.digits.enum.entries}

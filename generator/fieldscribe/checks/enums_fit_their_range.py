@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject, inside
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 
 if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
@@ -55,7 +55,7 @@ def _entries(subject: Subject, resolved: Resolved) -> None:
             message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {_held(point)}"
             hint = "correct the number or the `type`"
             subject.report.error("enum-outside-range", message, _place(resolved, entry.raw), hint)
-        elif ranged and point.special(entry.raw) is None and not inside(entry.raw, point.allowed):
+        elif ranged and point.special(entry.raw) is None and not point.allowed.holds(entry.raw):
             related = [(draft.span("range"), "the range")]
             message = f"`{entry.name}` is {entry.raw}, which the range does not allow"
             hint = "correct the number or the range; a code beside the numbers goes under `special`"

@@ -47,7 +47,7 @@ def check(subject: Subject) -> None:
 
 
 def _broken(draft: Draft) -> tuple[str, ...]:
-    """What had the wrong shape in the group, or in the source itself."""
+    """The keys of the group and of the source that had the wrong shape, and so a finding of their own."""
     source = draft.get("source")
     return (*draft.group.broken, *(source.broken if isinstance(source, Map) else ()))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.meetings import Meetings
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ _RIVALS = ("enum", "digits", "scale")
 """What a word with fixed bits cannot have at all."""
 
 _MOST = 64
-"""More than the bits of a word and its variants: compared enough."""
+"""How many bit groups of a word are compared with one: a word has 16 bits, and its variants a few times as many."""
 
 
 def check(subject: Subject) -> None:
@@ -50,9 +51,8 @@ def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None
 
 
 def _compare(subject: Subject, one: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
-    """Findings about two bit groups of one word; what is about both alike only once, for the other `behind`."""
-    high, low = other.point.bits or (15, 0)
-    own = ((1 << high - low + 1) - 1) << low
+    """Findings about two bit groups of one word; what is wrong with both is told once, by the later one (`behind`)."""
+    own = group_mask(other.point)
     theirs = other.point.fixed
     related = [(other.draft.span(), f"`{other.point.name}` stands here")]
     if fixed.mask & own:
@@ -71,8 +71,7 @@ def _leaves_any(point: Point, fixed: Fixed) -> bool:
     """Whether a number with the fixed bits may be written; limits that other points set count as they are widest."""
     span = 1 << point.width
     for one in point.allowed.intervals:
-        low = one.low if isinstance(one.low, int) else one.low.least
-        high = one.high if isinstance(one.high, int) else one.high.greatest
+        low, high = one.outer
         parts = ((low, high),) if low >= 0 else ((0, high), (low + span, min(high, -1) + span))
         if any(_next(first, fixed) <= last for first, last in parts if first <= last):
             return True

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.language.nodes import Map
 
@@ -79,7 +80,7 @@ def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[st
 def _fixed(subject: Subject, one: OpenFrame, carries: Carries, points: list[Point]) -> None:
     """What a request writes has the bits that are always written as a constant."""
     for point in points:
-        word = carries(replace(point, type="u16", bits=None)) if point.bits is not None else carries(point)
+        word = carries(_whole_word(point))
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
@@ -87,8 +88,13 @@ def _fixed(subject: Subject, one: OpenFrame, carries: Carries, points: list[Poin
         subject.disagrees(Printed(f"frame:{one.frame.name}", "fixed", printed, None, one.raw.span("bytes"), message))
 
 
+def _whole_word(point: Point) -> Point:
+    """The word that a bit group lies in, as if it were the point."""
+    return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
+
+
 def no_frame(subject: Subject, one: OpenFrame, message: str) -> Seen:
-    """The bytes are none that could be sent: what is right follows from nothing here."""
+    """A finding for bytes that nobody could send; nothing here tells which would be right."""
     printed = hex_of(one.frame.printed)
     subject.disagrees(Printed(f"frame:{one.frame.name}", "form", printed, None, one.raw.span("bytes"), message))
     return Seen(replace(one.frame, valid=False))
@@ -112,14 +118,8 @@ def wrong_error(subject: Subject, one: OpenFrame, carried: int | None) -> None:
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
     """The raw number of a point from its words, the high part first; None if one is not there."""
-    raw = 0
-    for word in words:
-        if word is None:
-            return None
-        raw = raw << 16 | word
-    if point.bits is not None:
-        raw = raw >> point.bits[1] & ((1 << point.width) - 1)
-    return raw - (1 << point.width) if raw > point.greatest and not point.info.floating else raw
+    known = [word for word in words if word is not None]
+    return raw_of(point, known) if len(known) == len(words) else None
 
 
 def hex_of(data: bytes) -> str:

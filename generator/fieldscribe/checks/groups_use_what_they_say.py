@@ -17,7 +17,7 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(subject: Subject) -> None:
-    """A telegram whose words no point is, and a rule that no row uses and that is none."""
+    """Findings for a telegram that no point is a word of, and for a wrong rule of addresses that no row uses."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     with_rows: set[int] = set()

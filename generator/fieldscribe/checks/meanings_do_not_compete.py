@@ -77,10 +77,11 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
         message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
         hint = "give the code another name, so that whoever writes the name means one number"
         subject.report.error("special-twice", message, resolved.draft.span("special"), hint)
+        resolved.draft.failed.add("special")
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
-    """Findings for facts of numbers at what is none."""
+    """Findings for facts about whole numbers at a text or a floating-point number."""
     rule = "text-fact" if draft.text else "float-fact"
     for key in keys:
         if draft.get(key) is not None and draft.layer(key) is not draft.group:

@@ -73,6 +73,5 @@ def _bands(point: Point) -> Iterator[tuple[int, int]]:
         yield from ((entry.raw, entry.raw) for entry in point.enum.entries)
     if point.enum is None or not point.enum.closed:
         for one in point.allowed.intervals:
-            low, high = one.low, one.high
-            yield low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+            yield one.outer
     yield from ((special.low, special.high) for special in point.specials)

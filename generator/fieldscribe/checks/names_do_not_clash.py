@@ -1,46 +1,53 @@
-"""No two things get one identifier in a target, and nothing takes a name that the target itself needs.
+"""No two things get one identifier in any target, whichever is generated, and nothing takes what generated code needs.
 
-What each target makes of a name stands in `identifiers.py`. Reserved words are no clash: the targets turn them aside.
+Each target lists its names by what they are of (`targets/*/identifiers.py`); here they are only compared. What is wrong
+is left out, so that a device with other findings gets these too. Reserved words are no clash: targets turn them aside.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.identifiers import Claim, claims
-from fieldscribe.checks.prefixes import prefix_clashes
+from fieldscribe.checks.owners import Owners, given_names
 
 if TYPE_CHECKING:
+    from fieldscribe.checks.owners import Thing
     from fieldscribe.checks.subject import Subject
 
 
 def check(subject: Subject) -> None:
-    """Names that meet after mangling, old names that live on, and names that generated code needs for itself."""
-    first: dict[tuple[str, str], Claim] = {}
-    pairs = []
-    for claim in claims(subject):
-        other = first.setdefault((claim.namespace, claim.identifier), claim)
-        if other is not claim:
-            pairs.append((other, claim))
-    told: set[frozenset[tuple[int, str]]] = set()
-    for other, claim in (*pairs, *prefix_clashes(subject)):
-        pair = frozenset(((id(other.holder), other.what), (id(claim.holder), claim.what)))
-        if pair not in told:  # two names that meet in one language mostly meet in others too
-            _report(subject, other, claim)
-            told.add(pair)
+    """Names that meet in the description itself, then those that meet in a target."""
+    told: set[frozenset[Thing]] = set()
+    first: dict[tuple[str, str], Thing] = {}
+    for namespace, name, thing in given_names(subject):
+        other = first.setdefault((namespace, name), thing)
+        if other != thing:
+            _report(subject, other, thing, f"`{name}` in {namespace}", told)
+    _compare_targets(subject, told)
 
 
-def _report(subject: Subject, other: Claim, claim: Claim) -> None:
-    if claim.holder is other.holder and claim.key == other.key and claim.what == other.what:
-        return  # one thing in several variants
-    if claim.holder is None:
-        other, claim = claim, other
-    if claim.holder is None:
+def _compare_targets(subject: Subject, told: set[frozenset[Thing]]) -> None:
+    from fieldscribe.targets import TARGETS, knows, target
+    from fieldscribe.targets.identifiers import clashes
+
+    owners, device = Owners(subject), subject.sound
+    for name in (one for one in TARGETS if knows(one, device)):
+        for clash in clashes(target(name).identifiers(device)):
+            first, second = owners.thing(clash.first), owners.thing(clash.second)
+            _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told)
+
+
+def _report(subject: Subject, first: Thing, second: Thing, where: str, told: set[frozenset[Thing]]) -> None:
+    """Two names that meet in one language mostly meet in others too, and are told once."""
+    pair = frozenset((first, second))
+    if second.place is None:
+        first, second = second, first
+    if pair in told or second.place is None:
         return
-    hint = "rename one of them" if other.holder is not None else "choose another name"
-    related = [] if other.holder is None else [(other.span, f"{other.what} stands here")]
-    if claim.namespace == "" or claim.what == other.what:
-        message = f"{claim.what} is there twice"
-    else:
-        message = f"{other.what} and {claim.what} would both be `{claim.identifier}` in {claim.namespace}"
-    subject.report.error("name-clash", message, claim.span, hint, related)
+    told.add(pair)
+    hint = "rename one of them" if first.place is not None else "choose another name"
+    related = [] if first.place is None else [(first.place, f"{first.words} stands here")]
+    message = f"{first.words} and {second.words} would both be {where}"
+    if first.words == second.words:
+        message = f"{second.words} is there twice"
+    subject.report.error("name-clash", message, second.place, hint, related)

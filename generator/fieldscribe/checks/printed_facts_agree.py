@@ -6,11 +6,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.words import number_of
 from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.resolve.bounds import as_text, constant_range, round_half_away
+from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
@@ -184,7 +186,6 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         message = f"the pairs of `{point.name}` cannot be checked: {why}"
         subject.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
         return
-    multiply, add, divide = rule
     for key, value in pairs.items():
         raw = integer(key, pairs.key_span(key), subject.report)
         given = number(value, pairs.span(key), subject.report)
@@ -195,10 +196,10 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
             hint = "correct the raw number, or the type"
             subject.report.error("range-outside-type", message, pairs.key_span(key), hint)
             continue
-        if raw > point.greatest and raw < 1 << point.width:
-            raw -= 1 << point.width  # a pattern of a signed number
-        exact = Fraction(raw * multiply + add, divide)
-        if round_half_away((given * divide - add) / multiply) != raw and abs(exact - given) > _half_digit(value):
+        if raw > point.greatest:
+            raw = number_of(raw, point.width, signed=True)
+        exact = rule.result(raw)
+        if half_away(rule.argument(given)) != raw and abs(exact - given) > _half_digit(value):
             said, right = f"{key} {value}", f"{key} {number_text(exact)}"
             message = f"the pair {said} is printed for `{point.name}`, the scale says {number_text(exact)}"
             subject.disagrees(Printed(point.name, "pairs", said, right, pairs.span(key), message))
@@ -215,9 +216,7 @@ def _step(point: Point) -> Fraction | None:
         return None
     if point.scale is None:
         return Fraction(1)
-    if len(point.scale) > 1 or point.scale[0].rule.factors:
-        return None
-    return abs(1 / point.scale[0].rule.ratio)
+    return None if point.fixed_scale is None else abs(1 / point.fixed_scale.ratio)
 
 
 def _flags(subject: Subject, resolved: Resolved) -> None:

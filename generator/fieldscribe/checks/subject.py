@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Allowed, Bus, Command, Device, Frame, Message
+    from fieldscribe.model import Bus, Command, Device, Frame, Message
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.allowed import Ranges
     from fieldscribe.resolve.errata import OpenErratum
@@ -83,6 +83,13 @@ class Subject:
         return self._models
 
     @property
+    def sound(self) -> Device:
+        """The device as code may know it, without the points that something is wrong with."""
+        from fieldscribe.resolve.device import sound_device
+
+        return sound_device(self) if self.report.has_errors else self.models[1]
+
+    @property
     def report(self) -> Report:
         """Where findings go."""
         return self.scope.report
@@ -109,16 +116,6 @@ class Subject:
             f"correct the fact, or explain it: an erratum with {named}`printed: {{{one.key}: {_shown(one.printed)}}}`"
         )
         self.report.error("printed-disagrees", one.message, one.span, hint)
-
-
-def inside(raw: int, allowed: Allowed) -> bool:
-    """Whether a raw number may be allowed: limits that other points set count with their widest ends."""
-    for one in allowed.intervals:
-        low = one.low if isinstance(one.low, int) else one.low.least
-        high = one.high if isinstance(one.high, int) else one.high.greatest
-        if low <= raw <= high:
-            return True
-    return False
 
 
 def _lost(value: Any) -> bool:

@@ -13,7 +13,7 @@ from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Device, Point
 
 

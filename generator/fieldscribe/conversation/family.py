@@ -10,8 +10,8 @@ from fieldscribe.families import family
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.answers import Heard, Sent
-    from fieldscribe.conversation.codec import Settings
     from fieldscribe.conversation.options import Options
     from fieldscribe.model import Device, Point
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conversation.answers import Item
-from fieldscribe.conversation.codec import setting_of
 from fieldscribe.conversation.meanings import meaning_of, range_remark, raw_text, unchecked_remark
 from fieldscribe.conversation.selection import absence, label, same_meaning
 from fieldscribe.existence import absent
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.meanings import Meaning
     from fieldscribe.model import Device, Point
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from decimal import Decimal
-from struct import pack, unpack
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation import codec
-from fieldscribe.conversation.codec import CodecError, Settings
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.words import words_of
 from fieldscribe.conversation.refusals import amount_with_unit, failure, names_text, refusal
 from fieldscribe.conversation.texts import shown, text_of
-from fieldscribe.conversation.words import words_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
 
@@ -142,7 +142,7 @@ def _shortest(point: Point, raw: int) -> str:
         for digits in range(1, 10):
             shorter = f"{number:.{digits}g}"
             try:
-                if unpack("<f", pack("<f", float(shorter)))[0] == number:
+                if float_of(pattern_of(float(shorter), 32), 32) == number:
                     text = shorter
                     break
             except OverflowError:

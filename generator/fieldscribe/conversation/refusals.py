@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation import codec
-from fieldscribe.conversation.codec import CodecError, Settings
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.selection import label, points_by_name
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text
@@ -126,7 +127,7 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
         known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
         hint = line(f"each digit is one of {known}")
         return _refused(point, "unknown_value", f"does not take {raw}", hint, joint=" ")
-    if codec.with_fixed(point, raw) != raw:
+    if with_fixed(point, raw) != raw:
         always = wording.fixed_text(point)
         return _refused(point, "out_of_range", f"raw {raw} breaks what is always written: {always}")
     asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"

@@ -9,8 +9,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation import codec
-from fieldscribe.conversation.codec import CodecError, Settings
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import CodecError, Settings
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import UnclearError, choose_point, did_you_mean, label, quoted
 from fieldscribe.conversation.texts import pattern_of_text
@@ -65,7 +66,7 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
     if point.text is not None:
         return typed.raw
     coded = typed.value is None and point.special(typed.raw) is not None
-    raw = typed.raw if coded else codec.with_fixed(point, typed.raw)
+    raw = typed.raw if coded else with_fixed(point, typed.raw)
     try:
         if typed.value is not None:
             return codec.encode_checked(point, typed.value, settings)

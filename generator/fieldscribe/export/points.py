@@ -81,8 +81,7 @@ def _default(point: Point) -> int | str | None:
     rule = fixed_rule(point)
     if rule is None:
         return None
-    multiply, add, divide = rule
-    raw = (point.default * divide - add) / multiply
+    raw = rule.argument(point.default)
     return int(raw) if raw.denominator == 1 else number_text(raw)
 
 

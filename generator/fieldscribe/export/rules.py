@@ -72,7 +72,7 @@ def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
     if isinstance(bound, int):
         return bound
     text = _limit(bound.rule)
-    fixed = bound.least if is_low else bound.greatest
+    fixed = bound.outermost(low=is_low)
     if fixed != (point.least if is_low else point.greatest):
         text = f"{'max' if is_low else 'min'}({fixed}, {text})"
     return f"{fixed} if {_lifted(bound)} else {text}" if bound.unless else text
@@ -81,8 +81,8 @@ def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
 def _power_of_ten(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
     """Ten to `raw * slope + intercept`: of the raw number, else of the value, else of the raw number several times."""
     rule = fixed_rule(point)
-    if factor.slope not in (1, -1) and rule is not None and Fraction(rule[0], rule[2]) == factor.slope:
-        rest = factor.intercept - Fraction(rule[1], rule[2])
+    if factor.slope not in (1, -1) and rule is not None and Fraction(rule.factor, rule.divisor) == factor.slope:
+        rest = factor.intercept - Fraction(rule.add, rule.divisor)
         if rest.denominator == 1:
             return _ten_to(factor, int(rest)), [_use(factor, "value", "ten_to", factor.power)]
     if not 1 <= abs(factor.slope) <= _MOST_REPEATS:

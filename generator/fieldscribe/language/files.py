@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import keyword
 import os
-import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,7 +12,6 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source, shown
-from fieldscribe.names import RUST_RESERVED
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,14 +20,6 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.reading import Inputs
 
-_UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
-_HEADERS = frozenset(
-    {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
-    | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
-    | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
-)
-"""Headers of C libraries, which one of the same name in a folder of `-I` hides."""
-_CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 _PART_KEYS = frozenset({"group", "groups", "points"})
 _NEEDED = ("device", "family", "documents")
 
@@ -53,7 +42,6 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
     if header is None or _is_part(header, device_file, report):
         return None
     fine = check_shape(header, DEVICE, report)
-    _safe_name(header, report)
     parts = [_file(path, report, inputs) for path in _parts(device_file, header, report)]
     if not all(key in header for key in _NEEDED):
         return None
@@ -107,24 +95,3 @@ def _leads_beside(link: Path, device_file: Path) -> bool:
     """Whether a link ends in the folder of the description, or of what its device.yaml is a link to itself."""
     folder = os.path.dirname(os.path.realpath(link))
     return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))
-
-
-def _safe_name(header: Map, report: Report) -> None:
-    """A finding for a device whose files would take the place of others: of a system, a language, or our runtime."""
-    name = str(header.get("device") or "")
-    taken = None
-    if name in _UNSAFE_NAMES:
-        taken = "is no safe name for a folder on every system"
-    elif name == "fieldscribe" or name.startswith("fieldscribe_"):
-        taken = "is taken by the runtime, which stands beside the generated files"
-    elif name in sys.stdlib_module_names:
-        taken = "is a module of Python's own, which the generated package would hide"
-    elif name in _HEADERS:
-        taken = f"would make a header `{name}.h`, which hides the one of the C library"
-    elif name in RUST_RESERVED or keyword.iskeyword(name):
-        taken = "is a word that Rust or Python reserves, so that no program could name its crate or package"
-    elif name in _CRATES:
-        taken = "is a crate of Rust's own, which the generated crate would hide"
-    if taken is not None:
-        hint = "name it after vendor and model, such as `hitachi_l200`"
-        report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)

@@ -7,11 +7,12 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
-from fieldscribe.resolve.bounds import Bounds, as_text, constant_range, round_half_away
+from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
 from fieldscribe.resolve.rules import UnknownError
 from fieldscribe.resolve.values import formula_finding
 from fieldscribe.wording.exact import number_text
@@ -92,8 +93,9 @@ class Ranges:
         checked = [printed or self._checked(draft, low, high, span) for low, high in pairs]
         if not all(checked):
             return None
-        fixed = [(low, high) for low, high in pairs if isinstance(low, int) and isinstance(high, int)]
-        moving = [Interval(low, high) for low, high in pairs if not (isinstance(low, int) and isinstance(high, int))]
+        intervals = [Interval(low, high) for low, high in pairs]
+        fixed = [interval.fixed for interval in intervals if interval.fixed is not None]
+        moving = [interval for interval in intervals if interval.fixed is None]
         return Allowed((*_merged(fixed), *moving), listed, ())
 
     def _two_meanings(self, raw: Seq, span: Span) -> bool:
@@ -127,7 +129,7 @@ class Ranges:
         if rule.factors:
             return self._limit(draft, rule, span)
         exact = rule.ratio + rule.offset
-        return round_half_away(exact) if in_units else self._whole(exact, span)
+        return half_away(exact) if in_units else self._whole(exact, span)
 
     def _checked(self, draft: Draft, low: Bound, high: Bound, span: Span) -> bool:
         least, greatest = self.bounds.holds[draft]
@@ -138,9 +140,10 @@ class Ranges:
                     hint = "correct the range, or give the right `type`"
                     self.report.error("range-outside-type", message, span, hint)
                 return False
-        lowest, highest = low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+        interval = Interval(low, high)
+        lowest, highest = interval.outer
         if lowest > highest:
-            fixed = isinstance(low, int) and isinstance(high, int)
+            fixed = interval.fixed is not None
             message = f"the range {lowest}..{highest} {'runs downwards' if fixed else 'can never hold a number'}"
             hint = f"write {highest}..{lowest} if that is meant" if fixed else "check the points that limit it"
             self.report.error("range-reversed", message, span, hint)
@@ -151,7 +154,7 @@ class Ranges:
         if not self.bounds.exponents_fit(rule, span):
             raise UnknownError
         own_least, own_greatest = self.bounds.holds[draft]
-        corners = [round_half_away(one) for one in self.bounds.corners(rule)]
+        corners = [half_away(one) for one in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
             message = f"the limit can only be {min(corners)}..{max(corners)}, outside the type"

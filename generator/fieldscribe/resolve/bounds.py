@@ -6,6 +6,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.arithmetic.codec import MOST_EXPONENT
+from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear, Special
@@ -19,19 +21,7 @@ if TYPE_CHECKING:
     from fieldscribe.language.formula import Affine, Part
     from fieldscribe.resolve.drafts import Draft
 
-MOST_EXPONENT = 30
-"""The largest exponent of ten that a point may give: 10^30 is beyond any device."""
-
 _DEEPEST = 30
-
-
-def round_half_away(number: Fraction) -> int:
-    """The nearest whole number, halves away from zero."""
-    if number.denominator == 1:
-        return number.numerator
-    doubled = 2 * abs(number.numerator) + number.denominator
-    magnitude = doubled // (2 * number.denominator)
-    return magnitude if number.numerator >= 0 else -magnitude
 
 
 def as_text(raw: Any) -> str:
@@ -56,7 +46,7 @@ def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) ->
         return None
     (up, down), (add, part) = ratio, offset
     rule = Fraction(up, down), Fraction(add, part)
-    ends = [tuple(round_half_away(end * rule[0] + rule[1]) for end in pair) for pair in found]
+    ends = [tuple(half_away(end * rule[0] + rule[1]) for end in pair) for pair in found]
     return tuple((high, low) if up < 0 else (low, high) for low, high in ends)
 
 
@@ -223,4 +213,4 @@ class Bounds:
                 found = [corner for rule in rules for corner in self.corners(rule)]
         except (FormulaError, UnknownError):
             return self.holds[draft][end]
-        return max(least, min(greatest, round_half_away(pick(found))))
+        return max(least, min(greatest, half_away(pick(found))))

@@ -13,20 +13,34 @@ from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.points import Resolved
 
 
 def build_device(subject: Subject) -> tuple[Device, Device]:
     """The model of a device without findings, and the same as code may know it."""
+    return with_digest(_device(subject, subject.resolved))
+
+
+def sound_device(subject: Subject) -> Device:
+    """What is left of a device with findings: the points that were read whole and need no other ones."""
+    sound = {one.point.item: one for one in subject.resolved if not one.draft.failed}
+    known = {one.point.name for one in sound.values()} | sound.keys()
+    while lost := [item for item, one in sound.items() if not known.issuperset(one.point.arguments)]:
+        known -= {name for item in lost for name in (item, sound.pop(item).point.name)}
+    return _device(subject, sound.values())
+
+
+def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
     scope, header = subject.scope, subject.scope.header
-    points = with_exponents(tuple([_with_errata(subject, resolved.point) for resolved in subject.resolved]))
-    device = Device(
+    points = with_exponents(tuple([_with_errata(subject, one.point) for one in resolved]))
+    return Device(
         id=str(header["device"]),
-        version=str(header["version"]),
-        vendor=str(header["vendor"]),
-        model=str(header["model"]),
+        version=str(header.get("version", "")),
+        vendor=str(header.get("vendor", "")),
+        model=str(header.get("model", "")),
         title=titles(header.get("title")),
         note=titles(header.get("note")),
         family=str(header["family"]),
@@ -44,7 +58,6 @@ def build_device(subject: Subject) -> tuple[Device, Device]:
         messages=subject.messages,
         telegrams=tuple(telegram for telegram, _ in subject.places.telegrams.values()),
     )
-    return with_digest(device)
 
 
 def _with_errata(subject: Subject, point: Point) -> Point:

@@ -10,7 +10,7 @@ from fieldscribe.model import Interval, Limit
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.model import Bound, Factor, Linear, Point
+    from fieldscribe.model import Allowed, Bound, Factor, Linear, Point, Shape
 
 Ends = tuple[int, int]
 
@@ -22,7 +22,18 @@ def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
     for point in points:
         for name in {point.name, point.item} & names:
             ends[name] = _joined(ends.get(name), point.outer)
-    return tuple([_bounded(point, ends) for point in points]) if ends else points
+    if not ends:
+        return points
+    shapes = {id(point.shape): point.shape for point in points}
+    limits = {id(point.allowed): point.allowed for point in points}
+    bounded_shapes = {key: _shape(shape, ends) for key, shape in shapes.items()}
+    bounded_limits = {key: _allowed(allowed, ends) for key, allowed in limits.items()}
+    return tuple(
+        [
+            replace(point, shape=bounded_shapes[id(point.shape)], allowed=bounded_limits[id(point.allowed)])
+            for point in points
+        ]
+    )
 
 
 def _joined(one: Ends | None, other: Ends) -> Ends:
@@ -32,16 +43,20 @@ def _joined(one: Ends | None, other: Ends) -> Ends:
 
 def _rules(point: Point) -> list[Linear]:
     """The rules of a point's scale and limits."""
-    bounds = [bound for one in point.allowed.intervals for bound in (one.low, one.high)]
-    return [case.rule for case in point.scale or ()] + [one.rule for one in bounds if isinstance(one, Limit)]
+    bounds = [bound for interval in point.allowed.intervals for bound in (interval.low, interval.high)]
+    return [case.rule for case in point.scale or ()] + [bound.rule for bound in bounds if isinstance(bound, Limit)]
 
 
-def _bounded(point: Point, ends: Mapping[str, Ends]) -> Point:
-    if not any(factor.ten_to for rule in _rules(point) for factor in rule.factors):
-        return point
-    intervals = [Interval(_limit(one.low, ends), _limit(one.high, ends)) for one in point.allowed.intervals]
-    cases = point.scale and tuple([replace(case, rule=_rule(case.rule, ends)) for case in point.scale])
-    return replace(point, scale=cases, allowed=replace(point.allowed, intervals=tuple(intervals)))
+def _shape(shape: Shape, ends: Mapping[str, Ends]) -> Shape:
+    cases = shape.scale and tuple([replace(case, rule=_rule(case.rule, ends)) for case in shape.scale])
+    return shape if cases == shape.scale else replace(shape, scale=cases)
+
+
+def _allowed(allowed: Allowed, ends: Mapping[str, Ends]) -> Allowed:
+    if not allowed.moves:
+        return allowed
+    intervals = [Interval(_limit(one.low, ends), _limit(one.high, ends)) for one in allowed.intervals]
+    return replace(allowed, intervals=tuple(intervals))
 
 
 def _limit(bound: Bound, ends: Mapping[str, Ends]) -> Bound:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.resolve.exact_scales import Held, encoded, held_by, pattern
+from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import number_text
 
@@ -24,10 +24,10 @@ RAW = ".raw"
 
 def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
     """The raw numbers by item that a frame is said to carry."""
-    held: Held = {}
+    held: dict[str, int | Fraction] = {}
     given: Map | None = raw.get("with")
     for point, found in _Said(scope, given).numbers(index, points) if given is not None else ():
-        held[point.item] = held[point.name] = held_by(point, found)
+        held[point.item] = held[point.name] = setting_of(point, found)
     said: Map | None = raw.get("says")
     return {} if said is None else {one.item: found for one, found in _Said(scope, said, held).numbers(index, points)}
 
@@ -38,7 +38,7 @@ class _Said:
 
     scope: Scope
     said: Map
-    held: Held = field(default_factory=dict)
+    held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
     def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
         """Each point that is named, with its raw number; what cannot be told is a finding and left out."""
@@ -76,23 +76,25 @@ class _Said:
 
     def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
         """The raw number of a value; None after a finding."""
-        if point.info.floating:
-            found = pattern(point.info.bits, exact)
-            if found is None:
-                self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
-            return found
-        if point.scale is not None and point.scale_arguments:
-            found = encoded(point.scale, exact, self.held)
-            if found is None:
-                self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
-            return found
-        if point.scale is not None:
-            exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
+        if point.info.floating or point.scale_arguments:
+            try:
+                return encode(point, exact, self.held)
+            except CodecError:
+                self._no_number(point, word, value)
+                return None
+        if point.fixed_scale is not None:
+            exact = point.fixed_scale.at(exact)
         if exact.denominator != 1:
             fault = f"cannot be {value}: that is raw {number_text(exact)}"
             self._refuse("bad-number", word, fault, "give the value as printed, in the unit of the point")
             return None
         return exact.numerator
+
+    def _no_number(self, point: Point, word: str, value: Any) -> None:
+        if point.info.floating:
+            self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
+        else:
+            self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
 
     def _fault(self, point: Point) -> str | None:
         if point.text is not None:

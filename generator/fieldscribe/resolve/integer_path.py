@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.resolve.bounds import MOST_EXPONENT
+from fieldscribe.arithmetic.codec import MOST_EXPONENT
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase
@@ -12,11 +13,29 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 MOST_DECIMALS = 12
-_INT64 = 1 << 62
+
+_COUNTED = 1 << 62
+"""No integer on the way between counts and raw numbers is larger.
+
+Code computes with 64 bits and a sign, which hold 2^63 - 1. One bit stays free: to round, half the divisor is added to
+the size of the numerator, and the divisor is held to this bound as the numerator is, so that the sum is below 2^63.
+"""
+
 _WORD = 1 << 63
+"""No constant of a scale is as large: each stands in the code as an integer of 64 bits with a sign."""
+
 _EXACT = 1 << 53
-_ROUNDED = 1 << 49
-"""Up to here six roundings in binary64, those of the constants too, stay below half a raw step."""
+"""Up to here every integer is a binary64 number."""
+
+_NARROW = 1 << 33
+"""All raw numbers of 32 bits are smaller."""
+
+_HALF = (1 << 52) - (1 << 8)
+"""Half a raw step, in units of 2^-53, less what the roundings of roundings add."""
+
+_MOST_ROUNDINGS = 5
+"""Of the value, the product, the quotient, the sum and the offset, where other points choose the rule."""
+
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
@@ -43,15 +62,7 @@ class _Needs(NamedTuple):
     raw: int
     numerator: int
     constant: int
-    fixed: bool
     down: int
-
-    @property
-    def encodes(self) -> bool:
-        """Whether every raw number survives the way to its value and back, step by step in binary64."""
-        if self.numerator <= _EXACT:
-            return True
-        return self.fixed and self.raw <= _ROUNDED
 
 
 def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
@@ -69,7 +80,7 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
     chosen = _is_chosen(cases)
-    needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
+    needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
     widest = max(one.constant for one in needs)
     if widest >= _WORD:
         bits = widest.bit_length()
@@ -78,7 +89,7 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         )
         report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
         return Paths(None, encodes_values=False, raw_alone=True)
-    encodes = all(one.encodes for one in needs)
+    encodes = all(_survives(case.rule, one, chosen=chosen) for case, one in zip(cases, needs, strict=True))
     decimals = _decimals(draft, cases, bounds, needs)
     return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
 
@@ -88,15 +99,40 @@ def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
     return any(case.point is not None or case.rule.factors for case in cases)
 
 
+def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
+    """Whether every raw number survives the way to its value and back, step by step in binary64.
+
+    The value is the binary64 nearest to the exact one; on the way back the product, the quotient and the sum are
+    rounded, and so are constants that binary64 does not hold. Each rounding is off by at most 2^-53 of a number that is
+    no larger than the raw number with its offset: while all of them together stay below half a raw step, rounding to
+    the nearest integer finds the raw number that it was. That needs no exact numerator, for decoding divides exactly;
+    only where other points choose the rule, decoding is done in binary64, too, if the numerator is exact there.
+    """
+    if chosen:
+        return needs.numerator <= _EXACT and _MOST_ROUNDINGS * needs.raw <= _HALF
+    top, bottom, offset = abs(rule.ratio.numerator), rule.ratio.denominator, rule.offset
+    steps = (True, top != 1, bottom != 1, bool(offset))
+    constants = (top > _EXACT, bottom > _EXACT, Fraction(float(offset)) != offset)
+    return (sum(steps) + sum(constants)) * needs.raw <= _HALF
+
+
 def _largest(draft: Draft, bounds: Bounds) -> int:
-    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range."""
+    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range.
+
+    Of 32 bits and less every pattern that a device may send has its count and its value. Of 64 bits few scales would be
+    left if that were asked: there it is the numbers that may be written, and decoding others says that they overflow.
+    """
     raw = max(map(abs, bounds.holds[draft]))
-    return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
+    return raw if raw < _NARROW else max(map(abs, bounds.own_hull(draft)))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
-    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any."""
-    counts = None if decimals is None else _INT64 // (2 * 10**decimals)
+    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any.
+
+    Values in binary64 take one that is exact there. Counts are 10^decimals times as large, and twice that is below the
+    bound, because their numerator is compared with its own half on the way to rounding.
+    """
+    counts = None if decimals is None else _COUNTED // (2 * 10**decimals)
     limits = [limit for limit in (_EXACT if encodes else None, counts) if limit is not None]
     return min(limits, default=None)
 
@@ -106,7 +142,7 @@ def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numera
     if not _is_chosen(cases) or numerator is None:
         return None
     least = _largest(draft, bounds)
-    parts = [(case.rule.offset, _needs(case.rule, 0, bounds, chosen=True).down) for case in cases]
+    parts = [(case.rule.offset, _needs(case.rule, 0, bounds).down) for case in cases]
     most = min((numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
     return None if most >= max(map(abs, bounds.holds[draft])) else max(least, most)
 
@@ -140,7 +176,7 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
     tens = [factor.ten_to for factor in factors]
 
     def fits(most: int) -> bool:
-        return all(_needs(case.rule, 0, bounds, chosen=True, limit=most).constant < _WORD for case in cases)
+        return all(_needs(case.rule, 0, bounds, limit=most).constant < _WORD for case in cases)
 
     if any(tens) and not all(tens):
         return f"for values give {names} a narrower `range`"
@@ -153,8 +189,13 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
-    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits."""
-    return all(2 * max(one.numerator, one.constant) * 10**decimals <= _INT64 for one in needs)
+    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits.
+
+    From a count to its raw number and back the same three products are met, one or the other way round: the raw number
+    with its offset times `down` is the numerator, and the constants are multiplied by 10^decimals at most. The factor
+    of two is the half that rounding compares with.
+    """
+    return all(2 * max(one.numerator, one.constant) * 10**decimals <= _COUNTED for one in needs)
 
 
 def _needed(rule: Linear, bounds: Bounds) -> int:
@@ -172,7 +213,7 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool, limit: int | None = None) -> _Needs:
+def _needs(rule: Linear, raw: int, bounds: Bounds, *, limit: int | None = None) -> _Needs:
     """What both paths of a rule meet, whatever the points in it hold; or if none of them held more than `limit`."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
@@ -191,4 +232,4 @@ def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool, limit: int |
     part, lift = rule.offset.denominator, abs(rule.offset.numerator)
     numerator = (raw * part + lift) * down
     constant = max(up * part, down * part, lift * down)
-    return _Needs(raw + lift // part, max(numerator, up * part), constant, not chosen, down)
+    return _Needs(raw + lift // part, max(numerator, up * part), constant, down)

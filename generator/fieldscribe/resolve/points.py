@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Linear, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Interner, Linear, Place, Point, ScaleCase, Shape, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
-from fieldscribe.resolve.integer_path import paths_of
+from fieldscribe.resolve.integer_path import Paths, paths_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
@@ -40,7 +41,7 @@ class Resolved:
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class Word:
     """What is clear about a point before any formula: where it counts, its type, its bits of the word, its codes."""
 
     space: str
@@ -57,8 +58,15 @@ class Shape:
     @property
     def holds(self) -> tuple[int, int]:
         """The least and greatest raw number."""
-        signed = TYPES[self.type].signed
-        return -(1 << (self.width - 1)) if signed else 0, (1 << (self.width - signed)) - 1
+        return ends_of(self.width, signed=TYPES[self.type].signed)
+
+
+class _Tools(NamedTuple):
+    """What works out the facts of all points."""
+
+    places: Places
+    ranges: Ranges
+    interner: Interner
 
 
 def resolve_points(
@@ -67,74 +75,52 @@ def resolve_points(
     """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
     codes = SpecialCodes(scope)
     codes.check_types()
-    shapes = {draft: _shape(scope, draft, codes) for draft in drafts}
+    words = {draft: _word(scope, draft, codes) for draft in drafts}
     bounds = Bounds(
         Scales(scope, index),
-        {draft: shape.holds for draft, shape in shapes.items()},
-        {draft: shape.specials for draft, shape in shapes.items()},
+        {draft: word.holds for draft, word in words.items()},
+        {draft: word.specials for draft, word in words.items()},
     )
     ranges = Ranges(bounds)
     places = Places(scope, telegrams)
-    found = [Resolved(_point(scope, draft, shape, places, ranges), draft) for draft, shape in shapes.items()]
+    tools = _Tools(places, ranges, Interner())
+    found = [Resolved(_point(scope, draft, word, tools), draft) for draft, word in words.items()]
     return found, ranges, places
 
 
-def _shape(scope: Scope, draft: Draft, codes: SpecialCodes) -> Shape:
+def _word(scope: Scope, draft: Draft, codes: SpecialCodes) -> Word:
     space = space_of(scope, draft)
     bits = bits_of(scope, draft, space)
     kind = type_of(scope, draft, space, bits)
-    return Shape(space, kind, bits, *codes.of(draft, kind, bits))
+    return Word(space, kind, bits, *codes.of(draft, kind, bits))
 
 
-def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ranges) -> Point:
-    get = draft.get
-    text, digits = text_of(scope, draft), digits_of(scope, draft)
-    place = places.place(draft, shape.space, shape.type, shape.bits)
-    ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
-    said_open = bool(get("open", False))
-    enum = None if draft.text else enum_of(scope, draft, closed=not ranged and not said_open)
-    allowed = ranges.allowed(draft, enum)
-    if digits is not None and not ranged:
-        allowed = allowed_digits(scope, draft, digits, shape.holds[1])
-    if shape.specials:
-        allowed = quantities(scope, draft, allowed, shape.specials)
-    if enum is not None and not said_open and _all_named(allowed, enum):
-        enum = enum_of(scope, draft, closed=True)
-    cases = _cases(draft, ranges.bounds)
-    paths = paths_of(draft, cases, ranges.bounds)
-    access = places.access(draft, shape.space)
-    writable = "w" in access
-    reason = _reason(draft, place is not None, access, raw_alone=paths.raw_alone)
+def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
+    get, (places, ranges, interner) = draft.get, tools
+    shape, allowed, paths = _meaning(scope, draft, word, places.access(draft, word.space), ranges)
+    place = places.place(draft, word.space, word.type, word.bits)
+    reason = _reason(draft, place is not None, shape.access, raw_alone=paths.raw_alone)
     return Point(
         name=draft.name,
         variant=draft.variant,
         code=draft.code,
         group=str(draft.group["group"]),
-        space=shape.space,
+        space=word.space,
         places=() if place is None else (place,),
-        references=places.references(draft, None if place is None else _first(place, shape)),
-        type=shape.type,
-        bits=shape.bits,
-        access=access,
+        references=places.references(draft, None if place is None else _first(place, word)),
+        shape=interner.shape(shape),
+        bits=word.bits,
         title=draft.title,
         note=titles(get("note")),
         unit=_unit(scope, draft),
-        scale=cases,
-        decimals=paths.decimals,
-        encodes_values=paths.encodes_values,
-        most_raw=paths.most_raw,
-        allowed=allowed,
-        default=None if draft.text else _default(scope, draft, enum, shape, cases),
+        allowed=interner.allowed(allowed),
+        default=None if draft.text else _default(scope, draft, shape),
         steps=_steps(scope, draft),
-        enum=enum,
-        flags=flags_of(scope, draft, shape.bits, shape.width),
-        specials=shape.specials,
-        specials_of=shape.specials_of,
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
-        keeps=get("keeps") if writable else None,
-        conditions=tuple(get("conditions", ())) if writable else (),
+        keeps=get("keeps") if shape.writable else None,
+        conditions=tuple(get("conditions", ())) if shape.writable else (),
         when=existence_of(scope, draft, ranges.bounds.scales),
         since=get("since"),
         until=get("until"),
@@ -144,19 +130,50 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         errata=(),
         generated=reason is None,
         reason=reason,
-        telegram=draft.group.get("telegram") if shape.space == SPACE else None,
+        telegram=draft.group.get("telegram") if word.space == SPACE else None,
         index=None if draft.element is None else draft.element.index,
-        text=text,
-        digits=digits,
-        fixed=fixed_of(scope, draft, shape.bits, shape.width) if writable else None,
         changes_with=_changes_with(draft, ranges.bounds.scales.index),
         untyped=_untyped(scope, draft),
     )
 
 
-def _first(place: Place, shape: Shape) -> int:
+def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges) -> tuple[Shape, Allowed, Paths]:
+    """What the raw numbers of a point are and which may be written."""
+    text, digits = text_of(scope, draft), digits_of(scope, draft)
+    ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
+    said_open = bool(draft.get("open", False))
+    enum = None if draft.text else enum_of(scope, draft, closed=not ranged and not said_open)
+    allowed = ranges.allowed(draft, enum)
+    if digits is not None and not ranged:
+        allowed = allowed_digits(scope, draft, digits, word.holds[1])
+    if word.specials:
+        allowed = quantities(scope, draft, allowed, word.specials)
+    if enum is not None and not said_open and _all_named(allowed, enum):
+        enum = enum_of(scope, draft, closed=True)
+    cases = _cases(draft, ranges.bounds)
+    paths = paths_of(draft, cases, ranges.bounds)
+    shape = Shape(
+        type=word.type,
+        width=word.width,
+        access=access,
+        scale=cases,
+        decimals=paths.decimals,
+        encodes_values=paths.encodes_values,
+        most_raw=paths.most_raw,
+        enum=enum,
+        flags=flags_of(scope, draft, word.bits, word.width),
+        specials=word.specials,
+        specials_of=word.specials_of,
+        text=text,
+        digits=digits,
+        fixed=fixed_of(scope, draft, word.bits, word.width) if "w" in access else None,
+    )
+    return shape, allowed, paths
+
+
+def _first(place: Place, word: Word) -> int:
     """The word that printed numbers are about: of a text that of its first characters, else the lowest."""
-    return place.addresses[0] if shape.type == "text" else min(place.addresses)
+    return place.addresses[0] if word.type == "text" else min(place.addresses)
 
 
 def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
@@ -203,11 +220,9 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     return found or PLAIN
 
 
-def _default(
-    scope: Scope, draft: Draft, enum: Enum | None, shape: Shape, cases: tuple[ScaleCase, ...] | None
-) -> Fraction | None:
+def _default(scope: Scope, draft: Draft, shape: Shape) -> Fraction | None:
     """The factory setting in the unit; of an enum, and of special codes under a fixed scale, also by name."""
-    raw = draft.get("default")
+    raw, enum, cases = draft.get("default"), shape.enum, shape.scale
     for entry in enum.entries if enum is not None else ():
         if entry.name == raw:
             return Fraction(entry.raw)
@@ -241,13 +256,9 @@ def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
 def _all_named(allowed: Allowed, enum: Enum) -> bool:
     """Whether every number that may be written has a name."""
     numbers = {entry.raw for entry in enum.entries}
-    for one in allowed.intervals:
-        low, high = one.low, one.high
-        if not (isinstance(low, int) and isinstance(high, int)) or high - low >= len(numbers):
-            return False
-        if not numbers.issuperset(range(low, high + 1)):
-            return False
-    return True
+    return not allowed.moves and all(
+        high - low < len(numbers) and numbers.issuperset(range(low, high + 1)) for low, high in allowed.fixed
+    )
 
 
 def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:

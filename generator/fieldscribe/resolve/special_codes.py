@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.arithmetic.words import ends_of, number_of
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.drafts import groups
@@ -97,7 +98,7 @@ class SpecialCodes:
 
     def _numbers(self, raw: Map, kind: str, width: int) -> Iterator[_Code]:
         info = TYPES[kind]
-        least, greatest = (-(1 << width - 1), (1 << width - 1) - 1) if info.signed else (0, (1 << width) - 1)
+        least, greatest = ends_of(width, signed=info.signed)
         for key, value in raw.items():
             span = raw.key_span(key)
             meant = None if ".." in key else interval_meant(key)
@@ -113,7 +114,7 @@ class SpecialCodes:
             patterns = [bool(_PATTERN.match(text)) for text in texts]
             if info.signed:  # manuals print the pattern of a negative code
                 numbers = [
-                    one - (1 << width) if pattern and greatest < one < 1 << width else one
+                    number_of(one, width, signed=True) if pattern and 0 <= one < 1 << width else one
                     for one, pattern in zip(numbers, patterns, strict=True)
                 ]
             low, high = numbers[0], numbers[-1]
@@ -235,8 +236,8 @@ def without_codes(allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
     """The intervals without the codes, as far as their ends are known."""
     found: list[Interval] = []
     for one in allowed.intervals:
-        if isinstance(one.low, int) and isinstance(one.high, int):
-            found += _without(one.low, one.high, specials)
+        if one.fixed is not None:
+            found += _without(*one.fixed, specials)
         else:
             found.append(one)
     return replace(allowed, intervals=tuple(found))

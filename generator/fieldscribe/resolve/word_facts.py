@@ -37,6 +37,7 @@ def text_of(scope: Scope, draft: Draft) -> Text | None:
         if "characters" not in draft.failed:
             message = f"`{draft.name}` does not say how long the text is"
             scope.report.error("missing-key", message, draft.span("type"), "add `characters: …`, two for each word")
+            draft.failed.add("characters")
         return None
     if characters % 2:
         hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"

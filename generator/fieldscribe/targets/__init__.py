@@ -13,10 +13,13 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
-    from fieldscribe.targets.identifiers import Identifier
+    from fieldscribe.targets.identifiers import Names
 
     class Target(Protocol):
         """What a target's module offers."""
+
+        FOR_PEOPLE: bool
+        """Whether it also sees titles, notes and sources; the others see names only (plain.py)."""
 
         NEEDS_FAMILY: bool
         """Whether it can say only devices whose family has a part for it."""
@@ -27,19 +30,21 @@ if TYPE_CHECKING:
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
             """Real source that goes beside them: path below the output folder, and path below the templates folder."""
 
-        def identifiers(self, device: Device) -> Iterable[Identifier]:
-            """Every name that the device gets in generated code; only targets with namespaces of their own have it."""
+        def identifiers(self, device: Device) -> Iterable[Names]:
+            """Every name that the device gets in generated code; none where names cannot meet."""
+
+        def device_name_taken(self, name: str) -> str:
+            """Why no device may have that name, as a sentence goes on behind it; empty where it may."""
 
 
-TARGETS = ("c", "python", "rust", "docs", "vectors")
+TARGETS = (
+    "c",
+    "python",
+    "rust",
+    "docs",
+    "vectors",
+)
 """All targets by name, in the order in which they are written."""
-
-FOR_PEOPLE = ("docs",)
-"""Targets that also see titles, notes and sources; the others see names only (plain.py)."""
-
-
-NAMESPACES = ("c", "python", "rust")
-"""Targets in which names of the description become identifiers, which can meet."""
 
 
 def target(name: str) -> Target:

@@ -5,37 +5,37 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
 
 class Owner(NamedTuple):
-    """What a name stands for: a `kind` of thing in the description, its name, and which `part` of it.
+    """A thing in the description that names stand for: its kind, its name there, and the thing that it is a part of.
 
-    Kinds are `point` (by item), `enum`, `command`, `group`, `code` of the bus, `message`, `telegram`, `variant`,
-    `device`, and `target` for what generated code needs for itself.
+    Kinds are `device`, `variant`, `group`, `command`, `message`, `telegram`, `exception`, `function`, `response`,
+    `special codes` that many points share, `enum` with its parts (`entry`), and `point` (by item) with its own: `flag`
+    and its `value`, special `code`, `old name`, `numbering`. What a target needs for itself is of the kind `target`,
+    and its name says in words what it is.
     """
 
     kind: str
-    name: str = ""
-    part: str = ""
-
-    def __str__(self) -> str:
-        """As messages say it."""
-        if self.kind == "target":
-            return self.name or "what generated code needs itself"
-        return f"the {self.part} of the {self.kind} `{self.name}`" if self.part else f"the {self.kind} `{self.name}`"
+    name: str
+    of: Owner | None = None
 
 
-class Identifier(NamedTuple):
-    """A name in a namespace of a target, and whose it is."""
+Named = tuple[Owner, "Sequence[str]"]
+"""A thing with names in a namespace that is told before."""
+
+
+class Names(NamedTuple):
+    """The names that a thing gets in one namespace of a target, which is told as messages say it."""
 
     namespace: str
-    name: str
     owner: Owner
+    names: Sequence[str]
 
 
 class Clash(NamedTuple):
-    """A name that two owners would get."""
+    """A name that two things would get."""
 
     namespace: str
     name: str
@@ -43,10 +43,12 @@ class Clash(NamedTuple):
     second: Owner
 
 
-def clashes(identifiers: Iterable[Identifier]) -> Iterator[Clash]:
+def clashes(listed: Iterable[Names]) -> Iterator[Clash]:
     """Each name that two things would get in one namespace."""
-    owners: dict[tuple[str, str], Owner] = {}
-    for namespace, name, owner in identifiers:
-        first = owners.setdefault((namespace, name), owner)
-        if first != owner:
-            yield Clash(namespace, name, first, owner)
+    spaces: dict[str, dict[str, Owner]] = {}
+    for namespace, owner, names in listed:
+        owners = spaces.setdefault(namespace, {})
+        for name in names:
+            first = owners.setdefault(name, owner)
+            if first is not owner and first != owner:
+                yield Clash(namespace, name, first, owner)

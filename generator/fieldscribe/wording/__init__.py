@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
-from fieldscribe.wording.rules import RAW, Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
 
@@ -107,9 +108,9 @@ def resolution_text(point: Point) -> str:
     if rule is None or not stepped:
         return ""
     steps = point.steps or ((0, 1),)
-    parts = [with_unit(exact(abs(steps[0][1] * rule[0]), rule[2]), point)]
+    parts = [with_unit(exact(abs(steps[0][1] * rule.factor), rule.divisor), point)]
     for start, step in steps[1:]:
-        coarser = with_unit(exact(abs(step * rule[0]), rule[2]), point)
+        coarser = with_unit(exact(abs(step * rule.factor), rule.divisor), point)
         parts.append(f"from {with_unit(shown(start, rule), point)} on {coarser}")
     return ", ".join(parts)
 
@@ -157,23 +158,17 @@ def range_text(point: Point, points: Points | None = None) -> str:
 def raw_range_text(point: Point) -> str:
     """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
     nothing = point.info.floating or point.text is not None or _is_unbounded(point)
-    return "" if nothing else ranges_text(point, RAW, None, "")
+    return "" if nothing else ranges_text(point, SAME, None, "")
 
 
 def _is_unbounded(point: Point) -> bool:
     """Whether nothing is known of the numbers: no type, and no range that the manual prints."""
-    ends = [(one.low, one.high) for one in point.allowed.intervals]
-    return point.untyped is not None and ends == [(point.least, point.greatest)]
+    return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
     """The least and the greatest raw number that can ever be allowed."""
-    intervals = point.allowed.intervals
-    if not intervals or _is_unbounded(point):
-        return None
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
-    return min(lows), max(highs)
+    return None if _is_unbounded(point) else point.allowed.outer
 
 
 def entry_text(entry: Entry) -> str:
@@ -225,17 +220,18 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
     return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
 
 
-def default_text(point: Point) -> str:
-    """The factory setting in the unit, or the name of the special code that it is; empty where there is none."""
+def default_text(point: Point, *, unit: bool = True) -> str:
+    """The factory setting, mostly with its unit, or the name of the special code that it is; empty if there is none."""
     if point.default is None:
         return ""
     rule = fixed_rule(point)
     if point.specials and rule is not None and not point.info.floating:
-        raw = (point.default * rule[2] - rule[1]) / rule[0]
+        raw = rule.argument(point.default)
         special = point.special(raw.numerator) if raw.denominator == 1 else None
         if special is not None:
             return special.name
-    return with_unit(number_text(point.default), point)
+    number = number_text(point.default)
+    return with_unit(number, point) if unit else number
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:

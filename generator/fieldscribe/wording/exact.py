@@ -1,4 +1,4 @@
-"""Exact numbers: as text, and the linear rules of a point turned round."""
+"""Exact numbers: as text, and values from the raw numbers of a point."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import SAME, value_line
+
 if TYPE_CHECKING:
-    from fieldscribe.model import Factor, Linear, Point
+    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.model import Factor, Point
 
 _SHORT = 6
 """A factor with at most this many decimals is said as a decimal (`x 0.125`), else as a division (`/ 256`)."""
@@ -62,22 +65,11 @@ def plus_text(start: str, numerator: int, denominator: int) -> str:
     return f"{start} {'-' if numerator < 0 else '+'} {exact(abs(numerator), denominator)}"
 
 
-def inverse(rule: Linear) -> tuple[int, int, int]:
-    """Integers (multiply, add, divide > 0) with argument = (result * multiply + add) / divide, without the factors."""
-    top, bottom = rule.ratio.numerator, rule.ratio.denominator
-    offset, part = rule.offset.numerator, rule.offset.denominator
-    multiply, add, divide = part * bottom, -offset * bottom, part * top
-    return (multiply, add, divide) if divide > 0 else (-multiply, -add, -divide)
-
-
-def fixed_rule(point: Point) -> tuple[int, int, int] | None:
-    """Integers (multiply, add, divide) with value = (raw * multiply + add) / divide; None if not fixed or unknown."""
+def fixed_rule(point: Point) -> Line | None:
+    """Values from raw numbers, where no other point has a part in it; None else, and where the rule is unknown."""
     if point.scale is None:
-        return (1, 0, 1) if point.generated or not point.unit.symbol else None
-    first = point.scale[0]
-    if len(point.scale) > 1 or first.point is not None or first.rule.factors:
-        return None
-    return inverse(first.rule)
+        return SAME if point.generated or not point.unit.symbol else None
+    return None if point.fixed_scale is None else value_line(point.fixed_scale)
 
 
 def value_multiple(factor: Factor, point: Point) -> Fraction | None:

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import Line, value_line
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
-from fieldscribe.wording.exact import exact, fixed_rule, inverse, number_text, plus_text, times_text, value_multiple
+from fieldscribe.wording.exact import exact, fixed_rule, number_text, plus_text, times_text, value_multiple
 
 if TYPE_CHECKING:
     from fieldscribe.existence import Clause, Comparison, Condition
@@ -15,23 +16,17 @@ if TYPE_CHECKING:
 Points = Mapping[str, Point]
 """Points by name, for wording that looks at the points a limit refers to."""
 
-Rule = tuple[int, int, int]
-"""(multiply, add, divide): what is shown is (raw * multiply + add) / divide."""
-
 _TURNED = str.maketrans("<>", "><")
 
-RAW: Rule = (1, 0, 1)
-"""Shows the raw number itself."""
 
-
-def shown(raw: int, rule: Rule) -> str:
-    """The raw number as the rule shows it."""
-    return exact(raw * rule[0] + rule[1], rule[2])
+def shown(raw: int, line: Line) -> str:
+    """The raw number as the line shows it."""
+    return exact(raw * line.factor + line.add, line.divisor)
 
 
 def inverse_text(rule: Linear, points: Points | None = None) -> str:
     """How the argument of a rule follows from its result, called `raw`: `raw x 0.1 - 0.25`."""
-    multiply, add, divide = inverse(rule)
+    multiply, add, divide = value_line(rule)
     ratio = Fraction(multiply, divide)
     if not rule.factors:
         common = Fraction(add, divide)
@@ -42,15 +37,15 @@ def inverse_text(rule: Linear, points: Points | None = None) -> str:
     return _with_factors(start, [(_factor_text(one, points), -one.power) for one in rule.factors])
 
 
-def ranges_text(point: Point, rule: Rule, points: Points | None, unit: str) -> str:
+def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> str:
     """All intervals in one wording, the unit behind the last number; what lifts a limit is said at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
-    falling = rule[0] < 0
+    falling = line.factor < 0
     parts, remarks = [], []
     for one in intervals:
-        ends = [_bound_text(one.low, True, point, rule, points), _bound_text(one.high, False, point, rule, points)]
+        ends = [_bound_text(one.low, True, point, line, points), _bound_text(one.high, False, point, line, points)]
         parts.append(_span_text(one, ends, falling, listed))
-        remarks += [_lifted_text(end, side, rule) for side, end in (("low", one.low), ("high", one.high))]
+        remarks += [_lifted_text(end, side, line) for side, end in (("low", one.low), ("high", one.high))]
     if unit and parts:
         parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
@@ -71,12 +66,12 @@ def _comparison_text(one: Comparison, points: Points | None) -> str:
     if not numbers:
         return _test_text(one.of, one.test, [str(each) for each in one.than])
     point = None if points is None else points.get(one.of)
-    rule = None if point is None else fixed_rule(point)
-    if point is None or rule is None:
+    line = None if point is None else fixed_rule(point)
+    if point is None or line is None:
         return _test_text(f"{one.of}.raw", one.test, [str(each) for each in numbers])
     names = {} if point.enum is None else {entry.raw: entry.name for entry in point.enum.entries}
-    test = one.test.translate(_TURNED) if rule[0] < 0 else one.test
-    return _test_text(one.of, test, [names.get(each) or shown(each, rule) for each in numbers])
+    test = one.test.translate(_TURNED) if line.factor < 0 else one.test
+    return _test_text(one.of, test, [names.get(each) or shown(each, line) for each in numbers])
 
 
 def _test_text(name: str, test: str, than: list[str]) -> str:
@@ -93,31 +88,31 @@ def _span_text(interval: Interval, ends: list[str], falling: bool, listed: bool)
     return ", ".join(ends) if adjacent else "..".join(ends)
 
 
-def _bound_text(bound: Bound, is_low: bool, point: Point, rule: Rule, points: Points | None) -> str:
+def _bound_text(bound: Bound, is_low: bool, point: Point, line: Line, points: Points | None) -> str:
     if isinstance(bound, int):
-        return shown(bound, rule)
-    words = _limit_text(bound, rule, points)
-    fixed = bound.least if is_low else bound.greatest
+        return shown(bound, line)
+    words = _limit_text(bound, line, points)
+    fixed = bound.outermost(low=is_low)
     if fixed == (point.least if is_low else point.greatest):
         return words
-    return f"{'max' if is_low == (rule[0] > 0) else 'min'}({shown(fixed, rule)}, {words})"
+    return f"{'max' if is_low == (line.factor > 0) else 'min'}({shown(fixed, line)}, {words})"
 
 
-def _lifted_text(bound: Bound, side: str, rule: Rule) -> str:
+def _lifted_text(bound: Bound, side: str, line: Line) -> str:
     """While which numbers of other points a limit does not apply, and which one stands instead."""
     if isinstance(bound, int) or not bound.unless:
         return ""
     cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
-    fixed = bound.least if side == "low" else bound.greatest
-    return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, rule)}"
+    fixed = bound.outermost(low=side == "low")
+    return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, line)}"
 
 
 def _band_text(band: tuple[int, int]) -> str:
     return str(band[0]) if band[0] == band[1] else f"{band[0]}..{band[1]}"
 
 
-def _limit_text(limit: Limit, rule: Rule, points: Points | None) -> str:
-    multiply, add, divide = rule
+def _limit_text(limit: Limit, line: Line, points: Points | None) -> str:
+    multiply, add, divide = line
     ratio = limit.rule.ratio * multiply / divide
     offset = (limit.rule.offset * multiply + add) / divide
     factors = []

@@ -4,14 +4,44 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from conformance.runtime import can, descriptors, errors, fast, forms, layouts, memory, modbus, quantities, uss, words
+from conformance.runtime import (
+    arguments,
+    can,
+    descriptors,
+    errors,
+    fast,
+    forms,
+    guide,
+    layouts,
+    memory,
+    modbus,
+    quantities,
+    reading,
+    uss,
+    words,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from conformance.package import Package
 
-_THEMES = (errors, forms, fast, words, quantities, layouts, descriptors, memory, modbus, can, uss)
+_THEMES = (
+    errors,
+    arguments,
+    guide,
+    forms,
+    fast,
+    words,
+    quantities,
+    layouts,
+    descriptors,
+    memory,
+    reading,
+    modbus,
+    can,
+    uss,
+)
 CHECKS: list[Callable[[Package], None]] = [
     check for theme in _THEMES for name, check in vars(theme).items() if name.startswith("check_")
 ]

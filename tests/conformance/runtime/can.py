@@ -238,7 +238,7 @@ def check_decoder(package: Package) -> None:
                 ([0, 1, 2], 6), ([3, 4, 5], 6), ([6, 7, 8], 6),
             ]  # fmt: skip
             assert layouts[1].decode(bytes((0, 4, 0, 0, 0, 0))) == {"factor": 4}
-            refuses(runtime.AccessError, "the device has no telegram none", kind.layouts, "none")
+            refuses(runtime.AccessError, "the device has no telegram none, only beat", kind.layouts, "none")
 
 
 def check_recognized(package: Package) -> None:
@@ -263,7 +263,7 @@ def check_messages(package: Package) -> None:
     """Messages by name and by what they do, and what is wrong with a frame."""
     profile, access = profile_of(package), package.runtime.AccessError
     refuses(access, "the device has no message none", profile.message, "none")
-    refuses(access, "the device has no telegram none", profile.telegram, "none")
+    refuses(access, "the device has no telegram none, only beat", profile.telegram, "none")
     assert [profile.request(writes=writes).name for writes in (False, True)] == ["ask", "put"]
     empty = package.can.Profile((1, 2), 11, ())
     for writes, what in ((False, "reads"), (True, "writes")):

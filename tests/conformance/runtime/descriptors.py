@@ -35,6 +35,7 @@ def _made(package: Package) -> tuple[Any, Any]:
     points["one"] = runtime.ByVariant("model", {"a": points["one_a"], "b": points["one_b"]})
     points["old"] = runtime.renamed(points["both"], "both")
     points["old_one"] = runtime.renamed(points["one"], "one")
+    points["old_class"] = runtime.renamed(points["class_"], "class_")
     blocking, awaiting = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
     return blocking, awaiting
 
@@ -98,8 +99,9 @@ def check_variants(package: Package) -> None:
             {"one": 1, "some": 3}, {"one": 2}, {"some": 3}, {"some": 3},
         ]  # fmt: skip
         refuses(absent, "some exists only for model a or c", devices["b"].read_many, ["some"])
-        refuses(ValueError, "the device has no variants by 'shape'", kind, line({}), 1, {"shape": "x"})
-        refuses(ValueError, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
+        wrong = package.runtime.RequestError
+        refuses(wrong, "the device has no variants by 'shape', only by model, size", kind, line({}), 1, {"shape": "x"})
+        refuses(wrong, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
         assert (kind(line({}), 1).variants, devices["a"].variants) == ({}, {"model": "a"})
         assert (kind.read.label, kind.both.label, kind.one_a.facts.name) == ("R1 read", "both", "one")
         assert sorted(kind.POINTS) == ["both", "class", "one_a", "one_b", "read", "some", "write"]
@@ -125,8 +127,10 @@ def check_old_names_as_text(package: Package) -> None:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             assert (device.point("old"), device.point("old_one")) == (device.both, device.one_a)
+            assert device.point("old_class") is device.class_
         told = [(str(one.message), one.filename) for one in caught]
-        assert told == [("old is now called both", __file__), ("old_one is now called one", __file__)]
+        names = ("old is now called both", "old_one is now called one", "old_class is now called class_")
+        assert told == [(name, __file__) for name in names]
 
 
 def check_points_by_text(package: Package) -> None:
@@ -158,7 +162,8 @@ def check_points_by_text(package: Package) -> None:
         refuses(access, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
         refuses(access, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
         refuses(access, "zzz is no point of this device", device.point, "zzz")
-        refuses(access, " is no point of this device", device.point, "")
+        refuses(access, "a point is named by a text, not ''", device.point, "")
+        refuses(access, "a point is named by a text, not None", device.point, None)
         refuses(access, "level depends on model: pass it when the device is made", undecided.point, "L")
         refuses(runtime.AbsentError, "L level_a exists only for model a", device.point, "level_a")
         assert now(device.read_many(["A020", "P1[1]"])) == {"speed": 0, "second": 0}

@@ -8,7 +8,7 @@ import pickle
 import struct
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import table
+from conformance.runtime.bench import refusal, table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -55,7 +55,9 @@ def check_lists(package: Package) -> None:
     fast = package.runtime.fast
     names = package.runtime.NamedNumber("Names", {"ONE": 1})
     assert fast.listed({1: "one"}, _slow)(1) == "one"
-    assert _is_slow(fast.listed({1: "one"}, _slow), 2)
+    assert _is_slow(fast.listed({1: "one"}, _slow), 2, True, 1.0, "1", [1])
+    found = fast.found({1: "one"}, _slow)
+    assert (found(1, {}), found(2, {"a": 1})) == ("one", (SLOW, 2, {"a": 1}))
     way = fast.chosen(names, {names.ONE: 1}, _slow)
     assert (way(names.ONE), type(way(names.ONE))) == (1, int)
     assert _is_slow(way, 1, names(2), True)
@@ -93,23 +95,38 @@ def check_scales_of_others(package: Package) -> None:
     def rule_of(*names: str) -> Any:
         return runtime.Rule(num=2, offset=(1, 1), factors=tuple([runtime.Factor(name) for name in names]))
 
-    for names, raws, value in ((("a",), {"a": 5}, 0.6), (("a", "b"), {"a": 5, "b": 3}, 0.2)):
+    fast, both = runtime.fast, {"a": 5, "b": 3}
+    for made, names, value in (
+        *((fast.scaled_by, ("a",), 0.6), (fast.scaled_by_several, ("a", "b"), 0.2)),
+        *((fast.surely_scaled_by, ("a",), 0.6), (fast.surely_scaled_by, ("a", "b"), 0.2)),
+    ):
         asked: list[float] = []
         rule = rule_of(*names)
-        way = runtime.fast.scaled_by(rule, 0, 9, _Asked(rule, asked))
+        way = made(rule, 0, 9, _Asked(rule, asked))
         for _ in range(2):
-            assert (way(7, raws), way(7, {**raws, "a": 1, "b": 1}), way(9, raws) > value) == (value, 3.0, True)
-        assert asked == [7, 7]
-        assert (way(10, raws) > value, way(-1, raws) < 0, way(7.0, raws), asked) == (
-            True,
-            True,
-            value,
-            [7, 7, 10, -1, 7.0],
-        )
+            assert (way(7, both), way(7, {"a": 1, "b": 1}), way(9, both) > value) == (value, 3.0, True)
+        assert way(7, {**both, names[-1]: 1}) > value
+        assert asked == [7] * (1 + len(names))
         asked.clear()
+        assert (way(0, both) < value, way(9, both) > value, asked) == (True, True, [])
+        if made is fast.surely_scaled_by:
+            assert (way(10, both) > value, way(-1, both) < 0, asked) == (True, True, [])
+        else:
+            assert (way(10, both) > value, way(-1, both) < 0, way(7.0, both), asked) == (
+                True, True, value, [10, -1, 7.0],
+            )  # fmt: skip
+        slow = made(rule, 0, 9, _slow)
+        for raws in ({}, {"a": [1], "b": [1]}, None, 5):
+            assert slow(7, raws) == (SLOW, 7, raws)
+        if made is not fast.surely_scaled_by:
+            way(1, {"a": 1, "b": 1})
+            for wrong in ({"a": True, "b": 1}, {"a": 1.0, "b": 1}):
+                asked.clear()
+                assert (refusal(way, 7, wrong).status, asked) == ("wrong_type", [7])
     huge = runtime.Rule(factors=(runtime.Factor("a", ten_to=(-400, 0)),))
-    way = runtime.fast.scaled_by(huge, 0, 9, _slow)
-    assert [way(1, {"a": -400}) for _ in range(2)] == [(SLOW, 1, {"a": -400})] * 2
+    for made in (fast.scaled_by, fast.surely_scaled_by):
+        way = made(huge, 0, 9, _slow)
+        assert [way(1, {"a": -400}) for _ in range(2)] == [(SLOW, 1, {"a": -400})] * 2
 
 
 def check_patterns(package: Package) -> None:
@@ -128,9 +145,10 @@ def check_codes_on_the_way(package: Package) -> None:
     """Special codes before all else, and behind it."""
     fast, codes = package.runtime.fast, package.runtime.Codes({"off": 0, "band": (8, 9)})
     for find in (codes.finder, codes):
-        plain = fast.coded(find, fast.same(0, 5, _slow))
-        assert (plain(0), plain(5)) == (codes.off, 5)
-        assert _is_slow(plain, 6)
+        for plain in (fast.coded(find, fast.same(0, 5, _slow), _slow), fast.surely_coded(find, fast.same(0, 5, _slow))):
+            assert (plain(0, {}), plain(5, {})) == (codes.off, 5)
+            assert plain(6, {}) == (SLOW, 6, {})
+        assert _is_slow(fast.coded(find, fast.same(0, 5, _slow), _slow), 6, 0.0, False, "x", [])
         back = fast.uncoded(find, fast.same(0, 9, lambda *told: 7), _slow)
         assert [back(number) for number in (1, 5, 12)] == [1, 5, 7]
         assert _is_slow(back, 0, 8)

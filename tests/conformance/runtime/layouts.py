@@ -124,11 +124,15 @@ def check_modbus_layouts(package: Package) -> None:
     }
     for kind in devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice):
         found = [[point.facts.item for point in layout.points] for layout in kind.layouts("main")]
-        assert found == [["plain"], ["other"]]
-        first, _ = kind.layouts("main", model="b")
+        assert found == [["bit"], ["plain"], ["other"]]
+        _, first, _ = kind.layouts("main", model="b")
         assert (first.points, first.decode(b"\0\1\0\2")) == ((kind.plain, kind.one_b), {"plain": 1, "one": 2})
-        for group in ("bits", "none"):
-            refuses(runtime.AccessError, f"there is no group {group} with registers", kind.layouts, group)
+        assert [layout.decode(b"\1") for layout in kind.layouts("bits")] == [{"bit": True}]
+        text = "there is no group none with planned reads, only main, bits"
+        refuses(runtime.AccessError, text, kind.layouts, "none")
+        refuses(runtime.AccessError, "a group is named by a text, not 5", kind.layouts, 5)
+        text = "model is one of a, b, not 'c'"
+        refuses(runtime.RequestError, text, lambda kind=kind: kind.layouts("main", model="c"))
 
 
 def check_own_layouts(package: Package) -> None:
@@ -140,7 +144,8 @@ def check_own_layouts(package: Package) -> None:
         status, layouts = package.outcome(lambda group=group: kind.layouts(group, **variants))
         for layout in layouts if status == "ok" else ():
             for seed in (1, 0x8001, 0xFF):
-                _holds(package, layout, [(seed * (at + 1)) & 0xFFFF for at in range(len(layout.words))])
+                most = 1 if isinstance(layout, package.modbus.BitLayout) else 0xFFFF
+                _holds(package, layout, [(seed * (at + 1)) & most for at in range(len(layout.words))])
 
 
 def _holds(package: Package, layout: Any, words: list[int]) -> None:
@@ -155,7 +160,54 @@ def _holds(package: Package, layout: Any, words: list[int]) -> None:
     read = {point: raw for point, raw in numbers.items() if hasattr(point, "decode")}
     made = {point.facts.name: package.outcome(point.decode, raw, raws) for point, raw in read.items()}
     data = b"".join(word.to_bytes(2, "big") for word in words)
+    if isinstance(layout, package.modbus.BitLayout):
+        data = sum(bit << at for at, bit in enumerate(words)).to_bytes(layout.size, "little")
     status, values = package.outcome(layout.decode, data, dict.fromkeys(layout.needs, 1))
     assert status in {one for one, _ in made.values()} or not made, (layout.words, status)
     if status == "ok":
         assert repr(values) == repr({name: value for name, (_, value) in made.items()}), layout.words
+
+
+def check_bit_layouts(package: Package) -> None:
+    """Bits of a planned read, the first one lowest in its byte."""
+    runtime = package.runtime
+    switch = runtime.NamedNumber("Switch", {"OFF": 0, "ON": 1})
+    points = {
+        f"bit_{at}": runtime.ReadWrite(runtime.Bit(), at=runtime.coil(at), code=f"B{at}") for at in range(100, 110)
+    }
+    points["named"] = runtime.ReadWrite(runtime.Named(runtime.BIT, switch), at=runtime.coil(110))
+    every = list(table(package, **points).POINTS.values())
+    layout = package.modbus.BitLayout(reversed(every), range(100, 111))
+    values = {name: name in ("bit_100", "bit_107", "bit_108") for name in points} | {"named": switch.ON}
+    for _ in range(2):
+        assert (layout.decode(b"\x81\5"), layout.encode(values)) == (values, b"\x81\5")
+    assert (list(layout.decode(b"\x81\5")), layout.points, layout.size) == (list(points), tuple(every), 2)
+    assert layout.decode(b"\0\0")["named"] is switch.OFF
+    assert repr(package.modbus.BitLayout(every, range(100, 102))) == "<BitLayout of 1 bytes: bit_100, bit_101>"
+    refuses(runtime.WrongLengthError, "takes 2 bytes, not 1", layout.decode, b"\1")
+    refuses(runtime.WrongTypeError, "takes 2 bytes, not [1, 2]", layout.decode, [1, 2])
+    refuses(runtime.RangeError, "B100 bit_100: 2 is outside 0..1", layout.encode, {**values, "bit_100": 2})
+    missing = "takes a value of each point and no other: see named"
+    refuses(runtime.RequestError, missing, layout.encode, {name: False for name in points if name != "named"})
+    wide = package.modbus.BitLayout(every[:2], range(99, 103))
+    assert wide.decode(b"\2") == {"bit_100": True, "bit_101": False}
+    refuses(runtime.AccessError, "no point says all bits of the words at 99, 102", wide.encode, {})
+
+
+def check_layouts_take_what_they_say(package: Package) -> None:
+    """What is no bytes, no values by name or no raw numbers by name is refused by name."""
+    runtime = package.runtime
+    every = list(table(package, **_points(package)).POINTS.values())
+    for words in (range(10, 13), range(10, 18)):
+        layout = runtime.Layout(every, words)
+        for data in (None, 5, "x" * layout.size):
+            refuses(runtime.WrongTypeError, f"takes {layout.size} bytes, not {data!r}", layout.decode, data)
+        for values in (None, 5, "ab", [1] * len(layout.points)):
+            text = f"takes values by the names of points, as a dict, not {values!r}"
+            refuses(runtime.RequestError, text, layout.encode, values)
+        assert layout.decode(bytearray(DATA[: layout.size])) == layout.decode(DATA[: layout.size])
+    refuses(runtime.WrongTypeError, "raws are raw numbers by name, as {'name': 1}, not [4]", layout.decode, DATA, [4])
+    refuses(runtime.WrongTypeError, "raws are raw numbers by name, as {'name': 1}, not 4", layout.encode, VALUES, 4)
+    assert repr(runtime.Layout(every, range(10, 13))) == "<Layout of 6 bytes: speed, count>"
+    text = "takes a value of each point and no other: see 5, speed"
+    refuses(runtime.RequestError, text, runtime.Layout(every, range(10, 11)).encode, {5: 1})

@@ -61,7 +61,7 @@ def check_many(package: Package) -> None:
         found = now(device.read_many(["d", "e", "f", "g", "h"]))
         assert found == {"d": 1, "e": 1, "f": True, "g": True, "h": 9}
         assert memory.since() == [(1, 7, 1), (2, 7, 1), (3, 7, 1), (4, 9, 1), (4, 7, 1)]
-        refuses(package.runtime.AccessError, "there is no group none", device.read_many, "none")
+        refuses(package.runtime.AccessError, "there is no group none, only planned", device.read_many, "none")
         refuses(package.runtime.AccessError, "H1 high cannot be read", device.read_many, ["high"])
         refuses(package.runtime.AccessError, "nobody is no point of this device", device.read_many, ["nobody"])
 
@@ -241,8 +241,8 @@ def check_requests(package: Package) -> None:
         request(1, 3, 0, 5): "function 03h takes 1..4 items, not 5",
         request(1, 16, 0): "function 10h takes 1..4 items, not 0",
         request(1, 3, 0xFFFF, 2): "2 items from 65535 on are outside 0..65535",
-        request(1, 6, 0, values=(0x10000,)): "values must be in 0..65535",
-        request(1, 5, 0, values=(2,)): "values must be in 0..1",
+        request(1, 6, 0, values=(0x10000,)): "value 65536 is outside 0..65535",
+        request(1, 5, 0, values=(2,)): "value 2 is outside 0..1",
     }
     for one, reason in reasons.items():
         refuses(package.runtime.RequestError, reason, modbus.build, one, profile)

@@ -49,14 +49,14 @@ def check_by_number(package: Package) -> None:
         refuses(request, "the words of answer come from the device", device.write_at, "answer", 0, 1)
         refuses(request, "there is no space 'none', only parameter, task, answer", device.read_at, "none", 1)
         refuses(request, "a parameter has one word or two, not 3", device.write_at, "parameter", 1, 1, 2, 3)
-        refuses(request, "0 words do not fill 1", device.write_at, "task", 1)
+        refuses(request, "takes 1 to 65536 words or bits, not 0", device.write_at, "task", 1)
         outside = "the link carries 3 words of process data, and this is word 4"
         refuses(request, outside, device.write_at, "task", 2, 1, 1)
         refuses(request, outside, device.read_at, "answer", 3)
         refuses(request, outside, device.read_at, "task", 3)
         statuses = [("answer", 0, 1), ("none", 0, 1), ("parameter", 1, 1, 2, 3), ("task", 1), ("task", 3, 1)]
         found = [refusal(device.write_at, *one).status for one in statuses]
-        assert found == ["bad_space", "bad_space", "bad_value", "bad_value", "bad_link"]
+        assert found == ["bad_space", "bad_space", "bad_value", "bad_count", "bad_link"]
         assert line.since() == []
 
 
@@ -90,7 +90,7 @@ def check_process_data(package: Package) -> None:
         line.fails = None
         line.since()
         assert (now(device.ramp.read()), line.since()[0][5:]) == (0, (0, 5, 0))
-        assert str(refusal(device.write_at, "task", 0, 0x10000)).startswith("a value does not fit: 0 into 0 words")
+        assert str(refusal(device.write_at, "task", 0, 0x10000)) == "a word 65536 is outside 0..65535"
         assert (now(device.ramp.read()), line.since()[0][5:]) == (0, (0, 5, 0))
 
 
@@ -234,4 +234,4 @@ def check_layouts_of_telegrams(package: Package) -> None:
         (answer,), (short,) = kind.layouts("answer"), kind.layouts("answer", words=2)
         assert answer.decode(bytes((0, 1, 0, 2, 0, 3))) == {"state": 1, "actual": 0x20003}
         assert (answer.size, short.size, short.decode(bytes((0, 1, 0, 2)))) == (6, 4, {"state": 1})
-        refuses(package.runtime.AccessError, "the device has no telegram none", kind.layouts, "none")
+        refuses(package.runtime.AccessError, "the device has no telegram none, only task, answer", kind.layouts, "none")

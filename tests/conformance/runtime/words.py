@@ -46,7 +46,13 @@ def check_flags(package: Package) -> None:
     assert (f"{one}", f"{one:04x}", word(0x0012).mode, word(0x0012).fault) == (str(one), "0521", 1, False)
     assert [word.on.place(True), word.on.place(False), word.fault.place(True), word.fault.place(False)] == [1, 0, 0, 2]
     assert (word.mode.place(names.FAST), word.rest.place(7), word._joined(1, 4, 5), word._joined()) == (32, 0x700, 5, 0)
-    refuses(ValueError, "4 does not fit into 2 bits", word.mode.place, 4)
+    for number, text in (
+        (4, "4 does not fit"),
+        (-1, "-1 does not fit"),
+        (10**5000, "a number of thousands of digits does not fit"),
+    ):
+        refuses(package.runtime.RangeError, f"{text} into 2 bits", word.mode.place, number)
+    refuses(package.runtime.WrongTypeError, "takes an integer, not 'x'", word.mode.place, "x")
     assert (word.on.width, word.mode.width, word.mode.names, word.rest.names) == (1, 2, names, None)
     assert (word.on.told("on", 1), word.on.told("on", 0), word.mode.told("mode", 0x10)) == ("on", "", "mode=1")
 
@@ -68,11 +74,13 @@ def check_codes(package: Package) -> None:
     ]  # fmt: skip
     assert (str(codes.fault), codes.fault.no_value, codes.fault.writable) == ("fault", True, False)
     assert (list(codes), len(codes)) == (["off", "fault", "band"], 3)
-    assert refusal(codes.__getitem__, "none").args == ("none",)
+    known = "there is no special code {}, only off, fault, band"
+    assert refusal(codes.__getitem__, "none").args == (known.format("none"),)
+    assert refusal(codes.__getitem__, [1]).args == (known.format("[1]"),)
     band = "band is all of 65520..65524: call the codes with the raw number that is meant"
     assert refusal(codes.__getitem__, "band").args == (band,)
-    refuses(AttributeError, "there is no special code none", getattr, codes, "none")
-    refuses(AttributeError, "there is no special code _own", getattr, codes, "_own")
+    refuses(AttributeError, known.format("none"), getattr, codes, "none")
+    refuses(AttributeError, known.format("_own"), getattr, codes, "_own")
     refuses(AttributeError, band, getattr, codes, "band")
     assert not package.runtime.Special("x", 1).no_value
     assert not package.runtime.Special("x", 1).writable
@@ -105,7 +113,7 @@ def check_coded(package: Package) -> None:
             would = f"A1 {point.facts.item}: raw {raw} would be the special code {name}: {hint}"
             refuses(runtime.SpecialCodeError, would, point.encode, raw)
             refuses(runtime.SpecialCodeError, would, point.encode_count, raw)
-            is_one = f"A1 {point.facts.item}: raw {raw} is the special code {name}: {hint}"
+            is_one = f"A1 {point.facts.item}: raw {raw} is the special code {name}, which has no count: decode gives it"
             refuses(runtime.SpecialCodeError, is_one, point.decode_count, raw)
     assert refusal(write.encode, 0xFFFF).special == "fault"
     refuses(

@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ..errors import TelegramError
+from ..arguments import shown
+from ..errors import RequestError, TelegramError, WrongTypeError
 from ..layouts import Layout
 from ..points import Decoding, Point
 from ..rules import NO_RAWS
-from ..session import exists
+from ..table import check_variants, exists
 from .frames import LENGTH
 from .receiver import Receiver, pairs_of
 
@@ -40,6 +42,9 @@ class Decoder(Receiver):
     """
 
     def __init__(self, device: type[CanSession], telegram: str, unit: int, **variants: str) -> None:
+        if not hasattr(device, "PROFILE"):
+            raise RequestError("bad_device", f"takes the class of a CAN device, not {shown(device)}")
+        check_variants(device.VARIANTS, variants)
         super().__init__(device.PROFILE, telegram, unit)
         self._known: dict[str, int] = {}
         self._places = [place for pair in pairs_of(self._message) for place in pair]
@@ -65,19 +70,26 @@ class Decoder(Receiver):
         number = self._taken(frame, moment)
         if number is None:
             return {}
-        layout, data, known = self._layouts[number], frame.data, self._known
+        known: Raws = self._known
+        layout, data = self._layouts[number], frame.data
         if not self._in_order:
             data = bytes([data[place] for place in self._places])
         if layout.gives:
-            known.update(layout.wanted(data))
-        if raws:
-            known = {**raws, **known}
+            self._known.update(layout.wanted(data))
+        if raws is not NO_RAWS:
+            known = self._with(raws)
         is_known = not layout.needs or layout.needs <= known.keys()
         values: dict[str, Value] = (layout.decoder if is_known else layout.decode_known)(data, known)
         for point in self._apart[number]:
             if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
                 values[point.facts.name] = point.decode(raw, known)
         return values
+
+    def _with(self, raws: Raws) -> Raws:
+        """What earlier frames brought, beside what the caller brings; raises WrongTypeError."""
+        if not isinstance(raws, Mapping):
+            raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
+        return {**raws, **self._known}
 
     def _joined(self, point: Point) -> int | None:
         """The raw number of a point in several frames; None while these may not belong together."""
@@ -86,4 +98,4 @@ class Decoder(Receiver):
             by_address = dict(zip(addresses, self.words(addresses), strict=True))
         except TelegramError:
             return None
-        return point.from_words([by_address[at] for at in sorted(by_address)])
+        return point.joined([by_address[at] for at in sorted(by_address)])

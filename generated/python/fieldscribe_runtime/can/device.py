@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
+from ..arguments import awaited, check_transport
 from ..device import AnyAsyncDevice, AnyDevice
 from .session import CanSession, Wanted
 
@@ -12,6 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from .frames import Frame
+
+
+_PARTS = {"send": "a method that sends a frame", "receive": "one that returns the next frame, or raises TimeoutError"}
+"""What a transport has."""
 
 
 class CanTransport(Protocol):
@@ -59,6 +64,7 @@ class CanDevice(CanSession, AnyDevice):
     """A device on a CAN bus."""
 
     def __init__(self, transport: CanTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(unit, variants or {})
         self.transport = transport
 
@@ -72,11 +78,11 @@ class CanDevice(CanSession, AnyDevice):
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
-        return self._run(self._get_steps(self._place(space, address, count)))
+        return self._run(self._read_at_steps(space, address, count))
 
     def write_at(self, space: str, address: int, *values: int) -> None:
         """Write parameters by address. Nothing is checked: this can set what no point allows."""
-        self._run(self._put_steps(self._place(space, address, len(values)), values))
+        self._run(self._write_at_steps(space, address, values))
 
 
 class AsyncCanDevice(CanSession, AnyAsyncDevice):
@@ -85,21 +91,22 @@ class AsyncCanDevice(CanSession, AnyAsyncDevice):
     def __init__(
         self, transport: AsyncCanTransport, unit: int, variants: Mapping[str, str | None] | None = None
     ) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(unit, variants or {})
         self.transport = transport
 
     async def _carry(self, request: Frame | Wanted) -> Frame | None:
         if request is Wanted.NEXT:
-            return await self.transport.receive()
+            return await awaited(self.transport, self.transport.receive())
         if isinstance(request, Wanted):
             return self.transport.receive_waiting() if isinstance(self.transport, AsyncWaitingCanTransport) else None
-        await self.transport.send(request)
+        await awaited(self.transport, self.transport.send(request))
         return None
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
-        return await self._run(self._get_steps(self._place(space, address, count)))
+        return await self._run(self._read_at_steps(space, address, count))
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
         """Write parameters by address. Nothing is checked: this can set what no point allows."""
-        await self._run(self._put_steps(self._place(space, address, len(values)), values))
+        await self._run(self._write_at_steps(space, address, values))

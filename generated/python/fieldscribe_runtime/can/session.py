@@ -8,6 +8,7 @@ from collections.abc import Generator, Mapping, Sequence
 from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from ..arguments import check_name, check_place, check_words, shown
 from ..errors import (
     EchoError,
     FrameError,
@@ -16,7 +17,8 @@ from ..errors import (
     TelegramError,
 )
 from ..facts import Place
-from ..session import Session, check_unit, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .decoder import layouts_of
 from .frames import Frame, Message, Profile, build, parse
 from .receiver import Receiver
@@ -70,6 +72,8 @@ class CanSession(Session):
     @classmethod
     def layouts(cls, telegram: str, **variants: str) -> tuple[Layout, ...]:
         """The words of a telegram's frames, with the points in them; variants as for the device."""
+        check_name("telegram", telegram)
+        check_variants(cls.VARIANTS, variants)
         return layouts_of(cls.PROFILE, telegram, [one for one in cls.POINTS.values() if exists(one, variants)])
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
@@ -160,8 +164,19 @@ class CanSession(Session):
                     return tuple([by_address[address] for address in sorted(place.addresses)])
             self.take((yield from self._next_steps(deadline, awaited, trouble)))
 
+    def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
+        """Read by address; raises RequestError for what is no place."""
+        return (yield from self._get_steps(self._place(space, address, count)))
+
+    def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
+        """Write by address; raises RequestError for what is no place, or no words."""
+        place = self._place(space, address, len(values))
+        check_words("bad_value", "values", values)
+        yield from self._put_steps(place, values)
+
     def _place(self, space: str, address: int, count: int) -> Place:
         """Parameters by address, or words of the telegram of that name."""
+        check_place(space, address, count)
         addresses = tuple(range(address, address + count))
         if space in self._receivers:
             return Place("telegram", addresses, telegram=space)
@@ -176,5 +191,7 @@ class CanSession(Session):
             frame = yield Wanted.NEXT
         except TimeoutError as error:
             raise NoReplyError(reason) from trouble or error
-        assert frame is not None, "a transport returned nothing instead of raising TimeoutError"
+        if not isinstance(frame, Frame):
+            text = f"a transport gives a Frame(id, data) or raises TimeoutError; this one gave {shown(frame)}"
+            raise RequestError("bad_transport", text)
         return frame

@@ -5,13 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from ..arguments import awaited, check_transport
 from ..device import AnyAsyncDevice, AnyDevice
-from ..facts import Place
-from .planner import read_function
 from .session import ModbusSession
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+
+_PARTS = {"framing": "'rtu' or 'tcp'", "exchange": "a method that sends a request and returns the whole reply"}
+"""What a transport has."""
 
 
 class Transport(Protocol):
@@ -46,6 +49,7 @@ class ModbusDevice(ModbusSession, AnyDevice):
     """A device on a Modbus line or network."""
 
     def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(transport.framing, unit, variants or {})
         self.transport = transport
 
@@ -54,27 +58,28 @@ class ModbusDevice(ModbusSession, AnyDevice):
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read words or bits by address, without any meaning."""
-        return self._run(self._ask(read_function(Place(space, (address,))), address, count))
+        return self._run(self._read_at_steps(space, address, count))
 
     def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        self._run(self._put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        self._run(self._write_at_steps(space, address, values))
 
 
 class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
     """A device on a Modbus line or network, asynchronously."""
 
     def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(transport.framing, unit, variants or {})
         self.transport = transport
 
     async def _carry(self, request: bytes) -> bytes:
-        return await self.transport.exchange(request)
+        return await awaited(self.transport, self.transport.exchange(request))
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read words or bits by address, without any meaning."""
-        return await self._run(self._ask(read_function(Place(space, (address,))), address, count))
+        return await self._run(self._read_at_steps(space, address, count))
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        await self._run(self._put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        await self._run(self._write_at_steps(space, address, values))

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..errors import ExceptionReplyError, FrameError, RequestError
+from ..arguments import check_bytes, check_integer, check_number, shown
+from ..errors import ExceptionReplyError, FrameError, RequestError, WrongTypeError
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ WRITES = SINGLE_WRITES | BLOCK_WRITES
 ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 
 RTU, TCP = "rtu", "tcp"
+_FRAMINGS = (RTU, TCP)
 
 
 class Profile(Record):
@@ -70,6 +72,8 @@ _CRC = _crc_table()
 
 def crc(data: bytes) -> int:
     """The CRC-16 of RTU frames; it travels low byte first."""
+    if not isinstance(data, (bytes, bytearray)):
+        raise WrongTypeError(f"takes bytes, not {shown(data)}")
     value = 0xFFFF
     for byte in data:
         value = value >> 8 ^ _CRC[(value ^ byte) & 0xFF]
@@ -79,28 +83,44 @@ def crc(data: bytes) -> int:
 def check_framing(framing: str, profile: Profile) -> None:
     """Raises RequestError (bad_framing) if the device does not frame its telegrams so."""
     if framing not in profile.framings:
-        raise RequestError("bad_framing", f"the device speaks {' and '.join(profile.framings)}, not {framing!r}")
+        raise RequestError("bad_framing", f"the device speaks {' and '.join(profile.framings)}, not {shown(framing)}")
+
+
+def _check_kinds(request: Request) -> None:
+    """Raises RequestError for numbers that are none; the unit and the address are checked where they count."""
+    if not isinstance(request, Request):
+        raise RequestError("bad_request", f"takes a Request, not {shown(request)}")
+    check_integer("bad_function", "function", request.function)
+    check_integer("bad_count", "count", request.count)
+    if not isinstance(request.values, tuple):
+        raise RequestError("bad_value", f"values are a tuple, not {shown(request.values)}")
 
 
 def check_request(request: Request, profile: Profile) -> None:
     """Raises RequestError if the device does not take such a request."""
+    _check_kinds(request)
     low, high = profile.units
     most = profile.functions.get(request.function)
     if most is None:
         raise RequestError("bad_function", f"the device has no function {request.function:02X}h")
+    check_integer("bad_unit", "unit", request.unit)
     if request.unit == profile.broadcast:
         if request.function not in profile.broadcasts:
             raise RequestError("bad_unit", f"function {request.function:02X}h cannot be sent to all units")
     elif not low <= request.unit <= high:
-        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
+        raise RequestError("bad_unit", f"unit {shown(request.unit)} is outside {low}..{high}")
     if not 1 <= request.items <= most:
-        raise RequestError("bad_count", f"function {request.function:02X}h takes 1..{most} items, not {request.items}")
+        text = f"function {request.function:02X}h takes 1..{most} items, not {shown(request.items)}"
+        raise RequestError("bad_count", text)
+    check_integer("bad_address", "address", request.address)
     last = 0 if request.function == DIAGNOSTICS else 0x10000 - request.items
     if not 0 <= request.address <= last:
-        raise RequestError("bad_address", f"{request.items} items from {request.address} on are outside 0..65535")
+        text = f"{request.items} items from {shown(request.address)} on are outside 0..65535"
+        raise RequestError("bad_address", text)
     largest = 1 if request.function in (WRITE_COIL, WRITE_COILS) else 0xFFFF
-    if not all(0 <= value <= largest for value in request.values):
-        raise RequestError("bad_value", f"values must be in 0..{largest}")
+    for value in request.values:
+        if not (isinstance(value, bool) and largest == 1):
+            check_number("bad_value", "value", value, (0, largest))
 
 
 def _words(*words: int) -> bytes:
@@ -136,6 +156,7 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
     check_request(request, profile)
     pdu = _pdu(request, profile)
     if framing == TCP:
+        check_integer("bad_transaction", "transaction", transaction)
         return _words(transaction & 0xFFFF, 0, len(pdu) + 1) + bytes([request.unit]) + pdu
     frame = bytes([request.unit]) + pdu
     return frame + crc(frame).to_bytes(2, "little")
@@ -144,8 +165,11 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
 def reply_size(received: bytes, framing: str = RTU) -> int | None:
     """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports.
 
-    Raises FrameError if the reply would be longer than any frame can be.
+    Raises FrameError if the reply would be longer than any frame can be, and RequestError for an unknown framing.
     """
+    check_bytes(received)
+    if framing not in _FRAMINGS:
+        raise RequestError("bad_framing", f"frames are {' or '.join(_FRAMINGS)}, not {shown(framing)}")
     most = _LONGEST[framing]
     size = _tcp_size(received) if framing == TCP else _rtu_size(received)
     if size is not None and size > most:
@@ -194,6 +218,7 @@ def parse(
     Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
     """
     check_framing(framing, profile)
+    check_bytes(reply)
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
         raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))

@@ -4,12 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import ClassVar, TypeVar
 
+from ..about import about
+from ..arguments import check_name, check_place
+from ..bits import BitLayout
 from ..errors import AccessError, NoReplyError, RequestError
+from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
-from ..session import Session, check_unit, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .frames import (
     BIT_READS,
     WRITE_COIL,
@@ -24,9 +29,6 @@ from .frames import (
     parse,
 )
 from .planner import Block, plan, read_function
-
-if TYPE_CHECKING:
-    from ..facts import Place
 
 T = TypeVar("T")
 Steps = Generator[bytes, bytes, T]
@@ -45,7 +47,7 @@ class ModbusSession(Session):
 
     def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
         check_framing(framing, self.PROFILE)
-        if unit != self.PROFILE.broadcast:
+        if type(unit) is not int or unit != self.PROFILE.broadcast:
             check_unit(unit, self.PROFILE.units)
         super().__init__(unit, variants)
         self._framing = framing
@@ -72,6 +74,16 @@ class ModbusSession(Session):
         words = yield from self._ask(read_function(place), place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
 
+    def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
+        """Read by address; raises RequestError for what is no place."""
+        check_place(space, address, count)
+        return (yield from self._ask(read_function(Place(space, (address,))), address, count))
+
+    def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
+        """Write by address; raises RequestError for what is no place."""
+        check_place(space, address, len(values))
+        yield from self._put_steps(Place(space, tuple(range(address, address + len(values)))), values)
+
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place."""
         if place.space not in _WRITES:
@@ -89,24 +101,28 @@ class ModbusSession(Session):
         rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
         raws: dict[str, int] = {}
         for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
-            words = yield from self._ask(block.function, block.address, block.count)
-            for point in points:
-                if block.covers(point.facts.at):
-                    own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
-                    raws[point.facts.item] = self._taken(point, own)
+            inside = [point for point in points if block.covers(point.facts.at)]
+            with about(*inside):
+                words = yield from self._ask(block.function, block.address, block.count)
+            for point in inside:
+                own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
+                raws[point.facts.item] = self._taken(point, own)
         return raws
 
     @classmethod
     def layouts(cls, group: str, **variants: str) -> tuple[Layout, ...]:
-        """The registers of a group's planned reads, with the points in them; variants as for the device."""
-        blocks: tuple[Block, ...] = tuple([one for one in cls.BLOCKS.get(group, ()) if one.function not in BIT_READS])
+        """The registers or bits of a group's planned reads, with the points in them; variants as for the device."""
+        check_name("group", group)
+        check_variants(cls.VARIANTS, variants)
+        blocks: tuple[Block, ...] = cls.BLOCKS.get(group, ())
         if not blocks:
-            raise AccessError(f"there is no group {group} with registers")
+            raise AccessError(f"there is no group {group} with planned reads, only {', '.join(cls.BLOCKS)}")
         points = [point for point in cls.POINTS.values() if exists(point, variants)]
         made = []
         for block in blocks:
             inside = [point for point in points if block.covers(point.facts.at)]
-            made.append(Layout(inside, range(block.address, block.address + block.count)))
+            kind = BitLayout if block.function in BIT_READS else Layout
+            made.append(kind(inside, range(block.address, block.address + block.count)))
         return tuple(made)
 
     def _bridges(self) -> frozenset[tuple[str, int]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..arguments import check_bytes, check_integer, check_number, shown
 from ..errors import FrameError, RefusedError, RequestError
 from ..records import Record
 
@@ -111,22 +112,32 @@ def _named(task: int, parameter: int, index: int) -> tuple[int, int]:
 
 def check_link(profile: Profile, link: Link, variants: Mapping[str, str | None]) -> None:
     """Raises RequestError (bad_link) if a device, of these variants as far as they are known, has no such link."""
-    if link.pkw not in profile.pkw:
-        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {link.pkw}")
+    _check_part(profile, link)
     _check_length(profile.pzd, link, "the device")
     for axis, value in variants.items():
         if value is not None:
             _check_length(profile.variant_pzd.get((axis, value), profile.pzd), link, f"{axis} {value}")
 
 
+def _check_part(profile: Profile, link: Link) -> None:
+    if not isinstance(link, Link):
+        raise RequestError("bad_link", f"the link is a Link, as Link(pkw=4, pzd=2), not {shown(link)}")
+    check_integer("bad_link", "the length of the parameter part", link.pkw)
+    if link.pkw not in profile.pkw:
+        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {shown(link.pkw)}")
+
+
 def _check_length(limits: tuple[int, int], link: Link, whose: str) -> None:
     low, high = limits
+    check_integer("bad_link", "the length of the process data", link.pzd)
     if not low <= link.pzd <= high:
-        raise RequestError("bad_link", f"{whose} takes {low}..{high} words of process data, not {link.pzd}")
+        raise RequestError("bad_link", f"{whose} takes {low}..{high} words of process data, not {shown(link.pzd)}")
 
 
 def _check_process_data(profile: Profile, link: Link, words: Sequence[int]) -> None:
     _check_length(profile.pzd, link, "the device")
+    if not isinstance(words, (tuple, list)):
+        raise RequestError("bad_value", f"process data is a tuple of words, not {shown(words)}")
     if len(words) != link.pzd:
         raise RequestError("bad_link", f"the link carries {link.pzd} words of process data, not {len(words)}")
 
@@ -136,25 +147,24 @@ def check_request(request: Request, profile: Profile, link: Link) -> None:
 
     The first failure decides: bad_link, bad_unit, bad_task, bad_parameter, bad_index, bad_value.
     """
-    if link.pkw not in profile.pkw:
-        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {link.pkw}")
+    _check_part(profile, link)
     _check_process_data(profile, link, request.words)
-    low, high = profile.units
-    if not low <= request.unit <= high:
-        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
+    check_number("bad_unit", "unit", request.unit, profile.units)
+    check_integer("bad_task", "task", request.task)
     if request.task not in profile.tasks:
-        raise RequestError("bad_task", f"the device has no task {request.task}")
+        raise RequestError("bad_task", f"the device has no task {shown(request.task)}")
     if link.pkw == 0 and request.task != NO_TASK:
         raise RequestError("bad_task", "the link carries no parameters")
-    if not 0 <= request.parameter <= _LAST_PARAMETER:
-        raise RequestError("bad_parameter", f"parameter {request.parameter} is outside 0..{_LAST_PARAMETER}")
-    if not 0 <= request.index <= _LAST_INDEX:
-        raise RequestError("bad_index", f"index {request.index} is outside 0..{_LAST_INDEX}")
+    check_number("bad_parameter", "parameter", request.parameter, (0, _LAST_PARAMETER))
+    check_number("bad_index", "index", request.index, (0, _LAST_INDEX))
+    for number in (request.width, request.value, *request.words):
+        check_integer("bad_value", "a value", number)
     if request.width == 2 and link.sent < 4:
         raise RequestError("bad_value", "the link has no room for double words")
     largest = (1 << 16 * request.width) - 1 if request.width in (0, 1, 2) else -1
     if not 0 <= request.value <= largest or not all(0 <= word <= 0xFFFF for word in request.words):
-        raise RequestError("bad_value", f"a value does not fit: {request.value} into {request.width} words, or a word")
+        text = f"a value does not fit: {shown(request.value)} into {shown(request.width)} words, or a word"
+        raise RequestError("bad_value", text)
 
 
 def build(request: Request, profile: Profile, link: Link) -> bytes:
@@ -173,10 +183,10 @@ def broadcast(mask: tuple[int, ...], words: tuple[int, ...], profile: Profile, l
     Raises RequestError (bad_link, bad_value).
     """
     _check_process_data(profile, link, words)
-    if profile.broadcast is None or len(mask) != 4:
+    if profile.broadcast is None or not isinstance(mask, (tuple, list)) or len(mask) != 4:
         raise RequestError("bad_link", "a broadcast takes 4 words of mask, and a device that knows it")
-    if not all(0 <= word <= 0xFFFF for word in (*mask, *words)):
-        raise RequestError("bad_value", "words must be in 0..65535")
+    for word in (*mask, *words):
+        check_number("bad_value", "a word", word, (0, 0xFFFF))
     return _telegram(profile.broadcast, (*mask, *words))
 
 
@@ -192,6 +202,7 @@ def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply
     wrong_parameter, refused (RefusedError, with the device's number), no_rights, wrong_response. From no_answer on the
     error holds the process data, which came all the same.
     """
+    check_bytes(reply)
     words = _opened(request, reply, link)
     part, data = words[: len(words) - link.pzd], words[len(words) - link.pzd :]
     if not part:

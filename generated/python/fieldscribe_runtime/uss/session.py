@@ -7,10 +7,19 @@ from collections.abc import Generator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from ..about import about
+from ..arguments import (
+    check_integer,
+    check_name,
+    check_number,
+    check_place,
+    check_words,
+)
 from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
 from ..layouts import Layout
-from ..session import Session, check_unit, exists
+from ..session import Session
+from ..table import check_unit, check_variants, exists
 from .frames import (
     NO_TASK,
     RAM,
@@ -65,12 +74,17 @@ class UssSession(Session):
     @classmethod
     def layouts(cls, telegram: str, *, words: int | None = None, **variants: str) -> tuple[Layout, ...]:
         """The process data of a telegram, or its first words, with the points in them; variants as for the device."""
+        check_name("telegram", telegram)
+        check_variants(cls.VARIANTS, variants)
+        if words is not None:
+            check_number("bad_count", "the number of words", words, (1, 0xFFFF))
         for one in cls.PROFILE.telegrams:
             if one.name == telegram:
                 points = [point for point in cls.POINTS.values() if exists(point, variants)]
                 own = [point for point in points if point.facts.at.telegram == telegram]
                 return (Layout(own, range(one.words if words is None else words)),)
-        raise AccessError(f"the device has no telegram {telegram}")
+        known = ", ".join([one.name for one in cls.PROFILE.telegrams])
+        raise AccessError(f"the device has no telegram {telegram}, only {known}")
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read a parameter (the high word first), or words of the process data that comes back."""
@@ -89,9 +103,11 @@ class UssSession(Session):
         raws: dict[str, int] = {}
         heard = [point for point in points if point.facts.at.telegram and not self._is_sent(point.facts.at)]
         if heard:
-            reply = yield from self._exchange_steps(Request(self.unit), self._sent)
+            with about(*heard):
+                reply = yield from self._exchange_steps(Request(self.unit), self._sent)
             for point in heard:
-                raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
+                with about(point):
+                    raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
         rest = [point for point in points if point not in heard]
         return {**raws, **(yield from super()._gather_steps(rest, group))}
 
@@ -134,6 +150,8 @@ class UssSession(Session):
 
     def _broadcast_steps(self, mask: tuple[int, int, int, int], words: Sequence[int] | None) -> Steps[None]:
         """Process data for all units; raises RequestError (bad_link, bad_value)."""
+        for what, found in (("the mask", mask), ("words", () if words is None else words)):
+            check_words("bad_value", what, found)
         chosen = self._words(self._sent) if words is None else tuple(words)
         request = broadcast(mask, chosen, self.PROFILE, self.link)
         for at, (fixed, bits) in self._constants.items():
@@ -173,10 +191,23 @@ class UssSession(Session):
             raise RequestError("bad_space", f"there is no space {place.space!r}, only {known}")
         return place.address
 
+    def _read_at_steps(self, space: str, address: int, index: int | None) -> Steps[tuple[int, ...]]:
+        """Read by number; raises RequestError for what is no place."""
+        return (yield from self._get_steps(self._place(space, address, 1, index)))
+
+    def _write_at_steps(self, space: str, address: int, words: tuple[int, ...], index: int | None) -> Steps[None]:
+        """Write by number; raises RequestError for what is no place, or no words."""
+        place = self._place(space, address, len(words), index)
+        check_words("bad_value", "values", words)
+        yield from self._put_steps(place, words)
+
     def _place(self, space: str, address: int, count: int, index: int | None) -> Place:
         """A parameter by number, or words of the telegram of that name."""
+        check_place(space, address, count)
+        if index is not None:
+            check_integer("bad_index", "index", index)
         if any(one.name == space for one in self.PROFILE.telegrams):
-            return Place("telegram", tuple(range(address, address + max(1, count))), telegram=space)
+            return Place("telegram", tuple(range(address, address + count)), telegram=space)
         return Place(space, (address,), index=index)
 
     def _is_sent(self, place: Place) -> bool:

@@ -130,6 +130,16 @@ SECTIONS = (
     ),
     Key("edition", _DOCUMENT, "Its edition or date.", ["2003-11"], Text(80)),
     Key(
+        "writes",
+        _DOCUMENT,
+        "How it writes what a description writes otherwise (letters of codes, bits, numbers); the audit asks.",
+        [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"]}],
+        by(
+            forms.WRITTEN,
+            Shape("Its words.", [["Parameter"]], Items(Shape("A word.", ["Parameter"], Text(80)), least=1)),
+        ),
+    ),
+    Key(
         "variants",
         DEVICE,
         "What is fixed when a device object is made, by axis.",

@@ -43,6 +43,12 @@ VARIANT_VALUE = Form(
     "letters, digits and single _: 400V, model_b",
     "<value>",
 )
+WRITTEN = Form(
+    "^([A-Za-z]+|[0-9]{1,2}\\.\\.[0-9]{1,2}|[0-9]{1,9})$",
+    "letters of codes, bits of a word, or a number",
+    "write the letters of codes (P), bits with the high one first (15..8), or a number (0)",
+    "<letters, bits or number>",
+)
 LANGUAGE = Form("^[a-z]{2}$", "a language", "languages have two letters: en, de, fr", "<language>")
 PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<anything>")
 ANY = Form("", "a word", "any word is fine", "<any>")

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.fold import folded
-from fieldscribe.targets.c.identifiers import identifiers
+from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -16,11 +15,14 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
+FOR_PEOPLE = False
 NEEDS_FAMILY = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
+    from fieldscribe.targets.c.conformance import conformance_view
+
     view, scope = device_view(device)
     yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
     frames = frames_of(device)
@@ -38,4 +40,4 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
         yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

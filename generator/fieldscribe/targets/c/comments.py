@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
 
 
-def comment_lines(point: Point, scope: Scope, remark: str = "") -> tuple[str, ...]:
+def comment_lines(point: Point, scope: HeaderScope, remark: str = "") -> tuple[str, ...]:
     """Code, name, range, unit, step, access, space and default; what is rare; errata that change one of these."""
     name = point.item.replace("_", " ")
     head = f"{point.code} {name}" if point.code else name
@@ -36,7 +36,7 @@ def comment_lines(point: Point, scope: Scope, remark: str = "") -> tuple[str, ..
     return ("/*", *filled(words, " ", " * "), " */")
 
 
-def _facts(point: Point, scope: Scope) -> Iterator[str]:
+def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
     if point.untyped is None:
         yield from filter(None, (_range(point), *_steps(point)))
     spaces = (point.space,) if scope.spaces.get(point.group) is None else ()

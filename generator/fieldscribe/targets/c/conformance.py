@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.c.scales import Scaled
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import DeviceView, PointView
 
 
@@ -67,7 +67,9 @@ class SuiteView:
 _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special")
 
 
-def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Iterable[tuple[str, str]]) -> SuiteView:
+def conformance_view(
+    device: Device, view: DeviceView, scope: HeaderScope, more: Iterable[tuple[str, str]]
+) -> SuiteView:
     """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
     named = frames_of(device).NAMED_CODES
     extra: dict[str, list[str]] = {}
@@ -106,14 +108,14 @@ def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
     return tuple((codes.kind, device.bus.codes(codes.section)) for codes in emitted)
 
 
-def _codes(device: Device, scope: Scope) -> Iterator[tuple[str, str, str]]:
+def _codes(device: Device, scope: HeaderScope) -> Iterator[tuple[str, str, str]]:
     """The kind, name and enumerator of each number of the protocol that has one."""
     for kind, codes in _code_kinds(device):
         for code in codes:
             yield kind, code.name, f"{scope.upper}_{upper(kind)}_{upper(code.name)}"
 
 
-def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, list[str]]) -> AdapterView:
+def _adapter(point: Point, view: PointView, scope: HeaderScope, extra: Mapping[str, list[str]]) -> AdapterView:
     cases = _cases(point, view, scope)
     cases += extra.get(view.function, [])
     return AdapterView(
@@ -136,7 +138,7 @@ def _parts(point: Point, view: PointView) -> Iterator[str]:
             yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
 
 
-def _specials(point: Point, view: PointView, scope: Scope) -> Iterator[str]:
+def _specials(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
     """What goes by the special codes of a point."""
     for special in point.specials:
         (first, _), (last, _) = special_defines(special, f"{scope.upper}_{upper(owner(point))}", point)
@@ -145,7 +147,7 @@ def _specials(point: Point, view: PointView, scope: Scope) -> Iterator[str]:
         yield f"SPECIAL_NAME({view.function}, {view.raw_type})"
 
 
-def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
+def _cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
     """The macros that answer a kind of vector."""
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
@@ -212,7 +214,7 @@ def _constants(point: Point, view: PointView) -> str:
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
-def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
+def _conversions(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
     if form in ("text", "digits"):
         return _of_parts(point, view)
@@ -269,7 +271,7 @@ def _of_parts(point: Point, view: PointView) -> list[str]:
     return cases
 
 
-def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
+def _with(point: Point, names: tuple[str, ...], scope: HeaderScope) -> str:
     if not names:
         return "FIELDSCRIBE_ALONE"
     if len(names) > 1:
@@ -283,7 +285,7 @@ def _filler(point: Point, names: tuple[str, ...]) -> str:
     return f"with_{point.item}{tail}"
 
 
-def _structs(point: Point, scope: Scope) -> Iterator[StructView]:
+def _structs(point: Point, scope: HeaderScope) -> Iterator[StructView]:
     """One for each set of raw numbers that some function of the point needs."""
     counts = point.decimals is not None
     integer = [point.limit_arguments] if point.writable else []

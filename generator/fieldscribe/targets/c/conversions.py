@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import function
-from fieldscribe.targets.c.limits import check, is_moving, known, refused
+from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
     cast,
     float_order,
-    raw_bounds,
     raw_kind,
     raw_type,
     sign_and_size,
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scales import Scaled
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import SpecialView
 
 STATUS = "FIELDSCRIBE_STATUS"
@@ -45,13 +44,13 @@ def value_type(point: Point) -> str:
 
 def is_rechecked(point: Point) -> bool:
     """Whether a number between the outer limits may still not be written."""
-    return len(point.allowed.intervals) > 1 or is_moving(point) or fixes(point) or bool(point.specials)
+    return len(point.allowed.intervals) > 1 or point.allowed.moves or fixes(point) or bool(point.specials)
 
 
 class Writer:
     """Writes the functions of one point."""
 
-    def __init__(self, point: Point, special: SpecialView | None, scope: Scope) -> None:
+    def __init__(self, point: Point, special: SpecialView | None, scope: HeaderScope) -> None:
         self.point, self.special, self.scope = point, special, scope
         self.name = f"{scope.prefix}_{point.item}"
         self.macro = f"{scope.upper}_{upper(point.item)}"
@@ -65,7 +64,7 @@ class Writer:
         """May a raw number be written?"""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.scope))
-        if is_moving(self.point) and self.special is None:
+        if self.point.allowed.moves and self.special is None:
             own = f"{self.name}_check"
             owner = self.scope.tables.setdefault(("check", *parameters, status), own)
             if owner != own:
@@ -127,7 +126,7 @@ class Writer:
     def _plain_body(self, kind: str) -> str:
         point = self.point
         literal = unsigned if kind == "uint64_t" else bare
-        low, high = raw_bounds(point) if fixes(point) else self.reach
+        low, high = point.held if fixes(point) else self.reach
         if not is_rechecked(point):
             core = f"fieldscribe_encode_{self.kind}(value, {literal(low)}, {literal(high)}, raw)"
             return f"return {known(point, core)};"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.literals import INT32, INT64, bare, signed, unsigned
+from fieldscribe.arithmetic.words import INT32, INT64
+from fieldscribe.targets.c.literals import bare, signed, unsigned
 from fieldscribe.targets.c.reciprocals import Numbers, reciprocal
 
 if TYPE_CHECKING:
-    from fieldscribe.targets.c.plans import Plan
+    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.lowered import Plan
 
 
 def linear(name: str, factor: int, add: int, cast: str) -> str:
@@ -26,26 +28,26 @@ def linear(name: str, factor: int, add: int, cast: str) -> str:
 
 def raw_of_count(plan: Plan) -> str:
     """The raw number of a count that lies in the limits."""
-    first, last = plan.counts
+    factor, add, divisor = plan.to_raw
     wider = "int64_t" if plan.encode_wide and not plan.count_wide else ""
-    line = linear("count", plan.p, plan.q, wider)
-    if plan.r == 1:
+    line = linear("count", factor, add, wider)
+    if divisor == 1:
         return line
-    if plan.q == 0:
-        numbers = Numbers(first, last, plan.p, plan.r)
+    if add == 0:
+        numbers = Numbers(*plan.counts, factor, divisor)
         narrow, wide = ("(int32_t)count", "count") if plan.count_wide else ("count", "(int64_t)count")
         found = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
     else:
-        numbers = _line(first, last, plan.p, plan.q, plan.r)
+        numbers = _numerators(plan.counts, plan.to_raw)
         found = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
         found = found or _quotient(line, numbers, wide=True)
-    return found or f"fieldscribe_divide({line}, {plan.r})"
+    return found or f"fieldscribe_divide({line}, {divisor})"
 
 
-def _line(first: int, last: int, factor: int, add: int, divisor: int) -> Numbers:
-    """The numbers number * factor + add that are to be divided."""
-    low, high = sorted(number * factor + add for number in (first, last))
-    return Numbers(low, high, 1, divisor)
+def _numerators(ends: tuple[int, int], line: Line) -> Numbers:
+    """What is divided for the arguments between two ends."""
+    low, high = sorted(end * line.factor + line.add for end in ends)
+    return Numbers(low, high, 1, line.divisor)
 
 
 def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
@@ -79,15 +81,14 @@ def count_fits(plan: Plan) -> str:
 def count_of_raw(plan: Plan) -> tuple[str, bool]:
     """The count of a raw number, and whether the expression has 64 bits."""
     wide = plan.decode_wide
-    if (plan.p, plan.q, plan.r) == (1, 0, 1):
+    if plan.to_raw.does_nothing:
         return "raw", wide
-    sign = 1 if plan.p > 0 else -1
-    low, high = plan.beyond or plan.raws
-    line = linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if wide else "int32_t")
-    if abs(plan.p) == 1:
+    to_count = plan.to_raw.inverse
+    line = linear("raw", to_count.factor, to_count.add, "int64_t" if wide else "int32_t")
+    if to_count.divisor == 1:
         return line, wide
-    numbers = _line(low, high, plan.r * sign, -plan.q * sign, abs(plan.p))
+    numbers = _numerators(plan.beyond or plan.raws, to_count)
     narrow = "" if wide else _quotient(line, numbers, wide=False)
     if narrow:
         return narrow, False
-    return _quotient(line, numbers, wide=True) or f"fieldscribe_divide({line}, {abs(plan.p)})", True
+    return _quotient(line, numbers, wide=True) or f"fieldscribe_divide({line}, {to_count.divisor})", True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Flag, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
 
 
-def defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     """The macros of a generated point and their literals."""
     yield from place_defines(point, macro, scope)
     if point.words > 1 or point.text is not None:
@@ -28,10 +29,9 @@ def defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
     active_low = sum(1 << flag.low for flag in point.flags if _active_low(flag))
     if active_low:
         yield f"{macro}_ACTIVE_LOW_MASK", hexadecimal(active_low, point.info.bits // 4)
-    shared = shares_values(point)
     for flag in point.flags:
-        yield from _flag_defines(flag, f"{macro}_{upper(flag.name)}", point.info.bits // 4, shared=shared)
-    if shared:
+        yield from flag_defines(flag, point, macro)
+    if shares_values(point):
         wide = next(flag for flag in point.flags if flag.width > 1)
         yield from ((f"{macro}_{upper(entry.name)}", f"{entry.raw}U") for entry in wide.values)
 
@@ -42,13 +42,13 @@ def shares_values(point: Point) -> bool:
     return len(wide) > 1 and len(set(wide)) == 1
 
 
-def place_defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def place_defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     """The macros that say where a point is."""
     if point.address is not None:
         yield from _places(point, macro, scope)
 
 
-def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
     yield f"{macro}_ADDRESS", hexadecimal(min(point.addresses))
     if point.index is not None:
         yield f"{macro}_INDEX", unsigned(point.index)
@@ -81,7 +81,7 @@ def _bits(point: Point, macro: str) -> Iterator[Define]:
         yield f"{macro}_FIXED_BITS", hexadecimal(point.fixed.bits, digits)
     if point.bits is not None:
         yield f"{macro}_SHIFT", f"{point.bits[1]}U"
-        yield f"{macro}_MASK", hexadecimal(((1 << point.width) - 1) << point.bits[1])
+        yield f"{macro}_MASK", hexadecimal(group_mask(point))
 
 
 def _active_low(flag: Flag) -> bool:
@@ -89,10 +89,13 @@ def _active_low(flag: Flag) -> bool:
     return flag.width == 1 and flag.active == 0
 
 
-def _flag_defines(flag: Flag, name: str, digits: int, *, shared: bool) -> list[Define]:
+def flag_defines(flag: Flag, point: Point, macro: str) -> list[Define]:
+    """The macros of a flag, and of its numbers where they are its own."""
+    name, ones = f"{macro}_{upper(flag.name)}", (1 << flag.width) - 1
     remark = " /* true while 0 */" if _active_low(flag) else ""  # who sets the bit of OFF2 takes OFF2 away
-    defines = [(f"{name}_MASK", hexadecimal(((1 << flag.width) - 1) << flag.low, digits) + remark)]
+    defines = [(f"{name}_MASK", hexadecimal(ones << flag.low, point.info.bits // 4) + remark)]
     if flag.width > 1:
         defines.append((f"{name}_SHIFT", f"{flag.low}U"))
-        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values if not shared]
+        values = () if shares_values(point) else flag.values
+        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in values]
     return defines

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.c.comments import comment_lines
-from fieldscribe.targets.c.defines import place_defines
-from fieldscribe.targets.c.points import computes_in_double, point_view
-from fieldscribe.targets.c.scope import Scope, scope_of
+from fieldscribe.targets.c.defines import defines, place_defines
+from fieldscribe.targets.c.points import computes_in_double, named_numbers, point_view
+from fieldscribe.targets.c.scope import HeaderScope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
@@ -23,7 +24,7 @@ STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR"
 """What conversions answer."""
 
 
-def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, Scope]:
+def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, HeaderScope]:
     """The header's view, and the scope it was built in; with `names_only` all of its names, and no bodies."""
     scope = scope_of(device, names_only=names_only)
     by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
@@ -34,9 +35,8 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
             continue
         one = point_view(point, scope)
         by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
-        for item in old_items(point):
-            of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
-            aliases += [AliasView(item, one.item, *alias) for alias in of_item]
+        for old, item in old_items(point):
+            aliases += _aliases(point, one, AliasView(old, item, one.item), scope)
     groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
     view = DeviceView(
         head=head_lines(device),
@@ -60,12 +60,12 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
     return view, scope
 
 
-def old_items(point: Point) -> Iterator[str]:
-    """What the point was called before; a variant keeps its suffix."""
-    yield from (old + point.item[len(point.name) :] for old in point.was)
+def old_items(point: Point) -> Iterator[tuple[str, str]]:
+    """What the point was called before, and its item then: a variant keeps its suffix."""
+    yield from ((old, replace(point, name=old).item) for old in point.was)
 
 
-def _title(group: str, scope: Scope) -> str:
+def _title(group: str, scope: HeaderScope) -> str:
     """What stands above a group: its name, and the space of its points if they have but one."""
     space = scope.spaces.get(group)
     return group.replace("_", " ") + (f" ({space})" if space else "")
@@ -85,14 +85,18 @@ def head_lines(device: Device) -> tuple[str, ...]:
 
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
+    return [view.function + tail for tail in _function_tails(view)]
+
+
+def _function_tails(view: PointView) -> list[str]:
     counted = view.shape in ("scaled", "ruled") and view.counts
-    codes = [] if view.special is None else [view.function + tail for tail in FUNCTIONS]
+    codes = () if view.special is None else FUNCTIONS
     if view.shape in ("text", "digits"):
         tails = ["_encode"] if view.writable else []
         tails += ["_decode"] if view.readable else []
         tails += ["_check"] if view.shape == "digits" and view.writable else []
         tails += ["_addresses"] if view.shape == "text" else []
-        return [*(view.function + tail for tail in tails), *codes]
+        return [*tails, *codes]
     tails = ["_encode"] if view.writable and view.encodes else []
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
@@ -100,27 +104,28 @@ def function_names(view: PointView) -> list[str]:
     tails += ["_rule"] if view.rules else []
     tails += ["_to_words", "_from_words"] if view.words else []
     tails += ["_extract", "_insert"] if view.bits else []
-    return [*(view.function + tail for tail in tails), *view.flags, *codes]
+    return [*tails, *view.flags, *codes]
 
 
-def _aliases(view: PointView, function: str, macro: str) -> Iterator[tuple[str, str, str]]:
-    """Old and new names of everything that a renamed point has, and what each is."""
-    for name, literal in view.defines:
-        yield macro + name[len(view.macro) :], name, "text" if literal.startswith('"') else "number"
-    for name in function_names(view):
-        tail = name[len(view.function) :]
+def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
+    """Everything that a renamed point has, by its old name."""
+    function, macro = f"{scope.prefix}_{old.old_item}", f"{scope.upper}_{upper(old.old_item)}"
+    for (name, _), (new, _) in zip(defines(point, macro, scope), view.defines, strict=True):
+        yield replace(old, old=name, new=new, sort="NUMBER")
+    for tail in _function_tails(view):
         floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
-        sort = "object" if tail == "_addresses" else "floating function" if floats else "function"
-        yield function + tail, name, sort
+        sort = "OBJECT" if tail == "_addresses" else "FLOATING_FUNCTION" if floats else "FUNCTION"
+        yield replace(old, old=function + tail, new=view.function + tail, sort=sort)
     if view.fields:
-        yield f"{function}_with", f"{view.function}_with", "struct"
-    if view.enum is not None and view.enum.function == f"{view.function}_name":
-        yield f"{function}_name", view.enum.function, "function"
-        for name, _, _ in view.enum.entries:
-            yield macro + name[len(view.macro) :], name, "number"
+        yield replace(old, old=f"{function}_with", new=f"{view.function}_with", sort="STRUCT")
+    enum = named_numbers(point)
+    if view.enum is not None and enum is not None and enum.name == point.item:
+        yield replace(old, old=f"{function}_name", new=view.enum.function, sort="FUNCTION")
+        for entry, (new, _, _) in zip(enum.entries, view.enum.entries, strict=True):
+            yield replace(old, old=f"{macro}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
-def _remark(point: Point, scope: Scope) -> RemarkView:
+def _remark(point: Point, scope: HeaderScope) -> RemarkView:
     remark = f"not generated: {point.reason or 'documented only'}"
     lines = () if scope.names_only else comment_lines(point, scope, remark)
     macro = f"{scope.upper}_{upper(point.item)}"

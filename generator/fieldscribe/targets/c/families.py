@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import DeviceView
-    from fieldscribe.targets.identifiers import Owner
+    from fieldscribe.targets.identifiers import Named
 
 
 class OfFamily(Protocol):
@@ -21,11 +21,11 @@ class OfFamily(Protocol):
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes that a function names."""
 
-    def bus_view(self, device: Device, view: DeviceView, scope: Scope) -> Any:
+    def bus_view(self, device: Device, view: DeviceView, scope: HeaderScope) -> Any:
         """The view of the header of frames, `<family>.h.j2`."""
 
-    def identifiers(self, bus: Any, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-        """Every identifier in that header with what it belongs to."""
+    def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
+        """Every identifier in that header by what it belongs to."""
 
     def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:
         """Macros with which points answer conformance vectors that only this family has, by their function."""

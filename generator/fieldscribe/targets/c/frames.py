@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.identifiers import Named
 
 _LINE = 120
 _WIDTHS = (8, 16, 32, 64)
@@ -30,8 +31,10 @@ class Descriptor:
     type: str
     name: str
     value: str
-    item: str
-    """The point that it is of; empty for a layout."""
+    item: str = ""
+    """The point that it is of; empty for layouts and commands."""
+    tail: str = ""
+    """What the name has behind that of the point."""
 
     @property
     def parted(self) -> bool:
@@ -58,7 +61,7 @@ def shares(point: Point) -> bool:
 class Layouts:
     """The layouts of a device, each once, by their names."""
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(self, scope: HeaderScope) -> None:
         self._prefix = scope.prefix
         self._known: dict[str, Descriptor] = {}
 
@@ -73,7 +76,7 @@ class Layouts:
             f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
             f"{hexadecimal(mask)}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
         )
-        self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}", "")
+        self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}")
         return f"&{name}"
 
     @property
@@ -89,26 +92,27 @@ def places_of(point: Point) -> list[int]:
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
-def names_of(descriptors: Iterable[Descriptor]) -> Iterator[tuple[str, Owner]]:
-    """The identifiers of descriptors, with what they belong to."""
-    for one in descriptors:
-        yield one.name, Owner("point", one.item, "the frame") if one.item else Owner("target", "layouts")
+def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Iterator[Named]:
+    """The identifiers of layouts, and of the descriptors of points."""
+    yield Owner("target", "the layouts of points in words"), [one.name for one in layouts]
+    for one in others:
+        yield Owner("point", one.item), (one.name,)
 
 
-def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: Scope) -> tuple[AliasView, ...]:
+def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: HeaderScope) -> tuple[AliasView, ...]:
     """The descriptors of renamed points by the names that they had."""
     renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
     return tuple(
-        AliasView(old, one.item, old_name, one.name, "object")
+        AliasView(old, item, one.item, f"{scope.prefix}_{item}{one.tail}", one.name, "OBJECT")
         for one in descriptors
-        for old in renamed.get(one.item, ())
-        for old_name in (f"{scope.prefix}_{old}{one.name[len(f'{scope.prefix}_{one.item}') :]}",)
+        for old, item in renamed.get(one.item, ())
     )
 
 
-def old_names_of(aliases: Iterable[AliasView]) -> Iterator[tuple[str, Owner]]:
+def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
     """The identifiers of old names, with the points that had them."""
-    yield from ((one.old, Owner("point", one.item, f"old name of {one.new}")) for one in aliases)
+    for one in aliases:
+        yield Owner("old name", one.was, Owner("point", one.item)), (one.old,)
 
 
 def _mask(point: Point) -> int:
@@ -133,9 +137,15 @@ def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
     return "".join(f"_{part}" for part in parts)
 
 
-def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], ...]:
+def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, str], ...]:
     """The codes with which a device refuses: enumerator, number and comment."""
     return tuple(
         (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
         for code in device.bus.exceptions
     )
+
+
+def names_of_exceptions(device: Device, made: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
+    """The enumerators of the codes with which a device refuses."""
+    for code, (name, _, _) in zip(device.bus.exceptions, made, strict=True):
+        yield Owner("exception", code.name), (name,)

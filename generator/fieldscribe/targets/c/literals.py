@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import struct
 from functools import lru_cache
 from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.floats import pattern_of
+from fieldscribe.arithmetic.words import INT32, INT64, UINT64
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.model import Point
 
-INT32 = (-(1 << 31), (1 << 31) - 1)
-INT64 = (-(1 << 63), (1 << 63) - 1)
-UINT64 = (0, (1 << 64) - 1)
 VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
 """What the types that values and counts are passed in can hold."""
-
-EXACT_FLOAT = 1 << 24
-"""Every integer up to here is a binary32 number."""
 
 _RAW_TYPES = {
     "bit": "bool",
@@ -40,12 +36,6 @@ _KINDS = {
 def raw_type(point: Point) -> str:
     """The C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
     return _RAW_TYPES[point.type]
-
-
-def raw_bounds(point: Point) -> tuple[int, int]:
-    """The least and the greatest number of that C type (wider than the point's own for a bit group)."""
-    info = point.info
-    return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
 
 
 def raw_kind(point: Point) -> str:
@@ -95,12 +85,12 @@ def hexadecimal(number: int, digits: int = 4) -> str:
 
 def float_order(value: float, bits: int) -> int:
     """Where the binary32 or binary64 nearest to a value stands in the order of the patterns; 0 is 0, also for -0."""
-    pattern, word, infinity = ("<f", "<i", 0x7F80_0000) if bits == 32 else ("<d", "<q", 0x7FF0 << 48)
+    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     try:
-        size: int = struct.unpack(word, struct.pack(pattern, abs(value)))[0]
+        size = min(pattern_of(abs(value), bits), infinity - 1)
     except OverflowError:
-        size = infinity
-    return -min(size, infinity - 1) if value < 0 else min(size, infinity - 1)
+        size = infinity - 1
+    return -size if value < 0 else size
 
 
 def real(number: Fraction) -> str:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import SpecialView
 
 STATUS = "FIELDSCRIBE_STATUS"
@@ -32,7 +32,7 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
         yield Function(function("static inline size_t", f"{name}_decode", parameters, body))
 
 
-def digits_functions(point: Point, name: str, special: SpecialView | None, scope: Scope) -> Iterator[Function]:
+def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
     """The conversions of digits."""
     assert point.digits is not None
     count = point.digits.count

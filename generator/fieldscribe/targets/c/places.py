@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.views import Function
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
 
 
 def has_words(point: Point) -> bool:
@@ -51,7 +52,7 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     """Conversions between raw and the word it shares."""
     assert point.bits is not None
     kind, low = raw_type(point), point.bits[1]
-    place = f"{hexadecimal(((1 << point.width) - 1) << low)}, {low}U"
+    place = f"{hexadecimal(group_mask(point))}, {low}U"
     extract = f"fieldscribe_extract(word, {place})"
     if kind == "bool":
         extract = f"{extract} != 0U"
@@ -79,7 +80,7 @@ def fixes(point: Point) -> bool:
     return point.fixed is not None and point.bits is None
 
 
-def fixed_number(point: Point, _macro: str, _scope: Scope, name: str) -> str:
+def fixed_number(point: Point, _macro: str, _scope: HeaderScope, name: str) -> str:
     """The number `name` of the point's raw type with the constant bits of its word put in."""
     info = point.info
     width = max(16, info.bits)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import INT32, INT64
+from fieldscribe.lowered import plan_of
 from fieldscribe.targets.c.counts import count_fits, count_of_raw, linear, raw_of_count
 from fieldscribe.targets.c.literals import (
-    INT32,
-    INT64,
     bare,
     cast,
     raw_type,
@@ -16,11 +16,10 @@ from fieldscribe.targets.c.literals import (
     sign_and_size,
     unsigned,
 )
-from fieldscribe.targets.c.plans import is_float, plan_of
 
 if TYPE_CHECKING:
+    from fieldscribe.lowered import Plan
     from fieldscribe.model import Linear, Point
-    from fieldscribe.targets.c.plans import Plan
 
 _EXACT = 1 << 53
 
@@ -49,20 +48,20 @@ class Scaled:
 
 def scaled(point: Point, low: int, high: int) -> Scaled:
     """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    assert point.scale is not None
-    rule = point.scale[0].rule
+    assert point.fixed_scale is not None
+    rule = point.fixed_scale
     plan = plan_of(point, low, high)
     kind = "int64_t" if plan.count_wide else "int32_t"
     first, last = plan.counts
     open_ended = (first, last) == (INT64 if plan.count_wide else INT32)
-    wide = not is_float(plan, rule, low, high)
+    wide = not plan.fits_float
     within = "fieldscribe_within_wide" if plan.count_wide else "fieldscribe_within"
     return Scaled(
         count_type=kind,
         count_inside="" if open_ended else f"{within}(count, {bare(first)}, {bare(last)})",
         count_fits=count_fits(plan),
         counts=plan.counts,
-        direct=(plan.p, plan.q, plan.r) == (1, 0, 1),
+        direct=plan.to_raw.does_nothing,
         raw_of_count=cast(raw_type(point), raw_of_count(plan)),
         count_of_raw=_count(plan, kind),
         wide=wide,
@@ -81,9 +80,7 @@ def _count(plan: Plan, kind: str) -> str:
 
 def is_double(point: Point, low: int, high: int) -> bool:
     """Whether the values of a scaled point are always double."""
-    assert point.scale is not None
-    rule = point.scale[0].rule
-    return not is_float(plan_of(point, low, high), rule, low, high)
+    return not plan_of(point, low, high).fits_float
 
 
 def _steps(rule: Linear, *, wide: bool) -> str:
@@ -108,16 +105,18 @@ def _constant(number: int) -> str:
 
 
 def _value_of_raw(plan: Plan, point: Point, *, wide: bool) -> str:
-    if max(plan.numerator, plan.c) > _EXACT:
+    factor, add, divisor = plan.to_value
+    if max(plan.numerator, divisor) > _EXACT:
         return _long_quotient(plan, point)
-    line = linear("raw", plan.a, -plan.b, "int64_t" if plan.numerator > INT32[1] else "int32_t")
-    number = "raw" if plan.a == 1 and plan.b == 0 else line
-    return f"fieldscribe_ratio{'_wide' if wide else ''}({number}, {plan.c})"
+    line = linear("raw", factor, add, "int64_t" if plan.numerator > INT32[1] else "int32_t")
+    number = "raw" if factor == 1 and add == 0 else line
+    return f"fieldscribe_ratio{'_wide' if wide else ''}({number}, {divisor})"
 
 
 def _long_quotient(plan: Plan, point: Point) -> str:
-    """(raw * a - b) / c to the nearest double, where a double does not hold the numerator."""
+    """(raw * factor + add) / divisor to the nearest double, where a double does not hold the numerator."""
+    factor, add, divisor = plan.to_value
     below, size = sign_and_size(point)
     above = "raw >= 0" if point.info.signed else "true"
-    numbers = [unsigned(abs(plan.a)), "true" if plan.b > 0 else "false", unsigned(abs(plan.b)), unsigned(plan.c)]
-    return f"fieldscribe_quotient({above if plan.a < 0 else below}, {size}, {', '.join(numbers)})"
+    numbers = [unsigned(abs(factor)), "true" if add < 0 else "false", unsigned(abs(add)), unsigned(divisor)]
+    return f"fieldscribe_quotient({above if factor < 0 else below}, {size}, {', '.join(numbers)})"

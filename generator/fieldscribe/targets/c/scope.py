@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import lower
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Point
 
 
 @dataclass(slots=True)
-class Scope:
+class HeaderScope:
     """The namespace of one device.
 
     `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits,
@@ -27,7 +29,7 @@ class Scope:
 
     prefix: str
     upper: str
-    points: Mapping[str, Point]
+    lowered: Lowered
     errata: frozenset[str]
     digits: frozenset[str]
     spaces: Mapping[str, str | None]
@@ -36,6 +38,11 @@ class Scope:
     enums: set[str] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
     tables: dict[object, str] = field(default_factory=dict)
+
+    @property
+    def points(self) -> Mapping[str, Point]:
+        """The points by item and by name."""
+        return self.lowered.points
 
     def struct(self, point: Point) -> str:
         """The struct for the raw numbers that a point needs; points that need the same ones share it."""
@@ -59,15 +66,11 @@ class Scope:
         return "".join(f", {self.raw(name)}" for name in names)
 
 
-def scope_of(device: Device, *, names_only: bool = False) -> Scope:
+def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:
     """A fresh scope for a device."""
-    points: dict[str, Point] = {}
-    for point in device.points:
-        points.setdefault(point.name, point)
-        points.setdefault(point.item, point)
     digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
     known = frozenset(one.id for one in device.errata if one.facts)
-    return Scope(device.id, upper(device.id), points, known, digits, _spaces(device), names_only)
+    return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
 
 
 def _spaces(device: Device) -> dict[str, str | None]:

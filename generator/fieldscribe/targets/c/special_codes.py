@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import INT64
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
-from fieldscribe.targets.c.literals import INT64, bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
+from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import CodesView, Function, SpecialView
 from fieldscribe.text import c_comment, c_string
 
@@ -15,14 +16,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Point, Special
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """What stands behind the name of a point, or of what its codes are shared by."""
 
 
-def special_view(point: Point, scope: Scope) -> SpecialView | None:
+def special_view(point: Point, scope: HeaderScope) -> SpecialView | None:
     """What the functions of a point ask about its special codes; None where it has none."""
     if not point.specials:
         return None
@@ -80,7 +81,7 @@ def encoded_limits(point: Point) -> tuple[int, int]:
     return min(low, *(one.low for one in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
-def _codes(point: Point, name: str, scope: Scope) -> CodesView | None:
+def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
     """The set of codes, at the first point that has it."""
     if name in scope.codes:
         return None
@@ -111,4 +112,4 @@ def _literal(raw: int, special: Special, point: Point) -> str:
 
 def _test(point: Point, codes: Iterable[Special]) -> str:
     literal = bare if point.info.signed else unsigned
-    return any_of([interval_test("raw", code.low, code.high, raw_bounds(point), literal) for code in codes])
+    return any_of([interval_test("raw", code.low, code.high, point.held, literal) for code in codes])

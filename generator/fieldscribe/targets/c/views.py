@@ -31,10 +31,11 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class TableView:
-    """A constant array: its type, name with brackets, and rows."""
+    """A constant array: its type, name, length (empty where the rows say it), and rows."""
 
     type: str
     name: str
+    length: str
     rows: tuple[str, ...]
 
 
@@ -125,13 +126,17 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class AliasView:
-    """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
+    """An old name of something that belongs to a renamed point: what the point and its item were called before.
 
+    `sort` tells the conformance program what it is: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
+    """
+
+    was: str
     old_item: str
     item: str
-    old: str
-    new: str
-    sort: str
+    old: str = ""
+    new: str = ""
+    sort: str = ""
 
 
 @dataclass(frozen=True, slots=True)

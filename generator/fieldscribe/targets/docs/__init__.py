@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.docs.page import page_of
-from fieldscribe.targets.docs.sheet import sheet_of
-from fieldscribe.targets.docs.special_codes import sheet_of_codes
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+    from fieldscribe.targets.identifiers import Names
+
+FOR_PEOPLE = True
 
 NEEDS_FAMILY = False
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""
+    from fieldscribe.targets.docs.page import page_of
+    from fieldscribe.targets.docs.sheet import sheet_of
+    from fieldscribe.targets.docs.special_codes import sheet_of_codes
+
     yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(device)}).rstrip("\n") + "\n"
     yield f"docs/{device.id}.csv", render("docs/device.csv.j2", {"rows": sheet_of(device)})
     if codes := sheet_of_codes(device):
@@ -29,3 +32,15 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     """Documentation needs no runtime."""
     del device
     return ()
+
+
+def identifiers(device: Device) -> Iterable[Names]:
+    """What is read by people has no namespaces."""
+    del device
+    return ()
+
+
+def device_name_taken(name: str) -> str:
+    """Every name will do for a page."""
+    del name
+    return ""

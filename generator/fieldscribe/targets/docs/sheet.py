@@ -73,15 +73,9 @@ def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
         _cell(point.unit.symbol),
         _cell(wording.scale_text(point, by_name)),
         _cell(wording.resolution_text(point)),
-        _default(point),
+        _cell(wording.default_text(point, unit=False)),
         _cell(wording.steps_text(point)),
     )
-
-
-def _default(point: Point) -> str:
-    """The factory setting without its unit, which has a column."""
-    text = wording.default_text(point)
-    return _cell(text.removesuffix(f" {point.unit.symbol}") if point.unit.symbol else text)
 
 
 def _names(point: Point) -> tuple[str, ...]:

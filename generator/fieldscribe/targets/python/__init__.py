@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.python.device import device_view
+from fieldscribe.targets.python.device import device_view, uses
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
-from fieldscribe.targets.python.names import identifiers
+from fieldscribe.targets.python.names import device_name_taken, identifiers
 from fieldscribe.targets.python.points import points_view
 from fieldscribe.text import python_doc
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
+FOR_PEOPLE = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
@@ -31,7 +32,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     head = _head(device)
     enums = enums_view(device, names)
     folder = f"python/{names.package}"
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, "view": names})
+    shown = {"uses": uses(device, names.device_class, "")}
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})
@@ -61,4 +63,4 @@ def _head(device: Device) -> Mapping[str, object]:
     }
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

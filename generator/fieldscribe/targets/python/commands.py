@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.model import Command, Device, Place
 from fieldscribe.targets.python.forms import place
-from fieldscribe.targets.python.identifiers import attribute
+from fieldscribe.targets.python.identifiers import command_attributes
 from fieldscribe.targets.python.layout import Group, laid_out
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 
 def variants(device: Device) -> Group:
@@ -25,15 +25,13 @@ def variants(device: Device) -> Group:
     return Group("{", tuple(made), "}")
 
 
-def commands(device: Device, scope: Scope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
+def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
     """Each command: its attribute, what makes it, the arguments and the docstring."""
-    points = {point.item for point in device.points} | {point.name for point in device.points}
-    for one in device.commands:
+    for one, name in command_attributes(device):
         scope.used.add("Command")
-        name = f"{one.name}_command" if one.name in points else one.name
         where = place("at", Place("write", one.space, (one.address,), one.function), scope)
         value = () if one.value is None else (f"value={one.value}",)
-        yield attribute(name), "Command", (laid_out(where, 8), *value), (_command_doc(one),)
+        yield name, "Command", (laid_out(where, 8), *value), (_command_doc(one),)
 
 
 def _command_doc(command: Command) -> str:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
 from fieldscribe.targets.python.families import in_python
-from fieldscribe.targets.python.identifiers import Identifiers, parameter, sorted_imports
-from fieldscribe.text import python_string
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
+from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device
+    from fieldscribe.model import Device, Point
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +26,13 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class DeviceClass:
-    """One class: its name, the device of the runtime that it is, the transport that this takes, and how to read."""
+    """One class: its name, the device of the runtime that it is, the transport that this takes, and how to use it."""
 
     name: str
     base: str
     transport: str
     example: str
+    uses: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +46,32 @@ class DeviceView:
     settings: tuple[tuple[str, str], ...]
 
 
+def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
+    """A program that shows what the class is for, with points of the device."""
+    point = _shown(device, "rw") or _shown(device, "r")
+    if point is None:
+        return ()
+    one = attribute(point.item)
+    settings = "".join([f", {setting}" for setting, _ in in_python(device).settings])
+    variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
+    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{one}.read()"]
+    if point.writable:
+        lines.append(f"{wait}drive.{one}.write(value)")
+    lines.append(f"{wait}drive.read_many({python_string(point.group)})")
+    lines += [f"{name}.{one}.decode(raw)", f"help({name}.{one})"]
+    return tuple([python_doc(line) for line in lines])
+
+
+def _shown(device: Device, access: str) -> Point | None:
+    """The first point that can be read, and written too, a quantity if there is one."""
+    usual = [
+        one for one in device.points if one.generated and one.readable and one.variant is None and one.when is None
+    ]
+    fitting = [one for one in usual if one.writable or access == "r"]
+    quantities = [one for one in fitting if one.form in ("scaled", "float") and not one.specials]
+    return next(iter((*quantities, *fitting)), None)
+
+
 def device_view(device: Device, names: Identifiers) -> DeviceView:
     """The classes of the device."""
     family = in_python(device)
@@ -53,9 +80,9 @@ def device_view(device: Device, names: Identifiers) -> DeviceView:
         for axis, values in device.variants.items()
     )
     blocking, awaiting = family.blocking, family.awaiting
-    classes = (
-        DeviceClass(names.device_class, blocking.device, blocking.transport, "drive.point.read()"),
-        DeviceClass(names.async_class, awaiting.device, awaiting.transport, "await drive.point.read()"),
+    classes = tuple(
+        DeviceClass(name, flavour.device, flavour.transport, f"{wait}drive.point.read()", uses(device, name, wait))
+        for name, flavour, wait in ((names.device_class, blocking, ""), (names.async_class, awaiting, "await "))
     )
     used = {blocking.device, awaiting.device}
     if axes:  # only then has the class a constructor of its own

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from fieldscribe.model import Device, Point, Telegram
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 RUNTIME = "fieldscribe_runtime"
 """The package that all generated devices share."""
@@ -30,7 +30,7 @@ class Flavour:
 
 
 @dataclass(frozen=True, slots=True)
-class Family:
+class PythonFamily:
     """What generated modules take from the runtime, and what a device says of its bus.
 
     `module` holds the names in `exports` and those of the flavours. `settings` are further parameters of a device's
@@ -42,14 +42,14 @@ class Family:
     blocking: Flavour
     awaiting: Flavour
     settings: tuple[tuple[str, str], ...]
-    profile: Callable[[Device, Scope], Node]
-    blocks: Callable[[Device, Scope], Node | None]
+    profile: Callable[[Device, PackageScope], Node]
+    blocks: Callable[[Device, PackageScope], Node | None]
     maker: Callable[[Point], str]
 
 
-def in_python(device: Device) -> Family:
+def in_python(device: Device) -> PythonFamily:
     """What the device's family says of itself, in its part `targets.python`."""
-    said: Family = family(device.family).part("targets.python").IN_PYTHON
+    said: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
     return said
 
 
@@ -58,12 +58,12 @@ def usual_maker(point: Point) -> str:
     return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
-def no_blocks(device: Device, scope: Scope) -> None:
+def no_blocks(device: Device, scope: PackageScope) -> None:
     """For families whose reads are not planned."""
     del device, scope
 
 
-def telegrams(made: Iterable[Telegram], scope: Scope) -> tuple[Node, ...]:
+def telegrams(made: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
     """The telegrams of a device."""
     found = []
     for one in made:

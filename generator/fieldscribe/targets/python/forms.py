@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
 from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
@@ -12,7 +11,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from fractions import Fraction
 
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.lowered import Operand
+    from fieldscribe.model import Bound, Linear, Place, Point, ScaleCase, Special
+    from fieldscribe.targets.python.scope import PackageScope
 
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
@@ -20,7 +21,7 @@ NUMBERED = frozenset({"parameter", "telegram"})
 """Spaces whose addresses manuals print in decimal."""
 
 
-def form(point: Point, scope: Scope) -> Node:
+def form(point: Point, scope: PackageScope) -> Node:
     """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
     inner = _plain_form(point, scope)
     if not point.specials:
@@ -30,7 +31,7 @@ def form(point: Point, scope: Scope) -> Node:
     return call(around, (inner, _codes(point, scope)))
 
 
-def _codes(point: Point, scope: Scope) -> Node:
+def _codes(point: Point, scope: PackageScope) -> Node:
     """The special codes of a point; those that many share have a name of their own."""
     scope.used.add("Codes")
     if not point.shared_codes:
@@ -57,7 +58,7 @@ def _code_number(raw: int, special: Special) -> str:
     return f"0x{raw:04X}" if special.hexadecimal and raw >= 0 else str(raw)
 
 
-def _plain_form(point: Point, scope: Scope) -> Node:
+def _plain_form(point: Point, scope: PackageScope) -> Node:
     if point.form == "bit":
         scope.used.add("Bit")
         return "Bit()"
@@ -67,19 +68,19 @@ def _plain_form(point: Point, scope: Scope) -> Node:
     return _FORMS[point.form](point, point.type.upper(), scope)
 
 
-def _integer(point: Point, wire: str, scope: Scope) -> Node:
+def _integer(point: Point, wire: str, scope: PackageScope) -> Node:
     del point
     scope.used.add("Integer")
     return f"Integer({wire})"
 
 
-def _floating(point: Point, wire: str, scope: Scope) -> Node:
+def _floating(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.add("Floating")
     pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
     return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
 
 
-def _scaled(point: Point, wire: str, scope: Scope) -> Node:
+def _scaled(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Rule", "Scaled"))
     arguments = [wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"]
     if not point.encodes_values:
@@ -89,19 +90,19 @@ def _scaled(point: Point, wire: str, scope: Scope) -> Node:
     return call("Scaled", tuple(arguments))
 
 
-def _flags(point: Point, wire: str, scope: Scope) -> Node:
+def _flags(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Flags", "enums"))
     return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
 
 
-def _named(point: Point, wire: str, scope: Scope) -> Node:
+def _named(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Named", "enums"))
     enum = "" if point.enum is None else scope.names.enum_class(point.enum.name)
     closed = ("closed=True",) if point.enum is not None and point.enum.closed else ()
     return call("Named", (wire, f"enums.{enum}", *closed))
 
 
-def _digits(point: Point, wire: str, scope: Scope) -> Node:
+def _digits(point: Point, wire: str, scope: PackageScope) -> Node:
     scope.used.update(("Digits", "enums"))
     enum = "" if point.digits is None else scope.names.enum_class(point.digits.enum.name)
     return call("Digits", (wire, f"enums.{enum}", f"count={0 if point.digits is None else point.digits.count}"))
@@ -117,7 +118,7 @@ _FORMS = {
 }
 
 
-def _text(point: Point, scope: Scope) -> Node:
+def _text(point: Point, scope: PackageScope) -> Node:
     scope.used.add("Text")
     if point.text is None or point.text.encoding == "ascii":
         return f"Text({0 if point.text is None else point.text.characters})"
@@ -128,18 +129,12 @@ def _only_named(point: Point) -> bool:
     """Whether exactly the numbers of a closed enum may be written."""
     if point.enum is None or not point.enum.closed:
         return False
-    named = {entry.raw for entry in point.enum.entries}
-    count = 0
-    for one in point.allowed.intervals:
-        if isinstance(one.low, Limit) or isinstance(one.high, Limit) or one.high - one.low >= len(named):
-            return False
-        count += one.high - one.low + 1
-        if not named.issuperset(range(one.low, one.high + 1)):
-            return False
-    return count == len(named)
+    named, ranges = {entry.raw for entry in point.enum.entries}, point.allowed.fixed
+    as_many = not point.allowed.moves and sum(high - low + 1 for low, high in ranges) == len(named)
+    return as_many and all(named.issuperset(range(low, high + 1)) for low, high in ranges)
 
 
-def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
+def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
@@ -157,7 +152,7 @@ def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
     return Group("(", tuple(made))
 
 
-def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
+def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
     """A linear rule as integers; special codes of a scale's factors are named with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
@@ -169,39 +164,39 @@ def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
         arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
     if linear.factors:
         scope.used.add("Factor")
-        arguments.append(Group("factors=(", tuple(_factor(one, scope, of_scale) for one in linear.factors)))
+        operands = scope.lowered.rule(linear).operands
+        arguments.append(Group("factors=(", tuple([_factor(one, of_scale=of_scale) for one in operands])))
     return call("Rule", arguments)
 
 
-def _factor(factor: Factor, scope: Scope, of_scale: bool) -> Node:
-    arguments: list[Node] = [python_string(factor.point)]
-    if factor.slope != 1:
-        arguments.append(f"slope={factor.slope}")
-    if factor.intercept:
-        arguments.append(f"intercept={factor.intercept}")
-    if factor.power != 1:
-        arguments.append(f"power={factor.power}")
-    source = scope.points.get(factor.point)
-    if source is not None and source.info.floating:
+def _factor(operand: Operand, *, of_scale: bool) -> Node:
+    arguments: list[Node] = [python_string(operand.point)]
+    if operand.slope != 1:
+        arguments.append(f"slope={operand.slope}")
+    if operand.intercept:
+        arguments.append(f"intercept={operand.intercept}")
+    if operand.power != 1:
+        arguments.append(f"power={operand.power}")
+    if operand.floating:
         arguments.append("f32=True")
-    if factor.ten_to:
-        arguments.append("ten_to=({}, {})".format(*(factor.exponents or scope.points[factor.point].outer)))
-    if of_scale and source is not None and source.specials:
-        arguments.append(Group("codes=(", tuple([f"({one.low}, {one.high})" for one in source.specials])))
+    if operand.exponents is not None:
+        arguments.append("ten_to=({}, {})".format(*operand.exponents))
+    if of_scale and operand.codes:
+        arguments.append(Group("codes=(", tuple([f"({low}, {high})" for low, high in operand.codes])))
     return call("Factor", arguments)
 
 
-def allowed(point: Point, scope: Scope) -> Node | None:
+def allowed(point: Point, scope: PackageScope) -> Node | None:
     """The raw numbers that may be written; None where the type or the enum's names say it."""
     intervals = point.allowed.intervals
     if point.form in ("float", "text", "digits") or _only_named(point):
         return None
-    if intervals == (Interval(point.least, point.greatest),):
+    if point.allowed.fixed == ((point.least, point.greatest),):
         return None
     return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
 
 
-def _bound(bound: Bound, scope: Scope) -> Node:
+def _bound(bound: Bound, scope: PackageScope) -> Node:
     if isinstance(bound, int):
         return str(bound)
     scope.used.update(("Limit", "Rule"))
@@ -221,7 +216,7 @@ def _bound(bound: Bound, scope: Scope) -> Node:
     )
 
 
-def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) -> Node:
+def place(keyword: str, where: Place, scope: PackageScope, point: Point | None = None) -> Node:
     """Where a point is, as `at=holding(0x1028)`; the point says its telegram or its index in an array."""
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
     index = [] if point is None or point.index is None else [f"index={point.index}"]

@@ -5,12 +5,20 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import PYTHON_RESERVED, pascal
+from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Command, Device, Point
+
+_RESERVED = frozenset(
+    {"False", "None", "True", "and", "as", "assert", "async", "await", "break", "case", "class", "continue"}
+    | {"def", "del", "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is"}
+    | {"lambda", "match", "nonlocal", "not", "or", "pass", "print", "raise", "return", "self", "try", "type"}
+    | {"while", "with", "yield", "_"}
+)
+"""The words of the language, and what everybody means by a few others."""
 
 DEVICE_MEMBERS = frozenset(
     {
@@ -59,18 +67,25 @@ WORD_MEMBERS = frozenset(
 )
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 
-_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "NamedNumber", "Points", "Self", "Word"}
+_CLASS_TAKEN = _RESERVED | {"Field", "Flag", "Literal", "NamedNumber", "Points", "Self", "Word"}
 """What no class may be called: the modules of enums and of the device refer to these."""
 
-_ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS
-_WORD_TAKEN = PYTHON_RESERVED | WORD_MEMBERS
-_PARAMETER_TAKEN = PYTHON_RESERVED | {"link", "self", "transport", "unit", "variants"}
+_ATTRIBUTE_TAKEN = _RESERVED | DEVICE_MEMBERS | HELPERS
+_WORD_TAKEN = _RESERVED | WORD_MEMBERS
+_PARAMETER_TAKEN = _RESERVED | {"link", "self", "transport", "unit", "variants"}
 _DIGITS = re.compile(r"([0-9]+)")
 
 
 def attribute(name: str) -> str:
     """The attribute of a point on the device class. A description's names never end with an underscore."""
     return f"{name}_" if name in _ATTRIBUTE_TAKEN else name
+
+
+def command_attributes(device: Device) -> Iterator[tuple[Command, str]]:
+    """The commands of a device with their attributes, beside those of the points."""
+    points = {name for point in device.points for name in (point.item, point.name)}
+    for command in device.commands:
+        yield command, attribute(f"{command.name}_command" if command.name in points else command.name)
 
 
 def word_attribute(name: str) -> str:
@@ -105,7 +120,7 @@ class Identifiers:
     """The final names of one device: its package, its classes, and a class for each enum and each word of flags."""
 
     def __init__(self, device: Device) -> None:
-        self.package = attribute(device.id) if device.id in PYTHON_RESERVED else device.id
+        self.package = attribute(device.id) if device.id in _RESERVED else device.id
         own = pascal(device.id)
         self.device_class = f"{own}Device" if own in _CLASS_TAKEN else own
         self.async_class = f"{self.device_class}Async"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.text import python_doc
@@ -16,11 +16,17 @@ WIDTH = 88
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A call, tuple or dict: what opens it (`Rule(`, `allowed=(`), its items, and what closes it."""
+    """A call, tuple or dict: what opens it (`Rule(`, `allowed=(`), its items, what closes it, and whether it calls."""
 
     head: str
     items: tuple[Node, ...]
     close: str = ")"
+    calls: bool = False
+
+    @property
+    def is_tuple(self) -> bool:
+        """Whether a single item needs a comma behind it."""
+        return self.close == ")" and not self.calls
 
 
 Node = str | Group
@@ -33,12 +39,12 @@ def comment(text: str) -> str:
 
 def call(head: str, items: Iterable[Node]) -> Group:
     """A call of `head`."""
-    return Group(f"{head}(", tuple(items))
+    return Group(f"{head}(", tuple(items), calls=True)
 
 
 def assigned(name: str, node: Group) -> Group:
     """The expression with the assignment to a name before it."""
-    return Group(f"{name} = {node.head}", node.items, node.close)
+    return replace(node, head=f"{name} = {node.head}")
 
 
 def laid_out(node: Node, indent: int) -> str:
@@ -56,19 +62,15 @@ def _spread(node: Group, indent: int) -> str:
     itself is spread.
     """
     inner, only = " " * (indent + 4), node.items[0] if len(node.items) == 1 else ""
-    if isinstance(only, Group) and only.items and _is_tuple(node):
+    if isinstance(only, Group) and only.items and node.is_tuple:
         return f"{node.head}\n{inner}{_spread(only, indent + 4)},\n{' ' * indent}{node.close}"
     items = "".join(f"{inner}{laid_out(item, indent + 4)},\n" for item in node.items)
     return f"{node.head}\n{items}{' ' * indent}{node.close}"
-
-
-def _is_tuple(node: Group) -> bool:
-    return node.head == "(" or node.head.endswith("=(") or node.head.endswith(": (")
 
 
 def flat(node: Node) -> str:
     """The expression on one line."""
     if isinstance(node, str):
         return node
-    comma = "," if len(node.items) == 1 and _is_tuple(node) else ""
+    comma = "," if len(node.items) == 1 and node.is_tuple else ""
     return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"

@@ -2,66 +2,72 @@
 
 from __future__ import annotations
 
+import sys
+from keyword import iskeyword
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal, upper
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.python.device import device_view
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, word_attribute
+from fieldscribe.targets.python.identifiers import (
+    Identifiers,
+    attribute,
+    command_attributes,
+    parameter,
+    word_attribute,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Point
 
-OWN = Owner("target", "what the package needs")
+_OWN = Owner("target", "what the package needs")
+_POINTS = "Python, the points"
 
 
-def identifiers(device: Device) -> Iterator[Identifier]:
+def device_name_taken(name: str) -> str:
+    """Why no package may have that name; empty where it may."""
+    if iskeyword(name):
+        return "is a word that Python reserves, so that no program could name its package"
+    if name in sys.stdlib_module_names:
+        return "is a module of Python's own, which the generated package would hide"
+    return ""
+
+
+def identifiers(device: Device) -> Iterator[Names]:
     """Every name that the description decides, and those that the package needs beside them."""
     names = Identifiers(device)
     yield from _of_device(device, names)
     for enum in device.enums:
-        owner = Owner("enum", enum.name)
+        owner, space = Owner("enum", enum.name), f"Python, the enum `{enum.name}`"
         for entry in enum.entries:
-            space = f"Python, enums.{names.enum_class(enum.name)}"
-            yield Identifier(space, upper(entry.name), owner._replace(part=f"entry {entry.name}"))
+            yield Names(space, Owner("entry", entry.name, owner), (upper(entry.name),))
     for point in device.points:
         if point.generated:
             yield from _of_point(point)
-    yield from _commands(device)
+    for command, name in command_attributes(device):
+        yield Names(_POINTS, Owner("command", command.name), (name,))
 
 
-def _of_device(device: Device, names: Identifiers) -> Iterator[Identifier]:
+def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
     """The device module, the constructor of its classes, and what the package exports."""
-    module, view = "Python, the device module", device_view(device, names)
-    for name in ("Literal", "Points", *view.imports):
-        yield Identifier(module, name, OWN)
-    for name in (names.device_class, names.async_class):
-        yield Identifier(module, name, Owner("device", device.id, f"class {name}"))
+    module, constructor, view = "Python, the device module", "Python, the constructor", device_view(device, names)
+    yield Names(module, _OWN, ("Literal", "Points", *view.imports))
+    yield Names(module, Owner("device", device.id), (names.device_class, names.async_class))
+    yield Names(constructor, _OWN, ("transport", "unit", "self", *(name for name, _ in view.settings)))
     for axis in device.variants:
-        yield Identifier(module, f"{pascal(axis)}Choice", Owner("variant", axis))
-    for name in ("transport", "unit", "self", *(name for name, _ in view.settings)):
-        yield Identifier("Python, the constructor", name, OWN)
-    for axis in device.variants:
-        yield Identifier("Python, the constructor", parameter(axis), Owner("variant", axis))
+        yield Names(module, Owner("variant", axis), (f"{pascal(axis)}Choice",))
+        yield Names(constructor, Owner("variant", axis), (parameter(axis),))
 
 
-def _of_point(point: Point) -> Iterator[Identifier]:
-    owner, space = Owner("point", point.item), "Python, the points"
-    yield Identifier(space, attribute(point.item), owner)
+def _of_point(point: Point) -> Iterator[Names]:
+    owner = Owner("point", point.item)
+    yield Names(_POINTS, owner, (attribute(point.item),))
     if point.variant is not None:
-        yield Identifier(space, attribute(point.name), Owner("point", point.name))
+        yield Names(_POINTS, Owner("point", point.name), (attribute(point.name),))
     for old in point.was:
-        yield Identifier(space, attribute(old), Owner("point", point.name, f"old name {old}"))
-    for flag in point.flags:
-        named = owner._replace(part=f"flag {flag.name}")
-        for name in (upper(flag.name), word_attribute(flag.name)):
-            yield Identifier(f"Python, the flags of {point.item}", name, named)
-
-
-def _commands(device: Device) -> Iterator[Identifier]:
-    points = {name for point in device.points for name in (point.item, point.name)}
-    for command in device.commands:
-        name = f"{command.name}_command" if command.name in points else command.name
-        yield Identifier("Python, the points", attribute(name), Owner("command", command.name))
+        yield Names(_POINTS, Owner("old name", old, Owner("point", point.name)), (attribute(old),))
+    for flag in point.flags if point.form == "flags" else ():
+        space = f"Python, the flags of `{point.item}`"
+        yield Names(space, Owner("flag", flag.name, owner), (upper(flag.name), word_attribute(flag.name)))

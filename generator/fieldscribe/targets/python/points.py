@@ -6,13 +6,14 @@ import textwrap
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import lower
 from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.existence import only_for, uncertain
-from fieldscribe.targets.python.families import RUNTIME, Family, in_python
+from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
-from fieldscribe.targets.python.scope import Scope
+from fieldscribe.targets.python.scope import PackageScope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
@@ -67,7 +68,7 @@ class PointsView:
 def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = in_python(device)
-    scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
+    scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
     errata = frozenset([one.id for one in device.errata if one.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
@@ -97,32 +98,33 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     )
 
 
-def _documented(point: Point, scope: Scope) -> Group:
+def _documented(point: Point, scope: PackageScope) -> Group:
     """Why there is no attribute, and where the words are, if a master can reach them."""
     scope.used.add("Documented")
     where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
     why = python_string(point.reason or "no reason given")
-    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where))
+    code = [f"code={python_string(point.code)}"] if point.code else []
+    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
 
 
-def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
+def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
     """The names by the module that they come from, as import sorters have them."""
     own = used & family.exports if family.module != RUNTIME else set()
     found = [(RUNTIME, sorted_imports(used - own)), (family.module, sorted_imports(own))]
     return [(module, names) for module, names in found if names]
 
 
-def _point(point: Point, family: Family, scope: Scope, errata: Collection[str]) -> PointView:
+def _point(point: Point, family: PythonFamily, scope: PackageScope, errata: Collection[str]) -> PointView:
     maker = family.maker(point)
     scope.used.add(maker)
     old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
     if old_names:
         scope.used.add("renamed")
     arguments = tuple([laid_out(argument, _BODY) for argument in _arguments(point, scope)])
-    return PointView(attribute(point.item), maker, arguments, _doc(point, errata, scope.points), old_names)
+    return PointView(attribute(point.item), maker, arguments, _doc(point, errata, scope.lowered.points), old_names)
 
 
-def _arguments(point: Point, scope: Scope) -> list[Node]:
+def _arguments(point: Point, scope: PackageScope) -> list[Node]:
     arguments = [form(point, scope), *_places(point, scope)]
     if point.unit.symbol:
         arguments.append(f"unit={python_string(point.unit.symbol)}")
@@ -148,11 +150,11 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
     return arguments
 
 
-def _places(point: Point, scope: Scope) -> list[Node]:
+def _places(point: Point, scope: PackageScope) -> list[Node]:
     """Where the point is, on the wire and in the manual."""
     arguments: list[Node] = [place("at", point.places[0], scope, point)]
-    write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
-    if write_place is not point.places[0] and point.writable:
+    write_place = point.write_place
+    if write_place is not None and write_place is not point.places[0] and point.writable:
         arguments.append(place("write_at", write_place, scope, point))
     if point.bits is not None:
         arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
@@ -173,7 +175,7 @@ def _references(point: Point) -> Group:
     return Group("references={", tuple(pairs), "}")
 
 
-def _by_variant(points: list[Point], scope: Scope) -> PointView:
+def _by_variant(points: list[Point], scope: PackageScope) -> PointView:
     scope.used.add("ByVariant")
     axis = (points[0].variant or "").partition("=")[0]
     chosen = [f"{python_string((one.variant or '').partition('=')[2])}: {attribute(one.item)}" for one in points]

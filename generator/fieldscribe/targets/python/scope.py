@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.model import Point
+    from fieldscribe.lowered import Lowered
     from fieldscribe.targets.python.identifiers import Identifiers
     from fieldscribe.targets.python.layout import Node
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
+class PackageScope:
     """Final names, points by name, variants; filled on the way: names of the runtime in use, codes that are shared."""
 
     names: Identifiers
-    points: Mapping[str, Point]
+    lowered: Lowered
     variants: Mapping[str, tuple[str, ...]]
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.rust.conformance import arms, conformance_tables, row_lines
 from fieldscribe.targets.rust.device import device_context
-from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
 if TYPE_CHECKING:
@@ -15,6 +14,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+
+FOR_PEOPLE = False
 
 _SOURCES = ("lib", "points", "enums", "flags", "with")
 _RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
@@ -24,6 +25,8 @@ NEEDS_FAMILY = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
+    from fieldscribe.targets.rust.conformance import arms, conformance_tables
+
     scope = scope_of(device)
     context = device_context(device, scope)
     folder = f"rust/{device.id}"
@@ -31,8 +34,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope, device)
-    lines = [(kind, run, tuple(map(row_lines, rows))) for kind, run, rows in tables]
-    suite = {**context, "tables": lines, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
+    suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 
@@ -43,4 +45,4 @@ def runtime(_: Device) -> Iterator[tuple[str, str]]:
             yield f"rust/{crate}/{name}", f"rust/runtime/{crate}/{name}"
 
 
-__all__ = ["identifiers", "outputs", "runtime"]
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]

@@ -14,58 +14,60 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bound, Point
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.layout import Lines
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 _WRITES = {"coil": (5, 15), "holding": (6, 16)}
 _WIDTH = 112
 
 
-def read_lines(subject: Subject) -> tuple[str, ...]:
+def read_lines(subject: CratePoint) -> tuple[str, ...]:
     """The facts of reading."""
     count, factors, place = count_type(subject), subject.factors_type, subject.point.places[0]
     facts = [f"count {count};"] if count else []
     facts += [f"with {factors};"] if factors != "()" else []
     facts += [f"function {place.function};"] if place.function not in (None, _READS.get(place.space)) else []
-    return _block("read", facts)
+    return _block("read", [(fact,) for fact in facts])
 
 
-def write_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     """The facts of writing."""
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
     facts += [f"with {subject.with_type};"] if subject.arguments else []
     facts += ["closed true;"] if subject.closed else []
-    facts += [*_allowed(subject, scope), *_place(subject.point, scope)]
-    return _block("write", facts if subject.point.encodes_values else [*facts, "values none;"])
+    tail = () if subject.point.encodes_values else ("values none;",)
+    allowed = _allowed(subject, scope)
+    others = (*_place(subject.point, scope), *tail)
+    return _block("write", [*((fact,) for fact in facts), *allowed, *((fact,) for fact in others)])
 
 
-def _block(name: str, facts: list[str]) -> tuple[str, ...]:
-    line = f"{name} {{ {' '.join(facts)} }}" if facts else f"{name} {{}}"
-    if len(line) <= _WIDTH and "\n" not in line:
-        return (line,)
-    lines = (line for fact in facts for line in fact.split("\n"))
+def _block(name: str, facts: list[Lines]) -> Lines:
+    """Facts in one line if they fit, else each in lines of its own."""
+    lines = [line for fact in facts for line in fact]
+    whole = f"{name} {{ {' '.join(lines)} }}" if facts else f"{name} {{}}"
+    if len(whole) <= _WIDTH and len(lines) == len(facts):
+        return (whole,)
     return (f"{name} {{", *(f"    {line}" for line in lines), "}")
 
 
-def _allowed(subject: Subject, scope: Scope) -> Iterator[str]:
+def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     """What may be written, where that is not every number between two ends."""
     point = subject.point
     if subject.limits:
-        yield "\n".join(_limits(point, scope))
+        yield tuple(_limits(point, scope))
     elif subject.form == "float":
-        yield from _float_ranges(point)
-    elif subject.form == "text" and point.text is not None:
-        yield from ["check runtime::form::text::ascii::<Self>;"] if point.text.encoding == "ascii" else ()
+        yield from ((ranges,) for ranges in _float_ranges(point))
+    elif subject.form == "text" and point.text is not None and point.text.encoding == "ascii":
+        yield ("check runtime::form::text::ascii::<Self>;",)
     elif subject.form == "digits" and point.digits is not None:
-        yield f"check runtime::form::digits::check::<Self, {point.digits.count}>;"
-    else:
-        ranges = _merged(point)
-        if len(ranges) > 1:
-            yield "\n".join(filled("in [", " | ", [interval(*one) for one in ranges], "];"))
+        yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
+    elif subject.form != "text" and len(ranges := point.allowed.fixed) > 1:
+        yield filled("in [", " | ", [interval(*one) for one in ranges], "];")
 
 
-def _limits(point: Point, scope: Scope) -> Iterator[str]:
+def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
     """A pair of ends for each range, of which other points set one or both."""
     yield "limits |with| ["
     for one in point.allowed.intervals:
@@ -81,8 +83,8 @@ def _limits(point: Point, scope: Scope) -> Iterator[str]:
     yield "];"
 
 
-def _end(bound: Bound, scope: Scope, *, lower: bool) -> tuple[str, ...]:
-    return limit_lines(bound, scope.points, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
+def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
+    return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
@@ -94,22 +96,10 @@ def _float_ranges(point: Point) -> Iterator[str]:
         yield f"ranges [{pairs}];"
 
 
-def _merged(point: Point) -> list[tuple[int, int]]:
-    """The ranges that may be written in ascending order, neighbours joined."""
-    ends = ((one.low, one.high) for one in point.allowed.intervals)
-    found: list[tuple[int, int]] = []
-    for low, high in sorted((low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)):
-        if found and low <= found[-1][1] + 1:
-            found[-1] = (found[-1][0], max(high, found[-1][1]))
-        else:
-            found.append((low, high))
-    return found
-
-
-def _place(point: Point, scope: Scope) -> Iterator[str]:
+def _place(point: Point, scope: CrateScope) -> Iterator[str]:
     """Function and address that write the point, where they are not the usual ones."""
     first = point.places[0]
-    place = first if first.purpose == "write" else next((one for one in point.places if one.purpose == "write"), first)
+    place = point.write_place or first
     one, many = _WRITES.get(place.space, (0, 0))
     usual = one if point.words == 1 else many
     function = place.function if place.purpose == "write" else None

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.rust.families import in_rust
-from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.families import Table, in_rust
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
@@ -16,16 +14,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.rust.families import Needs, Table, Way
-    from fieldscribe.targets.rust.subjects import Scope, Subject
-
-_TOKEN = re.compile(r'(?:"(?:\\.|[^"\\])*"|[^\s"])+')
+    from fieldscribe.targets.rust.families import Needs, Tokens, Way
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
 
 
-def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
+def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
     scaled = [one for one in scope.subjects if one.form == "scaled"]
     floats = [one for one in scope.subjects if one.form == "float"]
@@ -39,39 +35,37 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     encoding = [one for one in scaled if one.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
     write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
+    alone = ("(alone)",)
     return (
-        ("decode", "decode", (*read_scaled, *_reads(floats))),
-        ("encode", "encode", (*_writes(encoding), *_writes(floats))),
-        ("decode_count", "decode_count", tuple(_reads(counted))),
-        ("decode_plain", "decode_plain", tuple(_reads(plain))),
-        ("decode_coded", "decode_coded", tuple(_reads(coded))),
-        ("decode_mixed", "decode_count", tuple(_reads(mixed))),
-        ("encode_count", "encode_count", tuple(_writes(counted))),
-        ("encode_plain", "encode_plain", write_plain),
-        ("encode_coded", "encode_coded", write_coded),
-        ("encode_mixed", "encode_count", write_mixed),
-        (
+        Table("decode", "decode", (*read_scaled, *_reads(floats))),
+        Table("encode", "encode", (*_writes(encoding), *_writes(floats))),
+        Table("decode_count", "decode_count", tuple(_reads(counted))),
+        Table("decode_plain", "decode_plain", tuple(_reads(plain))),
+        Table("decode_coded", "decode_coded", tuple(_reads(coded))),
+        Table("decode_mixed", "decode_count", tuple(_reads(mixed))),
+        Table("encode_count", "encode_count", tuple(_writes(counted))),
+        Table("encode_plain", "encode_plain", write_plain),
+        Table("encode_coded", "encode_coded", write_coded),
+        Table("encode_mixed", "encode_count", write_mixed),
+        Table(
             "check",
             "check",
             (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
         ),
-        ("name", "name", tuple(_names((*whole, *digits)))),
-        ("special", "special", tuple(row_of(one, "alone") for one in scope.subjects if one.point.specials)),
-        ("special_name", "special_name", tuple(row_of(one, "alone") for one in scope.subjects if one.point.specials)),
-        ("flag", "flag", tuple(_flags(whole))),
-        ("flag_name", "flag_name", tuple(_flag_names(whole))),
-        ("bits", "bits", tuple(row_of(one, "alone") for one in scope.subjects if one.point.bits)),
-        ("words", "words", tuple(row_of(one, "alone") for one in scope.subjects if _has_words(one.point))),
-        ("address", "address", tuple(row_of(one, _references(one.point)) for one in scope.subjects)),
-        ("symbol", "symbol", tuple(row_of(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
+        Table("name", "name", tuple(_names((*whole, *digits)))),
+        Table("special", "special", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)),
+        Table(
+            "special_name", "special_name", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)
+        ),
+        Table("flag", "flag", tuple(_flags(whole))),
+        Table("flag_name", "flag_name", tuple(_flag_names(whole))),
+        Table("bits", "bits", tuple(row_of(one, alone) for one in scope.subjects if one.point.bits)),
+        Table("words", "words", tuple(row_of(one, alone) for one in scope.subjects if _has_words(one.point))),
+        Table("address", "address", tuple(row_of(one, _references(one.point)) for one in scope.subjects)),
+        Table("symbol", "symbol", tuple(row_of(one, alone) for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
-
-
-def row_lines(row: str) -> tuple[str, ...]:
-    """A row of a table in lines; it is broken between tokens alone."""
-    return filled("", " ", _TOKEN.findall(row), ";")
 
 
 def _protocol(device: Device) -> Iterator[Table]:
@@ -86,28 +80,41 @@ def _protocol(device: Device) -> Iterator[Table]:
                 constants.append(_code(codes.kind, f"{codes.kind}s", code.name, "code"))
     for kind, rows in (("constant", constants), (own.refusals, named)):
         if rows:
-            yield kind, "code", tuple(rows)
+            yield Table(kind, "code", tuple(rows))
     yield from own.tables_of_frames(device)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
-        names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]
-        yield "documented", "documented", tuple(names)
+        documented = (item_row(one.item, "points", "documented", one.item.upper()) for one in places)
+        yield Table("documented", "documented", tuple(documented))
     if device.commands:
-        sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
-        yield "command", "command", tuple(sent)
+        sent = (item_row(one.name, "commands", "sent", one.name.upper()) for one in device.commands)
+        yield Table("command", "command", tuple(sent))
 
 
-def _code(what: str, module: str, name: str, how: str) -> str:
-    return f"{rust_string(f'{what} {name}')} {module} ({how} {name.upper()})"
+def item_row(key: str, module: str, how: str, name: str) -> Tokens:
+    """The row of something that is no point: its key in the vectors, and where it is in the crate."""
+    return rust_string(key), module, *_bracketed((how, name))
 
 
-def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
+def _code(what: str, module: str, name: str, how: str) -> Tokens:
+    return item_row(f"{what} {name}", module, how, name.upper())
+
+
+def _bracketed(tokens: Tokens) -> Tokens:
+    if not tokens:
+        return ("()",)
+    first, *others = tokens
+    return (f"({first})",) if not others else (f"({first}", *others[:-1], f"{others[-1]})")
+
+
+def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint]) -> Iterator[Table]:
     """The tables of kinds that few devices have."""
     placed = (one for one in scope.subjects if _has_place(one.point))
     fixed = (one for one in scope.subjects if one.point.fixed is not None)
+    alone = ("(alone)",)
     for kind, rows in (
-        ("place", tuple(row_of(one, "alone") for one in placed)),
-        ("fixed", tuple(row_of(one, "alone") for one in fixed)),
+        ("place", tuple(row_of(one, alone) for one in placed)),
+        ("fixed", tuple(row_of(one, alone) for one in fixed)),
         ("text_decode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.readable)),
         ("text_encode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),
@@ -116,26 +123,26 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
         ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
     ):
         if rows:
-            yield kind, kind, rows
+            yield Table(kind, kind, rows)
     yield from in_rust(scope.family).tables_of_points(scope)
-    ways: dict[tuple[str, str], list[str]] = {}
+    ways: dict[tuple[str, str], list[Tokens]] = {}
     for kind, run, row in _exchanges(scope):
         ways.setdefault((kind, run), []).append(row)
     for (kind, run), found in ways.items():
-        yield f"{kind}_by_{run}", run, tuple(found)
+        yield Table(f"{kind}_by_{run}", run, tuple(found), kind)
 
 
-def _exchanges(scope: Scope) -> Iterator[tuple[str, str, str]]:
+def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
     """The kind, the runner's function and the row of each point that travels."""
     for one in scope.subjects:
         if not one.point.places:
             continue
         for kind, run, needs in _ways(one, scope):
-            given = "".join(f" ({_arguments(*pair)})" for pair in needs)
-            yield kind, run, row_of(one, f"wire{given}")
+            given = [token for pair in needs for token in _bracketed(_arguments(*pair))]
+            yield kind, run, row_of(one, _bracketed(("wire", *given)))
 
 
-def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
     point = subject.point
     text = "_text" if subject.form == "text" else ""
@@ -146,7 +153,7 @@ def _ways(subject: Subject, scope: Scope) -> Iterator[Way]:
     yield from in_rust(scope.family).ways(subject, scope)
 
 
-def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
+def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
     """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
     point = subject.point
     if point.bits:
@@ -157,21 +164,23 @@ def change_of(subject: Subject, change: str, update: str) -> tuple[str, Needs]:
     return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
 
 
-def of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """The struct of what the scale needs, and its fields."""
-    return subject.factors_type, subject.factors
+    return subject.factors_struct, subject.factors
 
 
-def of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """The struct of all that writing needs, and its fields."""
-    return subject.with_type, subject.arguments
+    return subject.name, subject.arguments
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
     """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
-    names = [name for name, _, _ in tables]
+    answering: dict[str, list[str]] = {}
+    for table in tables:
+        answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
     for kind in ("read", "write", "store"):
-        calls = [f"{name}(vector)" for name in names if name.startswith(f"{kind}_by_")]
+        calls = answering.get(kind, [])
         chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
         if len(chain) == 2 or len("".join(chain)) <= _CHAIN:
             lines = ["".join(chain)] if chain else []
@@ -183,24 +192,24 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
             yield f"{whole[-1]},"
 
 
-def row_of(subject: Subject, how: str) -> str:
+def row_of(subject: CratePoint, how: Tokens) -> Tokens:
     """What a table says of one point."""
-    return f"{rust_string(subject.point.item)} {subject.name} ({how})"
+    return rust_string(subject.point.item), subject.name, *how
 
 
-def _sizes(point: Point) -> str:
-    return f"sizes {point.text.characters if point.text is not None else 0} {point.words}"
+def _sizes(point: Point) -> Tokens:
+    return _bracketed(("sizes", str(point.text.characters if point.text is not None else 0), str(point.words)))
 
 
-def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[str]:
+def _digits(subjects: Iterable[CratePoint], access: str, *, coded: bool) -> Iterator[Tokens]:
     for one in subjects:
         if access in one.point.access and bool(one.point.specials) == coded:
             yield row_of(one, _counted(one))
 
 
-def _counted(subject: Subject) -> str:
+def _counted(subject: CratePoint) -> Tokens:
     digits = subject.point.digits
-    return f"digits {digits.count if digits is not None else 0} {subject.carried}"
+    return _bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
 
 
 def _has_place(point: Point) -> bool:
@@ -213,47 +222,46 @@ def _has_words(point: Point) -> bool:
     return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 
-def _references(point: Point) -> str:
-    keys = (f"{key.upper()} {rust_string(key)}" for key in point.references)
-    return " ".join(("at" if point.text is None else "text", *keys))
+def _references(point: Point) -> Tokens:
+    keys = (token for key in point.references for token in (key.upper(), rust_string(key)))
+    return _bracketed(("at" if point.text is None else "text", *keys))
 
 
-def _reads(subjects: Iterable[Subject]) -> Iterator[str]:
+def _reads(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if "r" in one.point.access:
-            yield row_of(one, _arguments(one.factors_type, one.factors))
+            yield row_of(one, _bracketed(_arguments(*of_scale(one))))
 
 
-def _writes(subjects: Iterable[Subject]) -> Iterator[str]:
+def _writes(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if "w" in one.point.access:
-            yield row_of(one, _arguments(one.with_type, one.arguments))
+            yield row_of(one, _bracketed(_arguments(*of_all(one))))
 
 
-def _arguments(struct: str, names: tuple[str, ...]) -> str:
+def _arguments(struct: str, names: Tokens) -> Tokens:
     if not names:
-        return ""
-    fields = " ".join(f"{value_name(name)} {rust_string(name)}" for name in names)
-    return f"{struct.removeprefix('with::')}: {fields}"
+        return ()
+    return f"{struct}:", *(token for name in names for token in (value_name(name), rust_string(name)))
 
 
-def _names(subjects: Iterable[Subject]) -> Iterator[str]:
+def _names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if one.enum is not None:
-            yield f"{rust_string(one.point.item)} {type_name(one.enum.name)} (enum {one.carried})"
+            yield rust_string(one.point.item), type_name(one.enum.name), *_bracketed(("enum", one.carried))
 
 
-def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
+def _flags(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         if one.form == "flags":
             for flag in one.point.flags:
-                calls = f"flag {one.raw} {getter_name(flag.name)} with_{flag.name}"
-                yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"
+                calls = _bracketed(("flag", one.raw, getter_name(flag.name), f"with_{flag.name}"))
+                yield rust_string(f"{one.point.item} {flag.name}"), one.name, *calls
 
 
-def _flag_names(subjects: Iterable[Subject]) -> Iterator[str]:
+def _flag_names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for one in subjects:
         for flag in one.point.flags:
             for entry in flag.values if flag.width > 1 else ():
                 key = rust_string(f"{one.point.item} {flag.name} {entry.name}")
-                yield f"{key} {one.name} (value {flag.name.upper()}_{entry.name.upper()})"
+                yield key, one.name, *_bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))

@@ -20,7 +20,7 @@ from fieldscribe.text import line, rust_code, rust_string
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -37,14 +37,14 @@ def head(device: Device, comment: str) -> str:
 
 
 def _raw_only(point: Point) -> tuple[str, Lines]:
-    """Name and lines of the constant of a point that is reached raw only."""
+    """Item and lines of the constant of a point that is reached raw only."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    name = upper(point.item)
-    return name, binding(4, f"pub const {name}: runtime::Documented", f"runtime::Documented::new({where})")
+    left = f"pub const {upper(point.item)}: runtime::Documented"
+    return point.item, binding(4, left, f"runtime::Documented::new({where})")
 
 
-def device_context(device: Device, scope: Scope) -> dict[str, object]:
+def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     """What the templates of the crate's sources see."""
     points = tuple(point_view(subject, scope) for subject in scope.subjects)
     words = tuple(flags_views(scope))
@@ -79,7 +79,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
     }
 
 
-def _is_plainly_read(subject: Subject) -> bool:
+def _is_plainly_read(subject: CratePoint) -> bool:
     """Whether a client reads the point by itself alone."""
     point = subject.point
     return point.readable and point.telegram is None and subject.factors_type == "()"

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import gcd
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.lines import count_line
+from fieldscribe.arithmetic.words import fits
 from fieldscribe.targets.rust.literals import integer, type_name, type_range
 from fieldscribe.targets.rust.rules import rule_lines
-from fieldscribe.wording.exact import inverse
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 """The integer that holds any raw number of a point without a scale, and numbers beyond: an `i32` for the others."""
 
 
-def form_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+def form_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     """The fact that says what decoding gives."""
     kind = "reading" if subject.point.specials else "value"
     if subject.form == "scaled" and subject.rule is None:
@@ -28,7 +28,7 @@ def form_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
     return (f"=> {kind} {value_type(subject)} as {form}({facts});",)
 
 
-def value_type(subject: Subject) -> str:
+def value_type(subject: CratePoint) -> str:
     """The type of a value that is no special code."""
     if subject.form in ("scaled", "float"):
         return "f64"
@@ -41,7 +41,7 @@ def value_type(subject: Subject) -> str:
     return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
 
 
-def count_type(subject: Subject) -> str:
+def count_type(subject: CratePoint) -> str:
     """The integer that holds the counts of a point; empty if it has none."""
     point = subject.point
     if subject.form in ("float", "text", "digits"):
@@ -53,7 +53,7 @@ def count_type(subject: Subject) -> str:
     return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
 
 
-def _form(subject: Subject) -> tuple[str, str]:
+def _form(subject: CratePoint) -> tuple[str, str]:
     """The form of a point whose scale, if it has one, needs no other point; and its facts."""
     point = subject.point
     if subject.rule is not None:
@@ -69,7 +69,7 @@ def _form(subject: Subject) -> tuple[str, str]:
     return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
 
 
-def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
+def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:
     """A scale that needs other points: the rule, and the raw numbers that are not too large for it."""
     point = subject.point
     head = f"=> {kind}_or_error f64 as ruled(|with: {subject.factors_type}|"
@@ -78,7 +78,7 @@ def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
     if point.most_raw is not None:
         low = "0" if subject.raw.startswith("u") else integer(-point.most_raw)
         within = f"; within [{low}..={integer(point.most_raw)}]"
-    lines = rule_lines(point, scope.points)
+    lines = rule_lines(point, scope.lowered)
     if len(lines) == 1:
         return head, f"    {lines[0]}{wide}{within});"
     return head, *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]}{wide}{within});"
@@ -86,13 +86,11 @@ def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=4096)
 def _width(rule: Linear, decimals: int, raw: str) -> int:
-    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon."""
-    power = 10**decimals
-    multiply, add, divide = inverse(rule)
-    common = gcd(multiply * power, add * power, divide)
-    multiply, add, divide = multiply * power // common, add * power // common, divide // common
-    ends = type_range(raw)
-    products = [end * multiply for end in ends]
-    numbers = (*ends, *products, *(product + add for product in products), multiply, add, divide)
-    fitting = (bits for bits in (32, 64) if all(-(1 << (bits - 1)) <= one < 1 << (bits - 1) for one in numbers))
-    return next(fitting, 128)
+    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon.
+
+    That is linear in the raw number, so that the ends of its type come upon the largest. How the quotient is rounded is
+    the runtime's affair, which proves its own steps (`path.rs`).
+    """
+    line = count_line(rule, decimals).inverse
+    numbers = (*line, *line.meets(type_range(raw)))
+    return next((bits for bits in (32, 64) if fits(numbers, bits)), 128)

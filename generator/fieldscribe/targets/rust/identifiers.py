@@ -1,76 +1,121 @@
-"""All identifiers of a generated crate by namespace, so that a check can find two things with one name."""
+"""All identifiers of a generated crate by namespace."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import RUST_CONSTANTS, upper
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.names import upper
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.families import in_rust
-from fieldscribe.targets.rust.literals import type_name, variant_name
-from fieldscribe.targets.rust.subjects import Subject, scope_of
-from fieldscribe.targets.rust.words import constant_name, getter_name
+from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
+from fieldscribe.targets.rust.subjects import CratePoint, scope_of
+from fieldscribe.targets.rust.words import UNKNOWN, constant_name, getter_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device
+    from fieldscribe.model import Device, Enum, Special
+
+CONSTANTS = frozenset(
+    {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
+    | {"decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
+    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
+    | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
+)
+"""Associated constants of the point traits, which a name of the author would hide (a test holds them to the traits)."""
+
+_CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 
 
-def identifiers(device: Device) -> Iterator[Identifier]:
+def device_name_taken(name: str) -> str:
+    """Why no crate may have that name; empty where it may."""
+    if name in RESERVED:
+        return "is a word that Rust reserves, so that no program could name its crate"
+    return "is a crate of Rust's own, which the generated crate would hide" if name in _CRATES else ""
+
+
+def identifiers(device: Device) -> Iterator[Names]:
     """Every identifier that the description decides; equal ones in one namespace clash."""
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
     for point in device.points:
         if point.raw_only:
-            yield Identifier("Rust, points::documented", upper(point.item), Owner("point", point.item))
+            yield Names("Rust, module `points::documented`", Owner("point", point.item), (upper(point.item),))
     for enum in device.enums:
         if enum.name in scope.enums:
-            owner = Owner("enum", enum.name)
-            yield Identifier("Rust, enums", type_name(enum.name), owner)
-            for entry in enum.entries:
-                part = Owner("enum", enum.name, f"entry {entry.name}")
-                yield Identifier(f"Rust, enums::{enum.name}", variant_name(entry.name), part)
+            yield from _of_enum(enum)
     for command in device.commands:
-        yield Identifier("Rust, commands", command.name.upper(), Owner("command", command.name))
+        yield Names("Rust, module `commands`", Owner("command", command.name), (upper(command.name),))
     for group in device.blocks:
-        yield Identifier("Rust, blocks", group.upper(), Owner("group", group))
+        yield Names("Rust, module `blocks`", Owner("group", group), (upper(group),))
     for code in device.bus.exceptions:
-        yield Identifier("Rust, exceptions", code.name.upper(), Owner("code", code.name))
+        yield Names("Rust, module `exceptions`", Owner("exception", code.name), (upper(code.name),))
     yield from in_rust(device.family).identifiers(device)
 
 
-def _of_point(subject: Subject) -> Iterator[Identifier]:
+def _of_enum(enum: Enum) -> Iterator[Names]:
+    owner, space = Owner("enum", enum.name), f"Rust, the enum `{enum.name}`"
+    yield Names("Rust, module `enums`", owner, (type_name(enum.name),))
+    for entry in enum.entries:
+        yield Names(space, Owner("entry", entry.name, owner), (variant_name(entry.name),))
+    if {variant_name(entry.name) for entry in enum.entries}.issuperset(UNKNOWN):
+        yield Names(space, Owner("target", "a number without a name"), UNKNOWN[:1])
+
+
+def _of_point(subject: CratePoint) -> Iterator[Names]:
     point, owner = subject.point, Owner("point", subject.point.item)
-    own = f"Rust, points::{point.item}"
-    yield Identifier("Rust, points", subject.name, owner)
+    yield Names("Rust, module `points`", owner, (subject.name,))
     for old in point.was if point.variant is None else ():
-        yield Identifier("Rust, points", type_name(old), owner._replace(part=f"old name {old}"))
-    for name in RUST_CONSTANTS.intersection((*point.references, *(special.name for special in point.specials))):
-        yield Identifier(own, name.upper(), Owner("target", f"the constant `{name.upper()}` of every point"))
-    for key in point.references:
-        yield Identifier(own, key.upper(), owner._replace(part=f"numbering {key}"))
-    holder = f"Rust, special::{point.shared_codes}" if point.shared_codes else own
-    codes = Owner("target", f"the special codes of {point.shared_codes}") if point.shared_codes else owner
-    for special in point.specials:
-        for end in ("",) if special.low == special.high else ("", "_LAST"):
-            yield Identifier(holder, special.name.upper() + end, codes._replace(part=f"code {special.name}"))
+        yield Names("Rust, module `points`", Owner("old name", old, owner), (type_name(old),))
+    if point.references or point.specials:
+        yield from _constants(subject, owner)
     if subject.arguments:
-        yield Identifier("Rust, with", subject.name, owner)
+        yield Names("Rust, module `with`", owner, (subject.name,))
     if subject.factors and subject.factors != subject.arguments:
-        yield Identifier("Rust, with", subject.factors_name, owner._replace(part="scale"))
+        yield Names("Rust, module `with`", Owner("struct", subject.factors_name, owner), (subject.factors_name,))
     if point.flags:
-        yield from _of_flags(subject)
+        yield from _of_flags(subject, owner)
 
 
-def _of_flags(subject: Subject) -> Iterator[Identifier]:
-    owner, space = Owner("point", subject.point.item), f"Rust, flags::{subject.point.item}"
-    yield Identifier(space, "ALL_FALSE", Owner("target", "the constant `ALL_FALSE` of every word of flags"))
+def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
+    """The constants of a point that the author named, and those of every point that these would hide."""
+    point, own = subject.point, f"Rust, the point `{subject.point.item}`"
+    for name in (*point.references, *(special.name for special in point.specials)):
+        if name in CONSTANTS:
+            yield Names(own, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
+    if CONSTANTS.isdisjoint(point.references):
+        yield Names(own, owner, [*map(upper, point.references)])
+    else:
+        for key in point.references:
+            yield Names(own, Owner("numbering", key, owner), (upper(key),))
+    if point.shared_codes:
+        yield from _shared_codes(subject)
+        return
+    for special in point.specials:
+        yield Names(own, Owner("code", special.name, owner), _code_names(special))
+
+
+def _shared_codes(subject: CratePoint) -> Iterator[Names]:
+    """The type of codes that many points have, with its constants and its own table."""
+    name = subject.point.shared_codes
+    owner, space = Owner("special codes", name), f"Rust, the special codes `{name}`"
+    yield Names("Rust, module `special`", owner, (type_name(name),))
+    yield Names(space, Owner("target", "the table `CODES` of all special codes"), ("CODES",))
+    for special in subject.point.specials:
+        yield Names(space, Owner("code", special.name, owner), _code_names(special))
+
+
+def _code_names(special: Special) -> tuple[str, ...]:
+    name = upper(special.name)
+    return (name,) if special.low == special.high else (name, f"{name}_LAST")
+
+
+def _of_flags(subject: CratePoint, owner: Owner) -> Iterator[Names]:
+    space = f"Rust, the flags of `{subject.point.item}`"
+    yield Names(space, Owner("target", "the constant `ALL_FALSE` of every word of flags"), ("ALL_FALSE",))
     for flag in subject.point.flags:
-        named = owner._replace(part=f"flag {flag.name}")
-        for name in (constant_name(flag), getter_name(flag.name), f"with_{flag.name}"):
-            yield Identifier(space, name, named)
+        named = Owner("flag", flag.name, owner)
+        yield Names(space, named, (constant_name(flag), getter_name(flag.name), f"with_{flag.name}"))
         for value in flag.values if flag.width > 1 else ():
-            constant = f"{flag.name}_{value.name}".upper()
-            yield Identifier(space, constant, named._replace(part=f"flag {flag.name}: {value.name}"))
+            yield Names(space, Owner("value", value.name, named), (f"{flag.name}_{value.name}".upper(),))

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 _WIDTH = 100
 _ARRAY_WIDTH = 60
 _STRUCT_WIDTH = 18
@@ -82,7 +87,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
     return (*lines, "}")
 
 
-def filled(left: str, between: str, items: list[str], right: str) -> Lines:
+def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
     """Items in as few lines as their width needs, where rustfmt does not look."""
     lines = [left]
     for place, item in enumerate(items):
@@ -94,12 +99,12 @@ def filled(left: str, between: str, items: list[str], right: str) -> Lines:
     return tuple(lines)
 
 
-def chained(text: str) -> Lines:
-    """An expression in one line, else with a line for each step behind a question mark."""
-    if len(text) <= _FREE_WIDTH:
-        return (text,)
-    first, *others = text.split("?.")
-    return first, *(f"    ?.{one}" for one in others)
+def chained(steps: Sequence[str]) -> Lines:
+    """Calls of which each may fail, in one line, else with a line for each step behind a question mark."""
+    line = "?".join(steps)
+    if len(line) <= _FREE_WIDTH:
+        return (line,)
+    return steps[0], *(f"    ?{step}" for step in steps[1:])
 
 
 def chain(left: str, start: str, steps: list[str]) -> Lines:

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-import struct
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import RUST_RESERVED, pascal
+from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.words import ends_of
+from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
+
+RESERVED = frozenset(
+    {"Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do"}
+    | {"dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop"}
+    | {"macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static"}
+    | {"struct", "super", "trait", "true", "try", "type", "typeof", "union", "unsafe", "unsized", "use"}
+    | {"virtual", "where", "while", "yield"}
+)
+"""The words of the language, which nothing may be called as it is."""
 
 RAW_TYPES = {
     "bit": "u8",
@@ -51,8 +61,7 @@ def type_range(rust_type: str) -> tuple[int, int]:
     """The least and the greatest number of a Rust integer type or `bool`."""
     if rust_type == "bool":
         return 0, 1
-    bits = int(rust_type[1:])
-    return (-(1 << (bits - 1)), (1 << (bits - 1)) - 1) if rust_type[0] == "i" else (0, (1 << bits) - 1)
+    return ends_of(int(rust_type[1:]), signed=rust_type[0] == "i")
 
 
 @lru_cache(maxsize=65536)
@@ -72,7 +81,7 @@ def variant_name(name: str) -> str:
 @lru_cache(maxsize=65536)
 def value_name(name: str) -> str:
     """A function, a field or a local: as it is, or raw where Rust reserves the word."""
-    if name not in RUST_RESERVED:
+    if name not in RESERVED:
         return name
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"
 
@@ -101,10 +110,9 @@ def nearest_float(number: float, bits: int) -> float:
     if bits == 64:
         return number
     try:
-        result: float = struct.unpack("<f", struct.pack("<f", number))[0]
+        return float_of(pattern_of(number, 32), 32)
     except OverflowError:
         return FLOAT_GREATEST[32] if number > 0 else -FLOAT_GREATEST[32]
-    return result
 
 
 @lru_cache(maxsize=4096)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.rust.access import read_lines, write_lines
 from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import in_rust
-from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.layout import binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
@@ -20,12 +21,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
-def point_view(subject: Subject, scope: Scope) -> PointView:
+def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
     """All that the templates need of a point."""
     point, code = subject.point, subject.point.code
     return PointView(
@@ -37,7 +38,7 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
     )
 
 
-def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
+def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
     names = ", ".join(rust_string(name) for name in (point.item, point.code) if name)
@@ -61,7 +62,7 @@ def _facts(subject: Subject, scope: Scope) -> Iterator[str]:
 def _whereabouts(point: Point) -> Iterator[str]:
     """Addresses and what stands beside them, and the bits that are always a constant."""
     addresses = point.places[0].addresses
-    yield f"at {space(point.places[0].space).removeprefix('runtime::Space::')} 0x{min(addresses):04X};"
+    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
@@ -71,15 +72,13 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
-        high, low = point.bits
-        bits = mask(((1 << (high - low + 1)) - 1) << low, "u16")
-        yield f"bits {low} {bits} {'signed_' if point.info.signed else ''}group;"
+        yield f"bits {point.bits[1]} {mask(group_mask(point), 'u16')} {'signed_' if point.info.signed else ''}group;"
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
 
 
-def _outer_limits(subject: Subject) -> Iterator[str]:
+def _outer_limits(subject: CratePoint) -> Iterator[str]:
     """The ends of what may be written, where they are not the type's."""
     ends, raw = subject.point.outer, subject.raw
     if subject.form not in ("float", "text", "digits") and ends != type_range(raw):

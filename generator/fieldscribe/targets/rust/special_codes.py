@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Special
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _WIDTH = 100
 
@@ -30,9 +30,9 @@ class SharedView:
     table: tuple[str, ...]
 
 
-def shared_views(scope: Scope) -> Iterator[SharedView]:
+def shared_views(scope: CrateScope) -> Iterator[SharedView]:
     """The shared codes, in the order in which points first have them."""
-    first: dict[str, Subject] = {}
+    first: dict[str, CratePoint] = {}
     for subject in scope.subjects:
         if subject.point.shared_codes:
             first.setdefault(subject.point.shared_codes, subject)
@@ -41,7 +41,7 @@ def shared_views(scope: Scope) -> Iterator[SharedView]:
         yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, left))
 
 
-def code_lines(subject: Subject) -> Iterator[str]:
+def code_lines(subject: CratePoint) -> Iterator[str]:
     """The fact that gives a point its codes: its own, or those that it shares."""
     shared = subject.point.shared_codes
     if shared:
@@ -63,7 +63,7 @@ def _kind(special: Special) -> str:
     return "_".join(words) or "new"
 
 
-def code_constants(subject: Subject) -> Iterator[ConstantView]:
+def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
     """A constant for each code; of a band, its first code and the last raw number."""
     for one in subject.point.specials:
         left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
@@ -77,7 +77,7 @@ def code_constants(subject: Subject) -> Iterator[ConstantView]:
             yield ConstantView(sentence(one.name), lines)
 
 
-def _table(subject: Subject, left: str) -> Lines:
+def _table(subject: CratePoint, left: str) -> Lines:
     items: list[tuple[str, Lines]] = []
     for one in subject.point.specials:
         name = f"Self::{one.name.upper()}"
@@ -89,7 +89,7 @@ def _table(subject: Subject, left: str) -> Lines:
 def _constant(left: str, call: str) -> Lines:
     """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
     lines = binding(4, left, call)
-    if all(4 + len(line) <= _WIDTH for line in lines) and lines[0].startswith(left):
+    if all(4 + len(line) <= _WIDTH for line in (*lines, f"{left} =")):
         return lines
     return "#[rustfmt::skip] // its name is longer than a line", f"{left} = {call};"
 

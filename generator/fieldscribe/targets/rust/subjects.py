@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import lower
 from fieldscribe.names import pascal
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Enum, Linear, Message, Point, Telegram
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class CratePoint:
     """A generated point: its form, its identifiers, what it needs; `rule` is the scale if it needs no other point."""
 
     point: Point
@@ -46,49 +48,49 @@ class Subject:
         return f"{pascal(self.point.item)}Factors"
 
     @property
+    def factors_struct(self) -> str:
+        """The name of the struct of all that the scale needs."""
+        return self.name if self.factors == self.arguments else self.factors_name
+
+    @property
     def factors_type(self) -> str:
-        """The struct of all that the scale needs."""
-        if not self.factors:
-            return "()"
-        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.factors_name}"
+        """The struct of all that the scale needs, as a type."""
+        return f"with::{self.factors_struct}" if self.factors else "()"
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
-    """What the points of one device share: points, raw types and enums' raw types by name, the device's functions.
+class CrateScope:
+    """What the points of one device share: its lowered model, raw types and enums' raw types by name, its functions.
 
-    Points are found by item and by name; the telegrams are by name, with the messages that carry them. The errata are
+    The telegrams are by name, with the messages that carry them. The errata are
     those that change a fact.
     """
 
-    points: Mapping[str, Point]
+    lowered: Lowered
     raw_types: Mapping[str, str]
     enums: Mapping[str, str]
     functions: frozenset[int]
-    subjects: tuple[Subject, ...]
+    subjects: tuple[CratePoint, ...]
     family: str
     telegrams: Mapping[str, tuple[Telegram, Message | None]]
     errata: frozenset[str]
 
 
-def scope_of(device: Device) -> Scope:
+def scope_of(device: Device) -> CrateScope:
     """The scope of a device, with its generated points."""
-    points: dict[str, Point] = {}
+    lowered = lower(device)
     enums: dict[str, str] = {}
     for point in device.points:
-        points.setdefault(point.item, point)
         enum = _enum(point)
         if point.generated and enum is not None:
             raw = "u16" if point.form == "digits" else raw_type(point)
             known = enums.setdefault(enum.name, raw)
             if known != raw:
                 enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
-    for point in device.points:
-        points.setdefault(point.name, point)
     messages = {message.name: message for message in device.messages}
-    return Scope(
-        points,
-        {name: raw_type(point) for name, point in points.items()},
+    return CrateScope(
+        lowered,
+        {name: raw_type(point) for name, point in lowered.points.items()},
         enums,
         frozenset(code.number for code in device.bus.functions),
         tuple(_subject(point, enums) for point in device.points if point.generated),
@@ -98,16 +100,20 @@ def scope_of(device: Device) -> Scope:
     )
 
 
-def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
-    form = point.form
-    enum = _enum(point)
-    raw = raw_type(point)
-    factors = point.scale_arguments if point.scale is not None else ()
-    limits = point.limit_arguments
-    arguments = tuple(dict.fromkeys((*factors, *limits))) if factors or limits else ()
-    rule = point.scale[0].rule if point.scale is not None and len(point.scale) == 1 and not factors else None
-    carried = enums[enum.name] if enum is not None else raw
-    return Subject(point, form, raw, type_name(point.item), arguments, factors, limits, rule, enum, carried)
+def _subject(point: Point, enums: Mapping[str, str]) -> CratePoint:
+    enum, raw = _enum(point), raw_type(point)
+    return CratePoint(
+        point,
+        point.form,
+        raw,
+        type_name(point.item),
+        point.arguments,
+        point.scale_arguments,
+        point.limit_arguments,
+        point.fixed_scale,
+        enum,
+        carried=enums[enum.name] if enum is not None else raw,
+    )
 
 
 def _enum(point: Point) -> Enum | None:

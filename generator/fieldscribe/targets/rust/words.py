@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import RUST_UNKNOWN
 from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
@@ -15,12 +14,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Entry, Enum, Flag
-    from fieldscribe.targets.rust.subjects import Scope
+    from fieldscribe.targets.rust.subjects import CrateScope
 
 _LONG = 90
 
+UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
+"""What the variant for numbers without a name is called: the first of these that no entry takes."""
 
-def enum_views(device: Device, scope: Scope) -> Iterator[EnumView]:
+
+def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
     """The enums that generated points use, in the device's order."""
     for enum in device.enums:
         if enum.name in scope.enums:
@@ -65,7 +67,7 @@ def constant_name(flag: Flag) -> str:
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
-def flags_views(scope: Scope) -> Iterator[FlagsView]:
+def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
     """The words with named bits."""
     for subject in scope.subjects:
         if subject.form == "flags":
@@ -91,7 +93,7 @@ def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
     return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
 
 
-def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
+def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
     for subject in scope.subjects:
         if not subject.arguments:
@@ -107,11 +109,11 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
         yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
     return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
 
 
-def _source(name: str, scope: Scope) -> str:
+def _source(name: str, scope: CrateScope) -> str:
     """Which points an argument is the raw number of: several where variants of the device differ."""
     types = [one.name for one in scope.subjects if name in (one.point.item, one.point.name)]
     links = " or ".join(f"[`{one}`](crate::points::{one})" for one in types)
@@ -122,7 +124,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
     name = type_name(enum.name)
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(one for one in RUST_UNKNOWN if one not in taken)
+    unknown = next(one for one in UNKNOWN if one not in taken)
     return EnumView(sentence(enum.name), name, raw, entries, unknown)
 
 

@@ -5,52 +5,23 @@ Nothing here is shared with the other targets: a wrong rule in one of them canno
 
 from __future__ import annotations
 
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from fieldscribe.families import family
-from fieldscribe.targets.vectors.bus import add_limits
-from fieldscribe.targets.vectors.characters import digits, text
-from fieldscribe.targets.vectors.exchanges import Exchanges
-from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.places import address, aliases, facts, words
-from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.shapes import Shapes
-from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
-
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable
 
-    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.model import Device
     from fieldscribe.render import Render
-    from fieldscribe.targets.vectors.exchanges import Wire
+    from fieldscribe.targets.identifiers import Names
 
-
+FOR_PEOPLE = False
 NEEDS_FAMILY = False
-
-
-class OfFamily:
-    """What the part `targets.vectors` of a family offers; what is here holds where it offers nothing."""
-
-    KINDS: Mapping[str, str] = MappingProxyType({})
-    """Kinds of vectors that only this family has, with the fields of their lines."""
-
-    def limits(self, lines: Lines, bus: Bus) -> None:
-        """The constants of a bus."""
-
-    def frames(self, lines: Lines, device: Device) -> None:
-        """Everything about the frames of a device."""
-
-    def wires(self, device: Device) -> Sequence[Wire]:
-        """The ways in which points travel, the usual one first."""
-        del device
-        return ()
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The one file of this target: its path, and one vector per line. `render` is not needed."""
+    from fieldscribe.targets.vectors.collection import collect
+
     del render
     yield f"vectors/{device.id}.txt", collect(device).text(device.id, device.version, device.digest)
 
@@ -61,64 +32,13 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
     return ()
 
 
-def collect(device: Device) -> Lines:
-    """All vectors of a device: its points in the author's order, then its frames and blocks."""
-    own: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
-    lines = Lines(own.KINDS)
-    shapes = Shapes()
-    oracle = Oracle({point.name: point for point in reversed(device.points)})
-    exchanges = [Exchanges(lines, oracle, device, wire) for wire in own.wires(device)]
-    usual, others = exchanges[:1], exchanges[1:]
-    for one in usual:
-        one.open()
-    for axis, choices in device.variants.items():
-        lines.add("variant", axis, choices)
-    _limits(lines, device, own)
-    for point in device.points:
-        if point.generated:
-            _point(lines, oracle, point, device.variants, deep=shapes.is_new(point))
-            for one in usual:
-                one.of(point)
-            lines.gather()
-    for one in others:
-        one.open()
-        one.of_each_space()
-        lines.gather()
-    for point in device.points:
-        if point.raw_only and point.address is not None:
-            lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
-    if left_out := tuple(point.item for point in device.points if not point.generated):
-        lines.add("left_out", left_out)
-    own.frames(lines, device)
-    return lines
+def identifiers(device: Device) -> Iterable[Names]:
+    """Vectors have the names of the description, as they are."""
+    del device
+    return ()
 
 
-def _limits(lines: Lines, device: Device, own: OfFamily) -> None:
-    """Everything about the constants of the bus."""
-    add_limits(lines, first_unit=device.bus.units[0], last_unit=device.bus.units[1])
-    own.limits(lines, device.bus)
-    for telegram in device.telegrams:
-        lines.add("size", "words", telegram.name, telegram.words)
-
-
-def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]], *, deep: bool) -> None:
-    lines.set("point", point.item)
-    address(lines, point)
-    facts(lines, point, variants)
-    aliases(lines, point)
-    if point.form == "scaled":
-        scaled(lines, oracle, point, deep=deep)
-    elif point.form == "float":
-        floats(lines, point, deep=deep)
-    elif point.form == "text":
-        text(lines, point)
-    elif point.form == "digits":
-        digits(lines, point)
-    else:
-        whole(lines, oracle, point, deep=deep)
-    names(lines, point, deep=deep)
-    specials(lines, point)
-    flags(lines, point)
-    fixed(lines, point)
-    bits(lines, point)
-    words(lines, point)
+def device_name_taken(name: str) -> str:
+    """Every name will do for a file of vectors."""
+    del name
+    return ""

@@ -98,7 +98,7 @@ KINDS = table(
         "alias": "only:c.python old:word new:word",
         # the values of an axis of variants, and all that is documented only
         "variant": "only:python axis:word choices:names",
-        "left_out": "only:python names:names",
+        "left_out": "only:python names:names codes:names",
         # the symbol of the unit of a point that has one
         "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only

@@ -72,8 +72,9 @@ from .named import NamedNumber
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
-from .session import PointTable, Value
+from .session import Value
 from .special import Codes, Special
+from .table import PointTable
 from .texts import Digits, Text
 from .words import Field, Flag, Word
 from .wrappers import WithCodes, WithWritableCodes

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, overload
 
+from .arguments import check_integer, shown
 from .errors import AccessError
+from .guided import Guided
 
 if TYPE_CHECKING:
     from .device import AnyAsyncDevice, AnyDevice
@@ -13,7 +15,7 @@ if TYPE_CHECKING:
     from .session import Session, Steps
 
 
-class Command:
+class Command(Guided):
     """A write that makes the device do something; without a `value` any number does (1 if none is given)."""
 
     def __init__(self, *, at: Place, value: int | None = None) -> None:
@@ -25,6 +27,10 @@ class Command:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.at}>"
+
+    def _guide(self) -> str:
+        sent = "any number (1 if none is given)" if self.value is None else f"the number {self.value}"
+        return f"{self.name}, a command: it writes {sent} to {self.at}.\n\nOn a device: device.{self.name}.send()"
 
     @overload
     def __get__(self, device: None, owner: object) -> Command: ...
@@ -40,8 +46,10 @@ class Command:
 
     def steps(self, device: Session, value: int | None) -> Steps[None]:
         """The write, carried out by a device."""
+        if value is not None and not (isinstance(value, bool) and self.at.space == "coil"):
+            check_integer("bad_value", f"the number of {self.name}", value)
         if self.value is not None and value not in (None, self.value):
-            raise AccessError(f"{self.name} is the number {self.value}, not {value}")
+            raise AccessError(f"{self.name} is the number {self.value}, not {shown(value)}")
         number = 1 if value is None else value
         return device._put_steps(self.at, (number if self.value is None else self.value,))
 
@@ -52,6 +60,9 @@ class CommandHandle:
     def __init__(self, command: Command, device: AnyDevice) -> None:
         self._command = command
         self._device = device
+
+    def __repr__(self) -> str:
+        return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
 
     def send(self, value: int | None = None) -> None:
         """Give the command; `value` only where any number does."""
@@ -64,6 +75,9 @@ class AsyncCommandHandle:
     def __init__(self, command: Command, device: AnyAsyncDevice) -> None:
         self._command = command
         self._device = device
+
+    def __repr__(self) -> str:
+        return f"{self._command!r}"[:-1] + f" of {self._device!r}>"
 
     async def send(self, value: int | None = None) -> None:
         """Give the command; `value` only where any number does."""

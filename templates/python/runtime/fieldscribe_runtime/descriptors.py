@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, overload
 
 from .errors import AbsentError
 from .facts import Facts
+from .guided import Guided
 from .handles import (
     AsyncHandle,
     AsyncReadHandle,
@@ -111,7 +112,7 @@ class ReadWrite(
         super().__init__(form, **facts)
 
 
-class ByVariant(_Attribute, Generic[P_co]):
+class ByVariant(_Attribute, Guided, Generic[P_co]):
     """A point whose facts differ between variants: on a device it is the one of the device's variant."""
 
     def __init__(self, axis: str, points: Mapping[str, P_co]) -> None:
@@ -133,6 +134,11 @@ class ByVariant(_Attribute, Generic[P_co]):
         if chosen not in self.points:
             raise AbsentError(f"{self.name} does not exist for {self.axis} {chosen}")
         return device._bound(self.points[chosen])
+
+    def _guide(self) -> str:
+        which = "\n".join([f"- {self.axis} {value}: {point.label}" for value, point in self.points.items()])
+        text = f"What this is depends on {self.axis}, which the device is made with; help() tells more of each:"
+        return f"{self.name.rstrip('_')}: {text}\n\n{which}"
 
     def __repr__(self) -> str:
         items = " or ".join(point.facts.item for point in self.points.values())

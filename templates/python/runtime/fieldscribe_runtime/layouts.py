@@ -5,27 +5,43 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .errors import AccessError, RequestError, WrongLengthError
+from .arguments import shown
+from .errors import AccessError, RequestError, WrongLengthError, WrongTypeError
 from .fast import bits_of, itself, put_together, taken_apart
 from .points import Decoding, Encoding
 from .rules import NO_RAWS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-    from typing import Never
+    from collections.abc import Callable, Collection, Sequence
+    from typing import Never, Protocol
 
     from .fast import Way
     from .points import Point
     from .rules import Raws
     from .session import Value
 
+    class Fields(Protocol):
+        """What takes bytes apart into fields and puts them together, as a `struct.Struct` does."""
+
+        @property
+        def size(self) -> int:
+            """How many bytes there are."""
+
+        def unpack(self, data: bytes, /) -> tuple[int, ...]:
+            """The fields; raises struct.error for more or fewer bytes."""
+
+        def pack(self, /, *fields: int) -> bytes:
+            """The bytes."""
+
+
 _LETTERS = {16: "H", 32: "I", 64: "Q"}
 
 
-class _Piece(NamedTuple):
+class Piece(NamedTuple):
     """A point: where it is among the fields of a Struct, what decodes that, and what makes a raw number of it.
 
     `whole` says that one field is just the number.
@@ -46,19 +62,31 @@ class Layout:
     many bytes of something else stand before the words and behind them.
     """
 
+    _full = 0xFFFF
+    """All bits of a word."""
+
     def __init__(
         self, points: Iterable[Point], words: range, wanted: Collection[str] = (), around: tuple[int, int] = (0, 0)
     ) -> None:
-        self.words, self.size = words, around[0] + 2 * len(words) + around[1]
+        self.words = words
         ordered = sorted(points, key=lambda point: point.facts.at.address)
         self.points = tuple([point for point in ordered if all(at in words for at in addresses_of(point))])
-        letters, self._pieces = _cut(self.points, words)
-        self._struct = struct.Struct(f">{around[0]}x{letters}{around[1]}x")
+        self._struct, self._pieces = self._cut(around)
+        self.size = self._struct.size
         self._read = [piece for piece in self._pieces if isinstance(piece.point, Decoding)]
         self.needs = frozenset([name for piece in self._read for name in piece.point.scale_needs])
         self._own = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in self.needs}
         self._wanted = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in wanted}
         self.gives = bool(self._wanted)
+
+    def __repr__(self) -> str:
+        inside = ", ".join([point.facts.name for point in self.points])
+        return f"<{type(self).__name__} of {self.size} bytes: {inside}>"
+
+    def _cut(self, around: tuple[int, int]) -> tuple[Fields, tuple[Piece, ...]]:
+        """What takes the bytes apart into fields, and where the points are in these."""
+        letters, pieces = _cut(self.points, self.words)
+        return struct.Struct(f">{around[0]}x{letters}{around[1]}x"), pieces
 
     def decode(self, data: bytes, raws: Raws = NO_RAWS) -> dict[str, Value]:
         """The values in the bytes of the words; `raws` holds the raw numbers that scales need of points elsewhere.
@@ -67,8 +95,8 @@ class Layout:
         """
         if not self._own:
             self.__dict__["decode"] = self.decoder  # from the first call on
-        if self._own and len(data) == self.size:
-            raws = {**raws, **self._numbers(self._own, data)}
+        if self._own and isinstance(data, (bytes, bytearray)) and len(data) == self.size:
+            raws = {**self._known(raws), **self._numbers(self._own, data)}
         values: dict[str, Value] = self.decoder(data, raws)
         return values
 
@@ -77,14 +105,24 @@ class Layout:
         """What decodes, given all raw numbers that scales need."""
         return self._decoder(self._read)
 
-    def _decoder(self, pieces: Sequence[_Piece]) -> Way:
+    def _decoder(self, pieces: Sequence[Piece]) -> Way:
         plan = [(piece.point.facts.name, piece.at, piece.way) for piece in pieces]
         return taken_apart(self._struct.unpack, plan, self._refuse)
 
     def _refuse(self, data: bytes, raws: Raws) -> Never:
         """Say that these are not the bytes of the words."""
         del raws
-        raise WrongLengthError(f"takes {self.size} bytes, not {len(data)}") from None
+        try:
+            size = len(memoryview(data))
+        except TypeError:
+            raise WrongTypeError(f"takes {self.size} bytes, not {shown(data)}") from None
+        raise WrongLengthError(f"takes {self.size} bytes, not {size}") from None
+
+    def _known(self, raws: Raws) -> Raws:
+        """The same; raises WrongTypeError for what holds no numbers by name."""
+        if not isinstance(raws, Mapping):
+            raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
+        return raws
 
     def decode_known(self, data: bytes, raws: Raws) -> dict[str, Value]:
         """The same without the points whose scales need what is not there."""
@@ -97,7 +135,7 @@ class Layout:
         """The raw numbers in the bytes that scales elsewhere need."""
         return self._numbers(self._wanted, data)
 
-    def _numbers(self, pieces: Mapping[str, _Piece], data: bytes) -> dict[str, int]:
+    def _numbers(self, pieces: Mapping[str, Piece], data: bytes) -> dict[str, int]:
         fields = self._struct.unpack(data)
         return {name: piece.raw(fields[piece.at]) for name, piece in pieces.items()}
 
@@ -112,21 +150,32 @@ class Layout:
             if len(values) == len(self.points):
                 data: bytes = quick(values, raws)
                 return data
-        except KeyError:
-            pass
-        different = ", ".join(sorted(values.keys() ^ {point.facts.name for point in self.points}))
+        except (KeyError, TypeError):
+            if isinstance(values, Mapping) and values.keys() == self._names:
+                raise
+        if not isinstance(values, Mapping):
+            raise RequestError("bad_value", f"takes values by the names of points, as a dict, not {shown(values)}")
+        different = ", ".join(sorted(map(str, values.keys() ^ self._names)))
         raise RequestError("bad_value", f"takes a value of each point and no other: see {different}")
+
+    @property
+    def _names(self) -> set[str]:
+        return {point.facts.name for point in self.points}
 
     def _encode(self, values: Mapping[str, Any], raws: Raws) -> bytes:
         """The same point by point, those first that others may need."""
-        known = dict(raws)
+        known = dict(self._known(raws))
         words = dict.fromkeys(self.words, 0)
         for point in sorted(self._written, key=lambda one: bool(one.scale_needs or one.limit_needs)):
             known[point.facts.name] = raw = point.encode(values[point.facts.name], known)
             first = point.facts.at.address
             own = point.to_words(raw) if point.facts.bits is None else (point.insert(words[first], raw),)
             words.update(zip(addresses_of(point), own, strict=True))
-        return struct.pack(f">{len(self.words)}H", *words.values())
+        return self._packed(words.values())
+
+    def _packed(self, words: Iterable[int]) -> bytes:
+        """The bytes of all words."""
+        return struct.pack(f">{len(self.words)}H", *words)
 
     @cached_property
     def _written(self) -> tuple[Encoding[Any], ...]:
@@ -136,10 +185,10 @@ class Layout:
         for point in self.points:
             if not isinstance(point, Encoding) or point.facts.write_at is not None:
                 raise AccessError(f"{point.label} cannot be written with these words")
-            bits = 0xFFFF if point.facts.bits is None else point.insert(0, -1) | (point.facts.fixed or (0, 0))[0]
+            bits = self._full if point.facts.bits is None else point.insert(0, -1) | (point.facts.fixed or (0, 0))[0]
             said.update({address: said[address] | bits for address in addresses_of(point)})
             written.append(point)
-        gaps = ", ".join([str(address) for address, bits in said.items() if bits != 0xFFFF])
+        gaps = ", ".join([str(address) for address, bits in said.items() if bits != self._full])
         if gaps:
             raise AccessError(f"no point says all bits of the words at {gaps}")
         return tuple(written)
@@ -166,7 +215,7 @@ def _is_whole(point: Point) -> bool:
     return point.facts.bits is None and point.wire.bits in _LETTERS and in_order
 
 
-def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[_Piece, ...]]:
+def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]:
     """The letters of the Struct, and where the points are in its fields, in the order of these."""
     users = Counter(at for point in points for at in addresses_of(point))
     whole = {point.facts.at.address: point for point in points if _is_whole(point)}
@@ -187,19 +236,19 @@ def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[_Piece, ...]
     return "".join(letters), tuple(pieces)
 
 
-def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> _Piece:
+def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> Piece:
     """A point in its fields."""
     decoder = point.sure_decoder if isinstance(point, Decoding) else itself
     if whole.get(point.facts.at.address) is point:
-        return _Piece(point, fields[0], decoder, int, True)
+        return Piece(point, fields[0], decoder, int, True)
     if len(fields) == 1:
-        return _Piece(point, fields[0], bits_of(*point.bit_field, decoder), bits_of(*point.bit_field, itself), False)
+        return Piece(point, fields[0], bits_of(*point.bit_field, decoder), bits_of(*point.bit_field, itself), False)
     chosen = [at - fields[0] for at in fields]
 
     def raw(found: Sequence[int]) -> int:
-        return point.from_words([found[at] for at in chosen])
+        return point.joined([found[at] for at in chosen])
 
     def way(found: Sequence[int], raws: Raws) -> Any:
         return decoder(raw(found), raws)
 
-    return _Piece(point, slice(fields[0], fields[-1] + 1), way, raw, False)
+    return Piece(point, slice(fields[0], fields[-1] + 1), way, raw, False)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from .arguments import raw_number, shown, whole
 from .errors import (
     CodecError,
     RangeError,
@@ -14,13 +15,13 @@ from .errors import (
     WrongLengthError,
     WrongTypeError,
 )
-from .forms import whole
-from .rules import NO_RAWS, Limit, Raws, high_end, low_end
+from .guided import Guided
+from .rules import NO_RAWS, Limit, Raws, high_end, low_end, outside
 from .special import Special
 
 if TYPE_CHECKING:
     import enum
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from .facts import Facts, Place
     from .fast import Way
@@ -42,7 +43,7 @@ def _shown(value: object) -> str:
 _SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
 
 
-class Point:
+class Point(Guided):
     """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
 
     _form: Form[Any, Any]
@@ -55,6 +56,11 @@ class Point:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.label}: {self.facts.where}>"
+
+    def _guide(self) -> str:
+        from .guide import described  # nobody needs it before asking for help
+
+        return described(self)
 
     def __getstate__(self) -> dict[str, Any]:
         """What makes the point, without the functions that are specialised for it: a copy makes its own."""
@@ -118,31 +124,48 @@ class Point:
 
     def name_of(self, raw: int) -> str | None:
         """The description's name for a raw number; None if it has none."""
-        return self._form.name_of(raw)
+        return self._form.name_of(self._number(raw))
 
     def from_words(self, words: Sequence[int]) -> int:
         """The raw number in unsigned words (or bits) in ascending order of address.
 
-        Raises WrongLengthError, and RangeError for what is no word.
+        Raises WrongLengthError, RangeError for what is no word, and WrongTypeError.
         """
-        if len(words) != self.size:
-            raise self._named(WrongLengthError(f"takes {self.size} words, not {len(words)}"))
-        for word in words:
-            self._within(word, 0, 0xFFFF)
+        found = self._words(words)
+        if len(found) != self.size:
+            raise self._named(WrongLengthError(f"takes {self.size} words, not {len(found)}"))
+        return self.joined(found)
+
+    def joined(self, words: Sequence[int]) -> int:
+        """The same for what are known to be the words of the point."""
         if self.facts.bits is not None:
-            return self.extract(words[0])
+            return self.wire.number(words[0] >> self._lowest_bit, self.width)
         pattern = 0
-        for place in self._from_high(self.facts.at):
+        for place in self._order:
             pattern = pattern << 16 | words[place]
         return self.wire.number(pattern, self.wire.bits)
 
+    def _words(self, words: Iterable[int]) -> list[int]:
+        """Words as plain numbers, bits too."""
+        try:
+            if isinstance(words, (str, bytes, bytearray, set, frozenset, dict)):
+                raise TypeError
+            listed = [*words]
+        except TypeError:
+            raise self._named(WrongTypeError(f"takes words, as in [1], not {shown(words)}")) from None
+        return [self._within(word, 0, 0xFFFF) for word in listed]
+
     def to_words(self, raw: int) -> tuple[int, ...]:
         """The unsigned words of a raw number in ascending order of address; raises RangeError."""
-        self._within(raw, *self.wire.limits(self.width))
+        raw = self._within(raw, *self.wire.limits(self.width))
         words = [0] * self.size
         for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
             words[place] = raw >> 16 * part & 0xFFFF
         return tuple(words)
+
+    @cached_property
+    def _order(self) -> Sequence[int]:
+        return self._from_high(self.facts.at)
 
     def _from_high(self, place: Place) -> Sequence[int]:
         """Where the words of the number stand among those in ascending order of address, the high one first."""
@@ -153,11 +176,12 @@ class Point:
 
     def extract(self, word: int) -> int:
         """The raw number of a bit group, from its whole word."""
-        return self.wire.number(word >> self._lowest_bit, self.width)
+        return self.wire.number(self._number(word) >> self._lowest_bit, self.width)
 
     def insert(self, word: int, raw: int) -> int:
         """The whole word with this bit group replaced, and with the bits that are always written as a constant."""
         mask = (1 << self.width) - 1
+        word, raw = self._number(word), self._number(raw)
         result = word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
         fixed, bits = self.facts.fixed or (0, 0)
         return result & ~fixed | bits
@@ -179,6 +203,10 @@ class Point:
 
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
         """A raw number as people read it, with the unit; as `raw ...` where `raws` do not say what it means."""
+        raw = self._number(raw)
+        low, high = self.wire.limits(self.width)
+        if not low <= raw <= high:
+            return f"raw {_shown(raw)}"
         code = self.special(raw)
         if code is not None:
             return code.name
@@ -187,10 +215,20 @@ class Point:
         except CodecError:
             return f"raw {raw}"
 
-    def _within(self, number: int, low: int, high: int) -> None:
+    def _within(self, number: int, low: int, high: int) -> int:
+        """The same as a plain number; a bool is one of a bit."""
         try:
-            if not low <= (int(number) if isinstance(number, bool) else whole(number)) <= high:
-                raise RangeError(f"{_shown(number)} is outside {low}..{high}")
+            plain = int(number) if isinstance(number, bool) and self.width == 1 else whole(number)
+            if low <= plain <= high:
+                return plain
+            raise RangeError(f"{_shown(number)} is outside {low}..{high}")
+        except CodecError as error:
+            raise self._named(error) from None
+
+    def _number(self, raw: int) -> int:
+        """A raw number as a plain one; raises WrongTypeError for what is no integer."""
+        try:
+            return raw_number(raw, self.width)
         except CodecError as error:
             raise self._named(error) from None
 
@@ -210,7 +248,7 @@ class Decoding(Point, Generic[R_co]):
         """The value (or special code) of a raw number; `raws` holds the raw numbers that the scale needs of others.
 
         Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
-        and RangeError for what is no raw number of the point.
+        RangeError for what is no raw number of the point, and WrongTypeError for what is no integer.
         """
         quick = self.__dict__["decode"] = self.decoder  # from the first call on
         value: R_co = quick(raw, raws)
@@ -244,6 +282,7 @@ class Decoding(Point, Generic[R_co]):
     def _possible(self, raw: int) -> int:
         """The same number; raises RangeError for what the point cannot hold, as 8000h of an s16 without its sign."""
         low, high = self._ends
+        raw = raw_number(raw, self.width)
         if low <= raw <= high:
             return raw
         hint = ", with its sign: from_words gives it" if self.wire.signed else ""
@@ -300,7 +339,7 @@ class Encoding(Point, Generic[W_contra]):
         """The same for a raw number."""
         if not isinstance(raw, int):
             self.to_words(raw)
-        self._require_writable(self.special(raw))
+        self._require_writable(self.special(int(raw)))
 
     def _require_writable(self, code: Special | None) -> None:
         if code is not None and not code.writable:
@@ -313,10 +352,18 @@ class Encoding(Point, Generic[W_contra]):
         try:
             raw = self._form.encode_count(count, self.allowed, raws)
             if raw is None:
-                raise self._refusal(f"{count / 10**self.decimals:.12g}" if self.decimals else str(count), raws)
+                raise self._refusal(self._amount(count), raws)
         except CodecError as error:
             raise self._named(error) from None
         return raw
+
+    def _amount(self, count: int) -> str:
+        """A count in the unit, for messages."""
+        count = whole(count)
+        try:
+            return f"{count / 10**self.decimals:.12g}" if self.decimals else _shown(count)
+        except OverflowError:
+            return f"a count of {_shown(count)}"
 
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
         """Raises RangeError, UnknownValueError, SpecialCodeError or ZeroFactorError if this may not be written."""
@@ -329,13 +376,19 @@ class Encoding(Point, Generic[W_contra]):
             raise self._named(error) from None
 
     def _raw_bounds(self, raws: Raws) -> str:
-        return "outside " + " or ".join(f"{low_end(low, raws)}..{high_end(high, raws)}" for low, high in self.allowed)
+        return self._outside(str, "", raws)
 
-    def _refusal(self, shown: str, raws: Raws) -> CodecError:
+    def _refusal(self, value: str, raws: Raws) -> CodecError:
         choices = self._form.choices(self._unit)
         if choices is None:
-            ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
-            texts = [(self._form.shown(low, raws), self._form.shown(high, raws)) for low, high in ends]
-            choices = "outside " + " or ".join(low if low == high else f"{low}..{high}" for low, high in texts)
-            choices += self._unit
-        return self._form.refused(f"{shown}{self._unit} is {choices}")
+            choices = self._outside(lambda raw: self._form.shown(raw, raws), self._unit, raws)
+        return self._form.refused(f"{value}{self._unit} is {choices}")
+
+    def _outside(self, told: Callable[[int], str], unit: str, raws: Raws) -> str:
+        """What a refused number is, by what may be written now, as other points let it be."""
+        ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
+        left = [(told(low), told(high)) for low, high in ends if low <= high]
+        if left:
+            return outside(left, unit)
+        limits = " or ".join([f"{told(low)}..{told(high)}" for low, high in ends])
+        return f"refused, as anything is now: {' and '.join(self.limit_needs)} leave {limits}{unit}"

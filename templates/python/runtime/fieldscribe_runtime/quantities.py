@@ -8,10 +8,20 @@ import struct
 import sys
 from typing import TYPE_CHECKING, TypeVar
 
+from .arguments import shown, whole
 from .errors import NotANumberError, ResultOverflowError, WrongTypeError
-from .fast import from_pattern, rounded, scaled, scaled_by, to_pattern, unchecked
-from .forms import Form, fixed_ends, whole
-from .rules import NO_RAWS, Case, Rule, chosen
+from .fast import (
+    from_pattern,
+    rounded,
+    scaled,
+    scaled_by,
+    scaled_by_several,
+    surely_scaled_by,
+    to_pattern,
+    unchecked,
+)
+from .forms import Form, fixed_ends
+from .rules import NO_RAWS, Case, Rule, chosen, outside
 
 if TYPE_CHECKING:
     from .fast import Way
@@ -32,7 +42,7 @@ def _is_nan(value: float) -> bool:
     try:
         return math.isnan(value)
     except TypeError:
-        raise WrongTypeError(f"takes a number, not {value!r}") from None
+        raise WrongTypeError(f"takes a number, not {shown(value)}") from None
     except ValueError:  # a signalling NaN
         return True
 
@@ -69,15 +79,18 @@ class Scaled(Form[float, float]):
         if self.most is not None:
             low, high = max(low, -self.most), min(high, self.most)
         if self.rule.factors:
-            return scaled_by(self.rule, low, high, slow)
+            by_others = scaled_by if len(self.rule.factors) == 1 else scaled_by_several
+            return by_others(self.rule, low, high, slow)
         return scaled(self.rule.line(NO_RAWS), low, high, slow) if self.rule.is_safe(NO_RAWS, low, high) else slow
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """By a scale that is fixed, whatever the raw number is."""
+        """By a scale that is fixed, or that other points decide, whatever the raw number is."""
         rule = self.rule
-        if not isinstance(rule, Rule) or rule.factors or self.most is not None or not rule.is_safe(NO_RAWS, low, high):
+        if not isinstance(rule, Rule) or self.most is not None:
             return self.quick_decode(low, high, slow)
-        return unchecked(rule.line(NO_RAWS))
+        if rule.factors:
+            return surely_scaled_by(rule, low, high, slow)
+        return unchecked(rule.line(NO_RAWS)) if rule.is_safe(NO_RAWS, low, high) else slow
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """By a fixed scale into one fixed range."""
@@ -199,12 +212,12 @@ class Floating(Form[float, float]):
         return raw if inside and self._fits(self.decode(raw, raws)) else None
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """There is none: raises TypeError."""
-        raise TypeError("a floating-point pattern has no integer path")
+        """There is none: raises WrongTypeError."""
+        raise WrongTypeError("a floating-point number has no counts: use raw numbers or values")
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """There is none: raises TypeError."""
-        raise TypeError("a floating-point pattern has no integer path")
+        """There is none: raises WrongTypeError."""
+        raise WrongTypeError("a floating-point number has no counts: use raw numbers or values")
 
     def shown(self, raw: int, raws: Raws) -> str:
         """The number, as people read it."""
@@ -218,4 +231,4 @@ class Floating(Form[float, float]):
         """The limits in the unit; without limits any number of the type may be written."""
         if not self.units:
             return f"no finite binary{self.wire.bits}"
-        return "outside " + " or ".join(f"{low:.12g}..{high:.12g}" for low, high in self.units) + unit
+        return outside([(f"{low:.12g}", f"{high:.12g}") for low, high in self.units], unit)

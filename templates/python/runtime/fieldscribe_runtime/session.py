@@ -8,26 +8,19 @@ travel is the family's part: a subclass with `_get_steps` and `_store_steps`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from .descriptors import PointAttribute, Renamed
-from .errors import (
-    AbsentError,
-    AccessError,
-    EchoError,
-    FrameError,
-    NoReplyError,
-    RequestError,
-)
-from .lookup import find, nearest
+from .about import about, needing, of_group
+from .arguments import check_name
+from .errors import AccessError, EchoError
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
+from .table import NamedPoints, check_variants
 
 if TYPE_CHECKING:
-    from .facts import Documented, Place
+    from .facts import Place
     from .rules import Raws
 
 T = TypeVar("T")
@@ -40,73 +33,11 @@ _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})
 
 
-@contextmanager
-def _about(point: Point) -> Iterator[None]:
-    """What goes wrong on the bus meanwhile says which point was asked for."""
-    try:
-        yield
-    except (FrameError, RequestError, NoReplyError) as error:
-        error.point = error.point or point.label
-        raise
-
-
-def check_unit(unit: int, units: tuple[int, int]) -> None:
-    """Raises RequestError (bad_unit) for a unit number that the device cannot have."""
-    low, high = units
-    if not isinstance(unit, int) or not low <= unit <= high:
-        raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {unit!r}")
-
-
-def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
-    """Whether the variants that are told have a point; one of a variant needs it told."""
-    axis, values = point.facts.only_for or ("", ())
-    left = variants.get(axis) in (None, *values)
-    variant = point.facts.variant
-    return left and (variant is None or variants.get(variant[0]) == variant[1])
-
-
-class PointTable:
-    """A device's points, with what its bus needs to know."""
-
-    POINTS: ClassVar[Mapping[str, PointAttribute[Any, Any]]] = {}
-    BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
-    """Planned reads by group, where the family plans."""
-    VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-    DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
-    """Points that are no attributes, by name, with the reason."""
-
-    OLD_NAMES: ClassVar[Mapping[str, Renamed]] = {}
-    """What points were called before."""
-
-    if not TYPE_CHECKING:  # type checkers report names that do not exist
-
-        def __getattr__(self, name: str) -> Any:
-            """Say why a point that the manual has is no attribute, or not of this device."""
-            found = next((vars(kind)[name] for kind in type(self).__mro__ if name in vars(kind)), None)
-            if hasattr(found, "__get__"):
-                return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
-            documented = type(self).DOCUMENTED.get(name)
-            message = f"{type(self).__name__!r} object has no attribute {name!r}"
-            raise AttributeError(
-                message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
-            )
-
-    def __init_subclass__(cls) -> None:
-        points = [point for point in vars(cls).values() if isinstance(point, PointAttribute)]
-        cls.POINTS = {**cls.POINTS, **{point.facts.item: point for point in points}}
-        renamed = {name: alias for name, alias in vars(cls).items() if isinstance(alias, Renamed)}
-        cls.OLD_NAMES = {**cls.OLD_NAMES, **renamed}
-
-
-class Session(PointTable, ABC):
+class Session(NamedPoints, ABC):
     """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
-        for axis, value in variants.items():
-            if axis not in self.VARIANTS:
-                raise ValueError(f"the device has no variants by {axis!r}")
-            if value is not None and value not in self.VARIANTS[axis]:
-                raise ValueError(f"{axis} is one of {', '.join(self.VARIANTS[axis])}, not {value!r}")
+        check_variants(self.VARIANTS, variants)
         self.unit = unit
         self.variants = variants
         self._kept: dict[str, int] = {}
@@ -131,7 +62,7 @@ class Session(PointTable, ABC):
         for point in points:
             at = point.facts.at
             if at not in words:
-                with _about(point):
+                with about(point):
                     words[at] = yield from self._get_steps(at)
             raws[point.facts.item] = self._taken(point, words[at])
         return raws
@@ -139,76 +70,16 @@ class Session(PointTable, ABC):
     def _shared_word_steps(self, point: Point) -> Steps[int]:
         """The word that a bit group shares with others, as it is before the group is written."""
         if not isinstance(point, Decoding):
-            raise AccessError(f"{point.label}: the other bits of its word cannot be read back")
+            raise AccessError("the other bits of its word cannot be read back")
         return (yield from self._get_steps(point.facts.at))[0]
 
     def forget(self) -> None:
         """Read everything anew that was remembered because it changes rarely or never."""
         self._kept.clear()
 
-    def _resolved(self, what: str) -> PointAttribute[Any, Any]:
-        """A point by name, old name or code, that of this device's variant; raises AccessError."""
-        name = what
-        if (old := self.OLD_NAMES.get(what)) is not None:
-            old.warn(stacklevel=4)
-            name = old.new_name.rstrip("_")
-        found = self._found(name)
-        if found is not None:
-            return found
-        coded = find(self.POINTS.values(), what)
-        points = [point for point in coded if self._has(point)] or coded
-        if len({point.facts.name for point in points}) > 1:
-            raise AccessError(f"{what} means several points: {', '.join(point.facts.item for point in points)}")
-        if len(points) != 1:
-            name = points[0].facts.name if points else name
-            raise AccessError(f"{name} {self._absence(name)}")
-        return points[0]
-
-    def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
-        """The points of that name, one for each variant that has its own."""
-        return [point for point in self.POINTS.values() if point.facts.name == name]
-
-    def _found(self, name: str) -> PointAttribute[Any, Any] | None:
-        return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
-
-    def _absence(self, name: str) -> str:
-        """Why there is no such point, or not yet."""
-        axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
-        if not axes:
-            near = nearest([*self.POINTS.values()], name)
-            return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
-        if self.variants.get(axes[0]) is None:
-            return f"depends on {axes[0]}: pass it when the device is made"
-        return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
-
-    def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
-        """The point that another one needs; raises AccessError that says so."""
-        found = self._found(name)
-        if found is None:
-            raise AccessError(f"{point.label} needs {name}, which {self._absence(name)}")
-        return found
-
-    def _require(self, point: Point) -> None:
-        """Raises AccessError if the point belongs to another variant than the one given for this device."""
-        axis, value = point.facts.variant or ("", None)
-        if self.variants.get(axis, value) not in (value, None):
-            raise AbsentError(f"{point.label} exists only for {axis} {value}")
-        axis, values = point.facts.only_for or ("", ())
-        if self.variants.get(axis) not in (None, *values):
-            raise AbsentError(f"{point.label} exists only for {axis} {' or '.join(values)}")
-
-    def _has(self, point: Point) -> bool:
-        return exists(point, self.variants)
-
-    def _surely_has(self, point: Point) -> bool:
-        """Whether the point is there for all that is known: no condition is open."""
-        axis, _ = point.facts.only_for or ("", ())
-        known = not axis or self.variants.get(axis) is not None
-        return known and not point.facts.uncertain and self._has(point)
-
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        with _about(point):
+        with about(point):
             return self._taken(point, (yield from self._get_steps(point.facts.at)))
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
@@ -235,7 +106,8 @@ class Session(PointTable, ABC):
             elif item in self._kept and (not writes or other.facts.changes == _NEVER):
                 raws[name] = self._kept[item]
             else:
-                raws[name] = yield from self._read_raw_steps(other)
+                with needing(point, other):
+                    raws[name] = yield from self._read_raw_steps(other)
         return raws
 
     def _read_steps(self, point: Decoding[T]) -> Steps[T]:
@@ -261,7 +133,7 @@ class Session(PointTable, ABC):
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
         """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
-        with _about(point):
+        with about(point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)
             try:
@@ -290,6 +162,11 @@ class Session(PointTable, ABC):
         """
         group = what if isinstance(what, str) else None
         points = self._group(what) if isinstance(what, str) else self._listed(what)
+        with of_group(group):
+            return (yield from self._values_steps(points, group))
+
+    def _values_steps(self, points: Sequence[Decoding[Any]], group: str | None) -> Steps[dict[str, Value]]:
+        """The values of points, by name, and before them what their scales need."""
         needed = [self._needed(point, name) for point in points for name in point.scale_needs]
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
@@ -300,22 +177,11 @@ class Session(PointTable, ABC):
             values[point.facts.name] = point.decode(raws[point.facts.item], known)
         return values
 
-    def _listed(self, what: Iterable[str | Point]) -> list[Decoding[Any]]:
-        points: list[Decoding[Any]] = []
-        for one in what:
-            point = self._resolved(one if isinstance(one, str) else one.facts.item)
-            if not isinstance(one, str) and (one.facts is not point.facts or getattr(one, "_device", self) is not self):
-                raise AccessError(f"{one.label} is a point of another device")
-            self._require(point)
-            if not isinstance(point, Decoding):
-                raise AccessError(f"{point.label} cannot be read")
-            points.append(point)
-        return points
-
     def _group(self, group: str) -> list[Decoding[Any]]:
+        check_name("group", group)
         members = [point for point in self.POINTS.values() if point.facts.group == group and self._has(point)]
         if not members:
-            raise AccessError(f"there is no group {group}")
+            raise AccessError(f"there is no group {group}{self._meant_by_group(group)}")
         return [point for point in members if isinstance(point, Decoding) and self._travels(point)]
 
     def _travels(self, point: Point) -> bool:

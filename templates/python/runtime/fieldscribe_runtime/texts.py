@@ -7,8 +7,9 @@ import enum
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
 
+from .arguments import shown, whole
 from .errors import UnknownValueError, WrongLengthError, WrongTypeError
-from .forms import Form, Type, whole
+from .forms import Form, Type
 
 if TYPE_CHECKING:
     from .forms import Allowed
@@ -52,12 +53,12 @@ class Text(Form[str, str]):
         return raw if self._writable.issuperset(raw.to_bytes(self.characters, "big")) else None
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """There is none: raises TypeError."""
-        raise TypeError("a text has no integer path")
+        """There is none: raises WrongTypeError."""
+        raise WrongTypeError("a text has no counts: use raw numbers or values")
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """There is none: raises TypeError."""
-        raise TypeError("a text has no integer path")
+        """There is none: raises WrongTypeError."""
+        raise WrongTypeError("a text has no counts: use raw numbers or values")
 
     def choices(self, unit: str) -> str | None:
         """What a text has to be."""
@@ -91,7 +92,7 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
     def converted(self, value: Sequence[E], raws: Raws) -> int | None:
         """The word of that many members; a member of another enum raises UnknownValueError."""
         if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
-            raise WrongTypeError(f"takes {self.count} digits, not {value!r}")
+            raise WrongTypeError(f"takes {self.count} digits, not {shown(value)}")
         if len(value) != self.count:
             raise WrongLengthError(f"takes {self.count} digits, not {len(value)}")
         raw = 0

@@ -7,6 +7,9 @@ import functools
 import operator
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
+from .arguments import shown, whole
+from .errors import RangeError
+
 if TYPE_CHECKING:
     from .named import NamedNumber
 
@@ -72,9 +75,10 @@ class Field(Generic[N]):
 
     def place(self, number: int) -> int:
         """A number at the field's place, for combining with other flags."""
-        if number >> self.width:
-            raise ValueError(f"{number} does not fit into {self.width} bits")
-        return int(number) << self.low
+        plain = whole(number)
+        if plain >> self.width:
+            raise RangeError(f"{shown(plain)} does not fit into {self.width} bits")
+        return plain << self.low
 
     def told(self, name: str, word: int) -> str:
         """The name with its number on a word."""

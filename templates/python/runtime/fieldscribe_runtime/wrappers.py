@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from .arguments import shown
 from .errors import RangeError, SpecialCodeError, UnknownValueError, WrongTypeError
-from .fast import coded, uncoded
+from .fast import coded, surely_coded, uncoded
 from .forms import Form
 from .special import Special
 
@@ -35,6 +36,10 @@ class _Around(Form[R, W]):
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """As in the form."""
         return self.form.quick_decode(low, high, slow)
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """As in the form."""
+        return self.form.sure_decode(low, high, slow)
 
     def decode(self, raw: int, raws: Raws) -> R:
         """As in the form."""
@@ -89,7 +94,11 @@ class _Coded(_Around[R | Special, W]):
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """The special code, else as in the form."""
-        return coded(self.codes.finder, super().quick_decode(low, high, slow))
+        return coded(self.codes.finder, super().quick_decode(low, high, slow), slow)
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same."""
+        return surely_coded(self.codes.finder, super().sure_decode(low, high, slow))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """As in the form, where that gives no special code."""
@@ -101,7 +110,12 @@ class _Coded(_Around[R | Special, W]):
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """As in the form; raises SpecialCodeError, because a count has no room for a code."""
-        return super().decode_count(self._quantity(raw, "is"), raws)
+        code = self.codes(raw)
+        if code is not None:
+            raise SpecialCodeError(
+                code.name, f"raw {raw} is the special code {code}, which has no count: decode gives it"
+            )
+        return super().decode_count(raw, raws)
 
     def converted(self, value: W, raws: Raws) -> int | None:
         """As in the form; raises SpecialCodeError for a value whose raw number is a special code."""
@@ -182,5 +196,5 @@ class FixedBits(_Around[R, W]):
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it has the constant bits and the form takes it."""
         if raw & self.mask != self.bits:
-            raise RangeError(f"raw {raw} has not {self.bits:04X}h in the bits {self.mask:04X}h, as it must")
+            raise RangeError(f"raw {shown(raw)} has not {self.bits:04X}h in the bits {self.mask:04X}h, as it must")
         return super().checked(raw, allowed, raws)

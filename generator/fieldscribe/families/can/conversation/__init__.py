@@ -12,8 +12,8 @@ from fieldscribe.families.can.conversation.notation import read_frames
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.answers import Heard, Sent
-    from fieldscribe.conversation.codec import Settings
     from fieldscribe.conversation.options import Options
     from fieldscribe.model import Device, Point
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.codec import with_fixed
+from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
 from fieldscribe.conversation.refusals import RefusedError
 from fieldscribe.conversation.samples import sample_raw, sample_said
-from fieldscribe.conversation.words import group_mask, words_of
 from fieldscribe.families.can.conversation.sending import frame_text, read_frame, request_of, write_frames
 from fieldscribe.families.can.frames import CanFrame, carries, identifier
 from fieldscribe.wording import fixed_text

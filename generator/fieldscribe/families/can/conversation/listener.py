@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.answers import Heard, Item
 from fieldscribe.conversation.items import Directory, named_item, value_item, value_said, without_variants
 from fieldscribe.conversation.remarks import strange_unit, words_text
 from fieldscribe.conversation.selection import absence
-from fieldscribe.conversation.words import raw_of
 from fieldscribe.families.can.conversation.recognition import Recognised, recognise, senders
 from fieldscribe.families.can.conversation.remarks import (
     fixed_finding,
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from fractions import Fraction
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.families.can.conversation.notation import Pasted
     from fieldscribe.model import Device, Message, Point, Telegram
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask, insert, words_of
 from fieldscribe.conversation.answers import Sent
 from fieldscribe.conversation.lookup import number_of
 from fieldscribe.conversation.refusals import RefusedError
 from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import UnclearError, label, quoted
-from fieldscribe.conversation.words import group_mask, insert, words_of
 from fieldscribe.families.can.frames import build, carries
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
@@ -44,7 +44,7 @@ def read_frame(device: Device, address: int, unit: int | None = None) -> str:
 def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int | None) -> tuple[str, ...]:
     """A request for each word of a point. Raises RefusedError."""
     message = request_of(device, writes=True)
-    place = next((one for one in point.places if one.purpose == "write"), point.places[0] if point.places else None)
+    place = point.write_place
     if message is None or place is None or place.space != "parameter":
         raise RefusedError("no_message", f"{label(point)}: the manual gives no message that writes it")
     chosen = device.bus.usual_unit if unit is None else unit

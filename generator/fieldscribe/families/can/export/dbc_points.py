@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule
 
@@ -61,9 +62,9 @@ def signals_of_point(device: Device, point: Point, per_frame: int, *, joins: boo
 
 def _meaning(point: Point, comment: str) -> Meaning:
     rule = fixed_rule(point) if point.generated else None
-    multiply, add, divide = rule or (1, 0, 1)
+    multiply, add, divide = line = rule or SAME
     least, greatest = wording.outer_raw(point) or (point.least, point.greatest)
-    ends = sorted(Fraction(raw * multiply + add, divide) for raw in (least, greatest))
+    ends = sorted(map(line.result, (least, greatest)))
     return Meaning(
         point.name,
         point.addresses[0],

@@ -15,6 +15,7 @@ from fieldscribe.targets.c.frames import (
     kind_of,
     lies,
     names_of,
+    names_of_exceptions,
     old_names_of,
     shares,
 )
@@ -26,8 +27,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
+    from fieldscribe.targets.identifiers import Named
 
 _BYTES = 8
 
@@ -108,7 +110,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places]
@@ -151,19 +153,18 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-    """Every identifier of the header, with what it belongs to."""
-    yield from ((f"{view.prefix}_{name}", Owner("target")) for name in ("can_profile", "can_dialogue"))
-    yield f"{view.upper}_CAN_BITRATE", Owner("target")
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
+    """Every identifier of the header, by what it belongs to."""
+    own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
+    yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for message in bus.messages:
-        yield message.array, Owner("message", message.name)
+        yield Owner("message", message.name), (message.array,)
     for telegram in bus.telegrams:
-        owner = Owner("telegram", telegram.name)
-        yield from ((name, owner) for name in (telegram.constant, telegram.slots_name))
-    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
+        yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name)
+    yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
-        yield from ((name, Owner("group", group.title)) for name in (group.array, group.count_name))
-    yield from names_of((*bus.layouts, *(one.descriptor for one in (*bus.parameters, *bus.cyclic))))
+        yield Owner("group", group.title), (group.array, group.count_name)
+    yield from names_of(bus.layouts, (one.descriptor for one in (*bus.parameters, *bus.cyclic)))
     yield from old_names_of(bus.aliases)
 
 
@@ -187,11 +188,11 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
             yield one.function, f"WRITE{tail}({how})"
 
 
-def _array(message: Message | None, scope: Scope) -> str:
+def _array(message: Message | None, scope: HeaderScope) -> str:
     return "" if message is None else f"{scope.prefix}_message_{message.name}"
 
 
-def _message(message: Message, scope: Scope) -> MessageView:
+def _message(message: Message, scope: HeaderScope) -> MessageView:
     roles = (
         (
             f"FIELDSCRIBE_CAN_{upper(role.kind)}",
@@ -209,7 +210,7 @@ def _message(message: Message, scope: Scope) -> MessageView:
     )
 
 
-def _telegram(telegram: Telegram, message: Message, scope: Scope) -> TelegramView:
+def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> TelegramView:
     macro = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}"
     name = f"{scope.prefix}_telegram_{telegram.name}"
     slots = -(-telegram.words // message.words)
@@ -228,7 +229,7 @@ def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message 
     return None, None
 
 
-def _groups(device: Device, scope: Scope) -> Iterator[GroupView]:
+def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
     for group in device.groups:
         addresses: dict[int, None] = {}
         for point in device.points:
@@ -248,30 +249,32 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[boo
     text = point.text is not None
     place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{hexadecimal(point.addresses[0])}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
-    access = f"{'text_' if text else ''}{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
-    return _frame(point, view, access, parts)
+    ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    return _frame(point, view, ways, parts)
 
 
 def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
     """Where a point is heard in its telegram."""
     if point.text is not None:
-        return _frame(point, view, "text_h", [f"{{{view.function}_addresses, {point.words}U}}"])
+        return _frame(point, view, "h", [f"{{{view.function}_addresses, {point.words}U}}"])
     where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
     return _frame(point, view, "h", [layouts.of(point, range(point.words)), where])
 
 
-def _frame(point: Point, view: PointView, access: str, parts: list[str]) -> FrameView:
-    value = f"{{{', '.join(parts)}}}"
-    ways = access.removeprefix("text_")
+def _frame(point: Point, view: PointView, ways: str, parts: list[str]) -> FrameView:
+    """The frames in which a point is read (`r`), written (`w`), updated (`u`) or heard (`h`)."""
+    value, text = f"{{{', '.join(parts)}}}", point.text is not None
     return FrameView(
-        descriptor=Descriptor(f"fieldscribe_can_{access}", f"{view.function}_frame", value, view.item),
+        descriptor=Descriptor(
+            f"fieldscribe_can_{'text_' if text else ''}{ways}", f"{view.function}_frame", value, view.item, "_frame"
+        ),
         function=view.function,
         macro=view.macro,
         kind=kind_of(point),
         raw_type=view.raw_type,
         read="r" in ways,
         write=ways[-1] in "wu",
-        text=point.text is not None,
+        text=text,
         shares=shares(point),
         lies=lies(point),
     )

@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits
-from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Role
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 
-def _profile(device: Device, scope: Scope) -> Node:
+def _profile(device: Device, scope: PackageScope) -> Node:
     """What the device says and hears."""
     scope.used.add("Profile")
     bus = device.bus
@@ -28,7 +28,7 @@ def _profile(device: Device, scope: Scope) -> Node:
     return call("Profile", arguments)
 
 
-def _message(message: Message, scope: Scope) -> Node:
+def _message(message: Message, scope: PackageScope) -> Node:
     scope.used.update(("Message", "Role"))
     arguments: list[Node] = [
         python_string(message.name),
@@ -50,7 +50,7 @@ def _role(role: Role) -> Node:
     return call("Role", (python_string(role.kind), number))
 
 
-IN_PYTHON = Family(
+IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.can",
     exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
     blocking=Flavour("CanDevice", "CanTransport"),

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits, of_bus
-from fieldscribe.targets.identifiers import Identifier, Owner
-from fieldscribe.targets.rust.conformance import row_of
+from fieldscribe.targets.identifiers import Names, Owner
+from fieldscribe.targets.rust.conformance import item_row, row_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import OfFamily
+from fieldscribe.targets.rust.families import OfFamily, Table
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name
@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Role, Telegram
-    from fieldscribe.targets.rust.families import Table
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
 _PLAIN = {"multiplexer": "Multiplexer"}
@@ -69,7 +68,7 @@ def context(device: Device) -> dict[str, object]:
     }
 
 
-def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """A parameter is read and written word by word; a point of a telegram is received in frames."""
     if subject.point.telegram is None:
         yield "impl runtime::can::Parameter {}"
@@ -78,7 +77,7 @@ def traits(subject: Subject, scope: Scope) -> Iterator[str]:
         yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(telegram)}; }}"
 
 
-def _received(subject: Subject, scope: Scope) -> str | None:
+def _received(subject: CratePoint, scope: CrateScope) -> str | None:
     """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
     point = subject.point
     _, message = scope.telegrams.get(point.telegram or "", (None, None))
@@ -88,12 +87,12 @@ def _received(subject: Subject, scope: Scope) -> str | None:
     return point.telegram if len(frames) == 1 or len(point.addresses) == 2 else None
 
 
-def identifiers(device: Device) -> Iterator[Identifier]:
+def identifiers(device: Device) -> Iterator[Names]:
     """The names of messages and telegrams."""
     for message in device.messages:
-        yield Identifier("Rust, messages", message.name.upper(), Owner("message", message.name))
+        yield Names("Rust, module `messages`", Owner("message", message.name), (message.name.upper(),))
     for telegram in device.telegrams:
-        yield Identifier("Rust, telegrams", type_name(telegram.name), Owner("telegram", telegram.name))
+        yield Names("Rust, module `telegrams`", Owner("telegram", telegram.name), (type_name(telegram.name),))
 
 
 def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
@@ -139,11 +138,11 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
     )
 
 
-def tables_of_points(scope: Scope) -> Iterator[Table]:
+def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """The points that come in frames of a telegram."""
     heard = [one for one in scope.subjects if one.form != "text" and _received(one, scope) is not None]
     if heard:
-        yield "can_telegram", "can_telegram", tuple(row_of(one, "frames") for one in heard)
+        yield Table("can_telegram", "can_telegram", tuple(row_of(one, ("(frames)",)) for one in heard))
 
 
 def tables_of_frames(device: Device) -> Iterator[Table]:
@@ -151,9 +150,9 @@ def tables_of_frames(device: Device) -> Iterator[Table]:
     carriers = {one.name for one in device.messages if one.words}
     heard = [one for one in device.telegrams if one.message in carriers]
     if heard:
-        names = tuple(f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard)
-        yield "can_taken", "can_taken", names
-        yield "can_carrier", "can_carrier", names
+        rows = tuple(item_row(one.name, "telegrams", "telegram", type_name(one.name)) for one in heard)
+        yield Table("can_taken", "can_taken", rows)
+        yield Table("can_carrier", "can_carrier", rows)
 
 
 IN_RUST = OfFamily(

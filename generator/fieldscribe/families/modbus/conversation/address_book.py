@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conversation.answers import Item
-from fieldscribe.conversation.codec import setting_of
 from fieldscribe.conversation.items import named_item, present_first, value_item
 from fieldscribe.conversation.lookup import word_text
 from fieldscribe.conversation.selection import absence
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from fractions import Fraction
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Command, Device, Place, Point
 
 _SPACE_OF: Mapping[int, str] = {

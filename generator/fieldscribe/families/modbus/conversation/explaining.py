@@ -30,7 +30,7 @@ def read_text(device: Device, point: Point) -> str:
 
 def write_text(device: Device, point: Point) -> str:
     """How to write the point, with a request for one allowed number; empty if it cannot be written."""
-    place = next((one for one in point.places if one.purpose == "write"), point.places[0] if point.places else None)
+    place = point.write_place
     space = SPACES.get(place.space) if place else None
     if not point.writable or place is None or space is None:
         return ""

@@ -26,7 +26,7 @@ from fieldscribe.families.modbus.requests import Request, parse_request
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Device
 
 _UNASKED = "which addresses these are, only the request says: give it before this frame, or with --request"

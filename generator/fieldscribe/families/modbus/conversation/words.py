@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import group_mask, split
+from fieldscribe.arithmetic.words import raw_of as raw_of_words
 from fieldscribe.conversation.refusals import RefusedError
 from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import label
-from fieldscribe.conversation.words import raw_of as raw_of_words
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording.exact import hex_text
@@ -27,19 +28,16 @@ def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, .
     """The unsigned words (or the bit) of a raw number, in ascending order of their addresses."""
     if point.type == "bit":
         return (raw,)
-    count = len(addresses)
-    pattern = raw & ((1 << 16 * count) - 1)
-    by_address = {address: pattern >> 16 * (count - 1 - at) & 0xFFFF for at, address in enumerate(addresses)}
-    return tuple(by_address[address] for address in sorted(addresses))
+    return tuple(word for _, word in sorted(zip(addresses, split(raw, len(addresses)), strict=True)))
 
 
 def write_request(
     device: Device, point: Point, raw: int, unit: int | None, framing: str | None
 ) -> tuple[Request, bytes]:
     """The request that writes a raw number, and its bytes. Raises RefusedError."""
-    place = next((one for one in point.places if one.purpose == "write"), point.places[0])
+    place = point.write_place or point.places[0]
     if point.bits is not None:
-        mask = ((1 << point.width) - 1) << point.bits[1]
+        mask = group_mask(point)
         raise RefusedError(
             "shared_word",
             f"{label(point)} shares its word with other points, so no single request can write it",

@@ -16,6 +16,7 @@ from fieldscribe.targets.c.frames import (
     kind_of,
     lies,
     names_of,
+    names_of_exceptions,
     old_names_of,
     places_of,
     shares,
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Block, Command, Device, Place, Point
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
+    from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -97,7 +99,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_modbus.h`."""
     bus = device.bus
     functions = tuple(
@@ -135,15 +137,16 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-    """Every identifier of the header, with what it belongs to."""
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
+    """Every identifier of the header, by what it belongs to."""
+    own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
+    yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for blocks in bus.blocks:
-        yield from ((name, Owner("group", blocks.name)) for name in (blocks.array, blocks.count_name))
-    for command in bus.commands:
-        name = command.descriptor.name
-        yield from ((one, Owner("command", name)) for one in (name, *(define for define, _ in command.defines)))
-    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
-    yield from names_of((*bus.layouts, *(one.descriptor for one in bus.frames)))
+        yield Owner("group", blocks.name), (blocks.array, blocks.count_name)
+    for command, made in zip(device.commands, bus.commands, strict=True):
+        yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
+    yield from names_of_exceptions(device, bus.exceptions)
+    yield from names_of(bus.layouts, (one.descriptor for one in bus.frames))
     yield from old_names_of(bus.aliases)
 
 
@@ -165,7 +168,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
     """None for a point that no function of the device reaches, or that needs its word read first to be written."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
-    target = next((one for one in point.places if one.purpose == "write"), place)
+    target = point.write_place or place
     write = _writing(point, target, functions) if point.writable else 0
     read = read if read in functions else 0
     if point.bits is not None and not read:
@@ -179,7 +182,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
     access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     return FrameView(
-        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item),
+        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item, "_frame"),
         function=view.function,
         kind=kind_of(point),
         raw_type=view.raw_type,
@@ -213,13 +216,13 @@ def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
     return next((number for number in wanted if number in functions), 0)
 
 
-def _blocks(group: str, blocks: tuple[Block, ...], scope: Scope) -> BlocksView:
+def _blocks(group: str, blocks: tuple[Block, ...], scope: HeaderScope) -> BlocksView:
     rows = tuple((hexadecimal(one.function, 2), hexadecimal(one.address), unsigned(one.count)) for one in blocks)
     name = f"{scope.upper}_{upper(group)}_BLOCKS_COUNT"
     return BlocksView(group, f"{scope.prefix}_{group}_blocks", name, rows)
 
 
-def _command(command: Command, scope: Scope) -> CommandView:
+def _command(command: Command, scope: HeaderScope) -> CommandView:
     macro = f"{scope.upper}_COMMAND_{upper(command.name)}"
     value = "1U" if command.value is None else unsigned(command.value)
     comment = c_comment(command.title["en"]) + (": any value does" if command.value is None else "")
@@ -228,5 +231,5 @@ def _command(command: Command, scope: Scope) -> CommandView:
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
     write = f"{{{hexadecimal(command.function, 2)}, {macro}_ADDRESS, 1U}}"
     name = f"{scope.prefix}_command_{command.name}"
-    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}", "")
+    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}")
     return CommandView(descriptor, f"{comment}.", defines)

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.families.modbus.functions import BROADCAST, FRAMINGS, profile_of
-from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 
-def _profile(device: Device, scope: Scope) -> Node:
+def _profile(device: Device, scope: PackageScope) -> Node:
     """What the device takes from the bus."""
     scope.used.add("Profile")
     bus = device.bus
@@ -38,7 +38,7 @@ def _profile(device: Device, scope: Scope) -> Node:
     return call("Profile", arguments)
 
 
-def _blocks(device: Device, scope: Scope) -> Node | None:
+def _blocks(device: Device, scope: PackageScope) -> Node | None:
     """The planned reads of each group."""
     if not device.blocks:
         return None
@@ -53,7 +53,7 @@ def _blocks(device: Device, scope: Scope) -> Node | None:
     return Group("{", tuple(made), "}")
 
 
-IN_PYTHON = Family(
+IN_PYTHON = PythonFamily(
     module=RUNTIME,  # the names of Modbus are those of the runtime itself
     exports=frozenset({"Block", "Profile"}),
     blocking=Flavour("Device", "Transport"),

@@ -13,8 +13,8 @@ from fieldscribe.families.uss.conversation.sending import frames_for
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.answers import Heard
-    from fieldscribe.conversation.codec import Settings
     from fieldscribe.conversation.options import Options
     from fieldscribe.model import Device
 

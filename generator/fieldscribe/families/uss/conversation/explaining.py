@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.codec import with_fixed
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.hexadecimal import spaced
 from fieldscribe.conversation.samples import sample_raw, sample_said
 from fieldscribe.families.uss.conversation.links import default_link

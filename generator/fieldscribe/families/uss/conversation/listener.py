@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.answers import Heard, Item
 from fieldscribe.conversation.items import Base, Directory, named_item, value_item, without_variants
 from fieldscribe.conversation.remarks import words_text
 from fieldscribe.conversation.selection import absence
-from fieldscribe.conversation.words import raw_of
 from fieldscribe.families.uss.conversation import remarks
 from fieldscribe.families.uss.conversation.recognition import (
     RESPONSE_WIDTHS,
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from fractions import Fraction
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.model import Device, Point
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")

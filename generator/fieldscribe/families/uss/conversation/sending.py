@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.words import insert, words_of
 from fieldscribe.conversation.answers import Sent
 from fieldscribe.conversation.hexadecimal import spaced
 from fieldscribe.conversation.refusals import RefusedError
 from fieldscribe.conversation.remarks import units_text
 from fieldscribe.conversation.selection import UnclearError, label
-from fieldscribe.conversation.words import insert, words_of
 from fieldscribe.families.uss.conversation.links import asked, link_of
 from fieldscribe.families.uss.conversation.remarks import find_code
 from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
@@ -20,7 +20,7 @@ from fieldscribe.text import line
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.conversation.codec import Settings
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.options import Options
     from fieldscribe.model import Device, Point
 

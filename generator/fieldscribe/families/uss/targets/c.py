@@ -25,14 +25,19 @@ from fieldscribe.text import c_comment, c_string
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Code, Device, Point, Telegram
-    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.model import Bus, Code, Device, Point, Telegram
+    from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
+    from fieldscribe.targets.identifiers import Named
 
 _READ = (1, 6)
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
 """The tasks that write a value of one or two words, of a parameter or (True) of an element of one."""
+
+_TITLES = ("Tasks", "Responses", "Errors")
+_KINDS = {"task": "function", "response": "response", "error": "exception"}
+"""What the numbers of the protocol are called in the header, and what they are in the description."""
 
 
 NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
@@ -43,6 +48,7 @@ class CodesView:
     """Numbers of the protocol with names: enumerators with comments, and the function that tells the name."""
 
     title: str
+    kind: str
     function: str
     entries: tuple[tuple[str, str, str, str], ...]
 
@@ -95,7 +101,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
+def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_uss.h`."""
     bus = device.bus
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
@@ -121,11 +127,7 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         ),
         codes=tuple(
             _codes(title, kind, codes, scope)
-            for title, kind, codes in (
-                ("Tasks", "task", bus.functions),
-                ("Responses", "response", of_bus(bus).responses),
-                ("Errors", "error", bus.exceptions),
-            )
+            for title, kind, codes in zip(_TITLES, _KINDS, _lists(bus), strict=True)
             if codes
         ),
         layouts=layouts.descriptors,
@@ -142,14 +144,17 @@ def bus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
-    """Every identifier of the header, with what it belongs to."""
-    yield from ((f"{view.prefix}_{name}", Owner("target")) for name in ("uss_tasks", "uss_pkw", "uss_profile"))
-    for codes in bus.codes:
-        yield codes.function, Owner("target")
-        yield from ((name, Owner("code", name)) for name, _, _, _ in codes.entries)
-    yield from names_of((*bus.layouts, *(one for frame in bus.frames for one in frame.descriptors)))
-    yield from names_of(one.descriptor for one in bus.words)
+def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
+    """Every identifier of the header, by what it belongs to."""
+    own = Owner("target", "what the header of frames needs")
+    yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
+    yield own, [codes.function for codes in bus.codes]
+    lists = dict(zip(_KINDS, _lists(device.bus), strict=True))
+    for made in bus.codes:
+        for code, (name, _, _, _) in zip(lists[made.kind], made.entries, strict=True):
+            yield Owner(_KINDS[made.kind], code.name), (name,)
+    frames = (one for frame in bus.frames for one in frame.descriptors)
+    yield from names_of(bus.layouts, (*frames, *(one.descriptor for one in bus.words)))
     yield from old_names_of(bus.aliases)
 
 
@@ -185,13 +190,17 @@ def _word_cases(word: WordView) -> Iterator[str]:
         yield f"HEAR({name}, {what})"
 
 
-def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
+def _lists(bus: Bus) -> tuple[tuple[Code, ...], ...]:
+    return bus.functions, of_bus(bus).responses, bus.exceptions
+
+
+def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: HeaderScope) -> CodesView:
     prefix = f"{scope.upper}_{upper(kind)}"
     entries = (
         (f"{prefix}_{upper(code.name)}", str(code.number), c_string(code.name), c_comment(code.title["en"]))
         for code in codes
     )
-    return CodesView(title, f"{scope.prefix}_{kind}_name", tuple(entries))
+    return CodesView(title, kind, f"{scope.prefix}_{kind}_name", tuple(entries))
 
 
 def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
@@ -229,15 +238,15 @@ def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: lis
     width = 2 if point.info.bits == 32 else 1
     places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
-    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item)
+    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item, tail)
 
 
-def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
+def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: HeaderScope) -> WordView:
     position = f"{{{min(point.addresses)}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     return WordView(
-        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item),
+        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item, "_frame"),
         function=view.function,
         macro=view.macro,
         kind=kind_of(point),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.targets.python.families import RUNTIME, Family, Flavour, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.python.scope import Scope
+    from fieldscribe.targets.python.scope import PackageScope
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 
-def _profile(device: Device, scope: Scope) -> Node:
+def _profile(device: Device, scope: PackageScope) -> Node:
     """What the device takes from the line."""
     scope.used.add("Profile")
     bus = device.bus
@@ -62,7 +62,7 @@ def _maker(point: Point) -> str:
     return _STORED.get(usual, usual) if stored else usual
 
 
-IN_PYTHON = Family(
+IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.uss",
     exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
     blocking=Flavour("UssDevice", "UssTransport"),

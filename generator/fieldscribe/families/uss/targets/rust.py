@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.targets.identifiers import Identifier, Owner
+from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus, Device
     from fieldscribe.targets.rust.families import Way
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
 def context(device: Device) -> dict[str, object]:
@@ -50,7 +50,7 @@ def _profile(bus: Bus) -> str:
     return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
 
 
-def traits(subject: Subject, scope: Scope) -> Iterator[str]:
+def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
     """A point is a parameter, or is sent, or is received in the process data."""
     point = subject.point
     if point.telegram is None:
@@ -61,11 +61,14 @@ def traits(subject: Subject, scope: Scope) -> Iterator[str]:
     yield f"impl runtime::uss::{trait} {{}}"
 
 
-def identifiers(device: Device) -> Iterator[Identifier]:
+def identifiers(device: Device) -> Iterator[Names]:
     """The names of tasks and responses."""
-    for module, codes in (("tasks", device.bus.functions), ("responses", of_bus(device.bus).responses)):
+    for kind, module, codes in (
+        ("function", "tasks", device.bus.functions),
+        ("response", "responses", of_bus(device.bus).responses),
+    ):
         for code in codes:
-            yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
+            yield Names(f"Rust, module `{module}`", Owner(kind, code.name), (code.name.upper(),))
 
 
 def _fixed(device: Device) -> Iterator[str]:
@@ -76,7 +79,7 @@ def _fixed(device: Device) -> Iterator[str]:
             yield point.item
 
 
-def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
+def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     """Words of process data go one way; parameters can be written for good."""
     point = subject.point
     if point.telegram is None:
@@ -86,7 +89,7 @@ def ways(subject: Subject, scope: Scope) -> Iterator[Way]:
         yield from _process_ways(subject, scope.telegrams[point.telegram][0].direction)
 
 
-def _process_ways(subject: Subject, direction: str) -> Iterator[Way]:
+def _process_ways(subject: CratePoint, direction: str) -> Iterator[Way]:
     point = subject.point
     if direction == "response" and point.readable:
         yield "read", "receive", (of_scale(subject),)

@@ -6,22 +6,41 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.targets.rust.layout import filled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.identifiers import Identifier
-    from fieldscribe.targets.rust.subjects import Scope, Subject
+    from fieldscribe.targets.identifiers import Names
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-Table = tuple[str, str, tuple[str, ...]]
-"""The function that a table of conformance becomes, the runner's function behind it, and its rows."""
+Tokens = tuple[str, ...]
+"""Words of a row, between which it may be broken."""
 
-Needs = tuple[tuple[str, tuple[str, ...]], ...]
+Needs = tuple[tuple[str, Tokens], ...]
 """Structs and their fields."""
 
 Way = tuple[str, str, Needs]
 """How a point travels: the kind of vector, the runner's function, and what that needs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The function that a table of conformance becomes, the runner's function behind it, and its rows.
+
+    `kind` is that of the vectors of whole exchanges which it answers; empty for all others.
+    """
+
+    name: str
+    run: str
+    rows: tuple[Tokens, ...]
+    kind: str = ""
+
+    @property
+    def lines(self) -> tuple[Tokens, ...]:
+        """The rows in lines."""
+        return tuple(filled("", " ", row, ";") for row in self.rows)
 
 
 def nothing(*_: object) -> tuple[()]:
@@ -40,10 +59,10 @@ class OfFamily:
     """
 
     context: Callable[[Device], Mapping[str, object]]
-    traits: Callable[[Subject, Scope], Iterable[str]] = nothing
-    identifiers: Callable[[Device], Iterable[Identifier]] = nothing
-    ways: Callable[[Subject, Scope], Iterable[Way]] = nothing
-    tables_of_points: Callable[[Scope], Iterable[Table]] = nothing
+    traits: Callable[[CratePoint, CrateScope], Iterable[str]] = nothing
+    identifiers: Callable[[Device], Iterable[Names]] = nothing
+    ways: Callable[[CratePoint, CrateScope], Iterable[Way]] = nothing
+    tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
 

@@ -14,7 +14,12 @@ _SPACES = {
 }
 
 
-def space(name: str) -> str:
+def space_variant(name: str) -> str:
     """A space as a variant of the runtime's enum."""
     known = _SPACES.get(name)
-    return f"runtime::Space::{known}" if known else f"runtime::Space::Other({rust_string(name)})"
+    return known or f"Other({rust_string(name)})"
+
+
+def space(name: str) -> str:
+    """The same with the enum, as a value."""
+    return f"runtime::Space::{space_variant(name)}"

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..errors import AccessError, FrameError, RequestError
+from ..arguments import check_number
+from ..errors import AccessError, FrameError
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -75,7 +76,8 @@ class Profile(Record):
         for telegram in self.telegrams:
             if telegram.name == name:
                 return telegram
-        raise AccessError(f"the device has no telegram {name}")
+        known = ", ".join([telegram.name for telegram in self.telegrams])
+        raise AccessError(f"the device has no telegram {name}" + (f", only {known}" if known else ""))
 
     def request(self, *, writes: bool) -> Message:
         """The request that reads or writes a parameter; raises AccessError."""
@@ -100,13 +102,12 @@ def _combined(data: bytes | bytearray, mask: int) -> int:
 
 def build(message: Message, profile: Profile, unit: int, address: int = 0, raw: int = 0) -> Frame:
     """The frame of a message; raises RequestError (bad_unit, bad_address, bad_value)."""
-    for status, what, number, (low, high) in (
+    for status, what, number, ends in (
         ("bad_unit", "unit", unit, profile.units),
         ("bad_address", "address", address, (0, 0xFFFF)),
         ("bad_value", "raw number", raw, (0, 0xFFFF)),
     ):
-        if not low <= number <= high:
-            raise RequestError(status, f"{what} {number} is outside {low}..{high}")
+        check_number(status, what, number, ends)
     carried = {"unit": unit, "address": address, "raw": raw}
     data = bytearray()
     for kind, number in message.roles:

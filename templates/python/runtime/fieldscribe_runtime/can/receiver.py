@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..arguments import check_integer, check_name, shown
 from ..errors import RequestError, TelegramError
-from ..session import check_unit
+from ..table import check_unit
 from .frames import recognizer
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ class Receiver:
 
     def __init__(self, profile: Profile, telegram: str, unit: int) -> None:
         check_unit(unit, profile.units)
+        check_name("telegram", telegram)
         layout = profile.telegram(telegram)
         self.telegram = layout.name
         self.unit = unit
@@ -54,8 +56,11 @@ class Receiver:
 
     def _taken(self, frame: Frame, moment: float) -> int | None:
         """Which of the telegram's frames it is, from 0; None if it is another one."""
-        if not self._is_own(frame):
-            return None
+        try:
+            if not self._is_own(frame):
+                return None
+        except (AttributeError, TypeError):
+            raise RequestError("bad_frame", f"takes a Frame(id, data), not {shown(frame)}") from None
         data = frame.data
         place = 0 if self._multiplexer is None else data[self._multiplexer]
         if place >= len(self._slots):
@@ -81,6 +86,8 @@ class Receiver:
         Two words of two frames are believed only when the same high word came before and after the low one: a counter
         may have moved on in between. Longer runs of words, such as texts, are given as they came last.
         """
+        if not isinstance(positions, (tuple, list, range)) or not positions:
+            raise RequestError("bad_address", f"takes positions of words, as in (0, 1), not {shown(positions)}")
         found = [(self._slot(position), position % len(self._pairs)) for position in positions]
         if any(slot.number == 0 for slot, _ in found):
             raise TelegramError("missing", f"not all frames of {self.telegram} with words {positions} came yet")
@@ -100,8 +107,10 @@ class Receiver:
         return data[high] << 8 | data[low]
 
     def _slot(self, position: int) -> _Slot:
+        if type(position) is not int:
+            check_integer("bad_address", "the position of a word", position)
         if not 0 <= position < self._words:
-            raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {position}")
+            raise RequestError("bad_address", f"{self.telegram} has {self._words} words, and none at {shown(position)}")
         return self._slots[position // len(self._pairs)]
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: 0BSD
 """The Modbus family: frames without any I/O, planned reads, and devices over a transport."""
 
+from ..bits import BitLayout
 from .device import AsyncModbusDevice, AsyncTransport, ModbusDevice, Transport
 from .frames import (
     BIT_READS,
@@ -52,6 +53,7 @@ __all__ = [
     "WRITE_REGISTERS",
     "AsyncModbusDevice",
     "AsyncTransport",
+    "BitLayout",
     "Block",
     "ModbusDevice",
     "ModbusSession",

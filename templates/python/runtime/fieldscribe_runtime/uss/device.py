@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from ..arguments import awaited, check_transport
 from ..device import AnyAsyncDevice, AnyDevice
 from .session import UssSession
 
@@ -12,6 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from .frames import Link
+
+
+_PARTS = {"exchange": "a method that sends a telegram and returns the whole reply"}
+"""What a transport has."""
 
 
 class UssTransport(Protocol):
@@ -43,6 +48,7 @@ class UssDevice(UssSession, AnyDevice):
     def __init__(
         self, transport: UssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
     ) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(link, unit, variants or {})
         self.transport = transport
 
@@ -54,14 +60,14 @@ class UssDevice(UssSession, AnyDevice):
 
         With the name of a telegram for the space it is a word of process data, counted from 0.
         """
-        return self._run(self._get_steps(self._place(space, address, 1, index)))
+        return self._run(self._read_at_steps(space, address, index))
 
     def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
         """Write a parameter by number to RAM, or with the name of a telegram words of process data.
 
         Nothing is checked: this can set what no point allows.
         """
-        self._run(self._put_steps(self._place(space, address, len(words), index), words))
+        self._run(self._write_at_steps(space, address, words, index))
 
     def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
         """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.
@@ -82,25 +88,26 @@ class AsyncUssDevice(UssSession, AnyAsyncDevice):
     def __init__(
         self, transport: AsyncUssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
     ) -> None:
+        check_transport(transport, **_PARTS)
         super().__init__(link, unit, variants or {})
         self.transport = transport
 
     async def _carry(self, request: bytes) -> bytes:
-        return await self.transport.exchange(request)
+        return await awaited(self.transport, self.transport.exchange(request))
 
     async def read_at(self, space: str, address: int, index: int | None = None) -> tuple[int, ...]:
         """Read a parameter by number, without any meaning: one word, or two with the high one first.
 
         With the name of a telegram for the space it is a word of process data, counted from 0.
         """
-        return await self._run(self._get_steps(self._place(space, address, 1, index)))
+        return await self._run(self._read_at_steps(space, address, index))
 
     async def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
         """Write a parameter by number to RAM, or with the name of a telegram words of process data.
 
         Nothing is checked: this can set what no point allows.
         """
-        await self._run(self._put_steps(self._place(space, address, len(words), index), words))
+        await self._run(self._write_at_steps(space, address, words, index))
 
     async def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
         """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.

@@ -5,23 +5,24 @@ It knows no words and no buses. `Settings` are raw numbers of other points by na
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic import floats
+from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.words import with_fixed
+
 if TYPE_CHECKING:
-    from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point, Special
+    from fieldscribe.model import Bound, Factor, Interval, Linear, Point, Special
 
 Settings = Mapping[str, int | Fraction]
 """What rules take of other points, by name: raw numbers; of f32 and f64 points the value, see `setting_of`."""
 
-MOST_EXPONENT = 400
-"""The largest exponent of a point that says no range of its own."""
-
-_PATTERNS = {"f32": ("<f", "<I"), "f64": ("<d", "<Q")}
+MOST_EXPONENT = 30
+"""The largest exponent of ten that a point may give: 10^30 is beyond any device."""
 
 
 class CodecError(Exception):
@@ -67,12 +68,6 @@ def setting_of(point: Point, raw: int) -> int | Fraction:
     return Fraction(number) if isfinite(number) else Fraction(0)
 
 
-def half_away(number: Fraction) -> int:
-    """The nearest integer, halves away from zero."""
-    whole = (2 * abs(number.numerator) + number.denominator) // (2 * number.denominator)
-    return whole if number >= 0 else -whole
-
-
 def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]:
     """(ratio, offset) with raw = value * ratio + offset. Raises CodecError."""
     if point.scale is None:
@@ -111,14 +106,6 @@ def encode(point: Point, value: Fraction, settings: Settings) -> int:
         return _pattern_of(point, value)
     ratio, offset = rule_in_force(point, settings)
     return half_away(value * ratio + offset)
-
-
-def with_fixed(point: Point, raw: int) -> int:
-    """A raw number of a whole word with the bits that are always written as a constant."""
-    if point.fixed is None or point.bits is not None:
-        return raw
-    pattern = (raw & ~point.fixed.mask | point.fixed.bits) & ((1 << point.width) - 1)
-    return pattern - (1 << point.width) if pattern > point.greatest else pattern
 
 
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
@@ -181,9 +168,7 @@ def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
 
 def float_of(point: Point, pattern: int) -> float:
     """The number that the bit pattern of an f32 or f64 point is."""
-    kind = _PATTERNS[point.type]
-    number: float = struct.unpack(kind[0], struct.pack(kind[1], pattern))[0]
-    return number
+    return floats.float_of(pattern, point.info.bits)
 
 
 def _needed(name: str, settings: Settings) -> int | Fraction:
@@ -196,19 +181,24 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
     missing = [factor.point for factor in rule.factors if factor.point not in settings]
     if missing:
         raise CodecError("missing", missing)
-    ratio = rule.ratio
     coded = [factor.point for factor in rule.factors if isinstance(settings[factor.point], (_NoQuantity, _Code))]
     if coded:
         raise CodecError("zero_factor", coded)
-    for factor in _powers_last(rule):
+    return _product(rule, settings, zero=False)
+
+
+def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
+    """The ratio times all factors; what is divided by is never zero, what is multiplied with only if `zero` may be."""
+    product = rule.ratio
+    for factor in powers_last(rule):
         number = _factor(factor, settings)
-        if number == 0:
+        if number == 0 and not (zero and factor.power > 0):
             raise CodecError("zero_factor", (factor.point,))
-        ratio *= number**factor.power
-    return ratio
+        product *= number**factor.power
+    return product
 
 
-def _powers_last(rule: Linear) -> list[Factor]:
+def powers_last(rule: Linear) -> list[Factor]:
     """The factors in the order in which generated code looks at them: a zero counts before an exponent too large."""
     return sorted(rule.factors, key=lambda factor: factor.ten_to)
 
@@ -233,14 +223,14 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
     """The bound, and the points without which it is only the outermost one."""
     if isinstance(bound, int):
         return bound, ()
-    outermost = bound.least if lower else bound.greatest
+    outermost = bound.outermost(low=lower)
     if any(_is_code(settings.get(name), codes) for name, codes in bound.unless):
         return outermost, ()
     needed = [*(factor.point for factor in bound.rule.factors), *(name for name, _ in bound.unless)]
     missing = tuple(name for name in dict.fromkeys(needed) if name not in settings)
     if missing:
         return outermost, missing
-    number = _limit(bound, settings)
+    number = half_away(_product(bound.rule, settings, zero=True) + bound.rule.offset)
     return (max(outermost, number) if lower else min(outermost, number)), ()
 
 
@@ -251,24 +241,11 @@ def _is_code(held: int | Fraction | None, codes: tuple[tuple[int, int], ...]) ->
     return isinstance(held, _NoQuantity)
 
 
-def _limit(limit: Limit, settings: Settings) -> int:
-    product = limit.rule.ratio
-    for factor in _powers_last(limit.rule):
-        number = _factor(factor, settings)
-        if number == 0 and factor.power < 0:
-            raise CodecError("zero_factor", (factor.point,))
-        product *= number**factor.power
-    return half_away(product + limit.rule.offset)
-
-
 def _pattern_of(point: Point, value: Fraction) -> int:
-    kind = _PATTERNS[point.type]
     try:
-        packed = struct.pack(kind[0], float(value))
+        return floats.pattern_of(value, point.info.bits)
     except OverflowError as error:
         raise CodecError("out_of_range") from error
-    pattern: int = struct.unpack(kind[1], packed)[0]
-    return pattern
 
 
 def _check_units(point: Point, pattern: int) -> None:

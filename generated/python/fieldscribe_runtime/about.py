@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: 0BSD
+"""What an error is about: the group and the points of a request, and what had to be read first."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from .errors import FieldscribeError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .points import Point
+
+_LISTED = 4
+"""So many points of one request are listed in an error."""
+
+
+@contextmanager
+def about(*points: Point) -> Iterator[None]:
+    """What goes wrong meanwhile says which point was asked for, or which ones one request reads."""
+    try:
+        yield
+    except FieldscribeError as error:
+        more = f" and {len(points) - _LISTED} more" if len(points) > _LISTED else ""
+        error.point = error.point or ", ".join([one.label for one in points[:_LISTED]]) + more
+        raise
+
+
+@contextmanager
+def needing(point: Point, other: Point) -> Iterator[None]:
+    """What goes wrong while another point is read says which one was asked for, and that it needs the other."""
+    try:
+        with about(other):
+            yield
+    except FieldscribeError as error:
+        error.point, error.needs = point.label, error.needs or error.point
+        raise
+
+
+@contextmanager
+def of_group(group: str | None) -> Iterator[None]:
+    """What goes wrong meanwhile says of which group."""
+    try:
+        yield
+    except FieldscribeError as error:
+        error.group = group
+        raise

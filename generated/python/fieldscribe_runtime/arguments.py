@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: 0BSD
+"""What callers hand over, held against what is taken: errors that say what is expected instead of Python's own."""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .errors import AccessError, FrameError, RangeError, RequestError, WrongTypeError
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable
+
+T = TypeVar("T")
+
+_SHOWN = 80
+_MOST = 0x10000
+"""So many words or bits are named by 16-bit addresses."""
+
+
+def shown(value: object) -> str:
+    """A value in messages, whatever it is."""
+    try:
+        text = repr(value)
+    except ValueError:  # more digits than Python prints
+        return "a number of thousands of digits"
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
+
+
+def whole(number: Any) -> int:
+    """The number itself as a plain int.
+
+    Raises RangeError for a number that is no integer, and WrongTypeError for what is no number: a bool too, since True
+    for a number is a mistake more often than a 1.
+    """
+    if isinstance(number, bool):
+        raise WrongTypeError(f"takes a number, not {number}")
+    try:
+        return operator.index(number)
+    except TypeError:
+        if hasattr(number, "__float__"):
+            raise RangeError(f"{shown(number)} is no integer") from None
+        raise WrongTypeError(f"takes an integer, not {shown(number)}") from None
+
+
+def raw_number(number: Any, width: int) -> int:
+    """A raw number as a plain int, also of a bit as a bool; raises WrongTypeError, for a float too."""
+    if isinstance(number, bool) and width == 1:
+        return int(number)
+    try:
+        return whole(number)
+    except (RangeError, WrongTypeError):
+        raise WrongTypeError(f"takes a raw number, which is an integer, not {shown(number)}") from None
+
+
+def check_integer(status: str, what: str, number: Any) -> None:
+    """Raises RequestError for what is no integer; a bool is none either."""
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise RequestError(status, f"{what} is an integer, not {shown(number)}")
+
+
+def check_number(status: str, what: str, number: Any, ends: tuple[int, int]) -> None:
+    """The same, also for one that lies outside of the ends."""
+    check_integer(status, what, number)
+    if not ends[0] <= number <= ends[1]:
+        raise RequestError(status, f"{what} {shown(number)} is outside {ends[0]}..{ends[1]}")
+
+
+def check_words(status: str, what: str, words: Any) -> None:
+    """Raises RequestError for what is no tuple or list of words."""
+    if not isinstance(words, (tuple, list)):
+        raise RequestError(status, f"{what} are a tuple of words, not {shown(words)}")
+    for word in words:
+        check_number(status, "a word", word, (0, 0xFFFF))
+
+
+def check_place(space: Any, address: Any, count: Any) -> None:
+    """Raises RequestError unless these can be a space, an address in it and a number of words or bits."""
+    if not isinstance(space, str):
+        raise RequestError("bad_space", f"a space is named by a text such as 'holding', not {shown(space)}")
+    check_number("bad_address", "address", address, (0, _MOST - 1))
+    check_integer("bad_count", "the number of words or bits", count)
+    if not 1 <= count <= _MOST:
+        raise RequestError("bad_count", f"takes 1 to {_MOST} words or bits, not {shown(count)}")
+
+
+def check_name(kind: str, name: Any) -> None:
+    """Raises AccessError for what is no name."""
+    if not isinstance(name, str) or not name.strip():
+        raise AccessError(f"a {kind} is named by a text, not {shown(name)}")
+
+
+def check_bytes(reply: Any) -> None:
+    """Raises FrameError for what is no reply at all, whatever bytes it has."""
+    if not isinstance(reply, (bytes, bytearray)):
+        hint = ""
+        if hasattr(reply, "__await__"):
+            hint = ": an async transport belongs to the async device"
+            getattr(reply, "close", str)()  # a coroutine, which nobody will await
+        raise FrameError("wrong_type", f"a reply is bytes, not {shown(reply)}{hint}")
+
+
+def check_transport(transport: object, **parts: str) -> None:
+    """Raises RequestError (bad_transport) if a transport lacks one of the parts, each with what it is."""
+    missing = [name for name in parts if not hasattr(transport, name)]
+    if missing:
+        needed = " and ".join([f"`{name}` ({what})" for name, what in parts.items()])
+        lacking = " and no ".join(missing)
+        raise RequestError("bad_transport", f"a transport has {needed}; {shown(transport)} has no {lacking}")
+
+
+def awaited(transport: object, result: Awaitable[T]) -> Awaitable[T]:
+    """What an async transport gives to be awaited; raises RequestError (bad_transport) for a blocking one."""
+    if not hasattr(result, "__await__"):
+        text = f"{shown(transport)} gave {shown(result)} where an async device awaits: it takes an async transport"
+        raise RequestError("bad_transport", text)
+    return result

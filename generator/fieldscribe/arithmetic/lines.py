@@ -1,0 +1,68 @@
+"""Linear rules in the smallest integers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import gcd
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Linear
+
+
+class Line(NamedTuple):
+    """result = (argument * factor + add) / divisor, in lowest terms, with the divisor above 0."""
+
+    factor: int
+    add: int
+    divisor: int
+
+    @classmethod
+    def reduced(cls, factor: int, add: int, divisor: int) -> Line:
+        """The same rule in lowest terms."""
+        common = gcd(factor, add, divisor) * (1 if divisor > 0 else -1)
+        return cls(factor // common, add // common, divisor // common)
+
+    @property
+    def inverse(self) -> Line:
+        """The rule the other way round; the factor is not zero."""
+        return Line.reduced(self.divisor, -self.add, self.factor)
+
+    @property
+    def does_nothing(self) -> bool:
+        """Whether the result is the argument."""
+        return self == SAME
+
+    def result(self, argument: int | Fraction) -> Fraction:
+        """The exact result."""
+        return (Fraction(argument) * self.factor + self.add) / self.divisor
+
+    def argument(self, result: int | Fraction) -> Fraction:
+        """The exact argument that gives a result; the factor is not zero."""
+        return (Fraction(result) * self.divisor - self.add) / self.factor
+
+    def meets(self, arguments: Iterable[int]) -> Iterator[int]:
+        """Every integer on the way from those arguments to the division."""
+        for argument in arguments:
+            yield from (argument, argument * self.factor, argument * self.factor + self.add)
+
+
+SAME = Line(1, 0, 1)
+"""The result is the argument."""
+
+
+def value_line(rule: Linear) -> Line:
+    """Values from raw numbers, of a rule without factors."""
+    return count_line(rule, 0).inverse
+
+
+def count_line(rule: Linear, decimals: int) -> Line:
+    """Raw numbers from counts of 10^-decimals units (from values, for none), of a rule without factors."""
+    ratio, offset, power = rule.ratio, rule.offset, 10**decimals
+    return Line.reduced(
+        ratio.numerator * offset.denominator,
+        offset.numerator * ratio.denominator * power,
+        ratio.denominator * offset.denominator * power,
+    )

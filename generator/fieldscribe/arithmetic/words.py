@@ -1,0 +1,84 @@
+"""Raw numbers as patterns of bits, in 16-bit words, the high part first, and in the bits of a shared word."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.model import Point
+
+
+def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
+    """The least and the greatest number that so many bits hold."""
+    return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
+
+
+def fits(numbers: Iterable[int], bits: int) -> bool:
+    """Whether so many bits with a sign hold all the numbers."""
+    low, high = ends_of(bits, signed=True)
+    return all(low <= number <= high for number in numbers)
+
+
+INT32 = ends_of(32, signed=True)
+INT64 = ends_of(64, signed=True)
+UINT64 = ends_of(64, signed=False)
+
+
+def mask_of(width: int, low: int = 0) -> int:
+    """So many ones from bit `low` on."""
+    return ((1 << width) - 1) << low
+
+
+def number_of(pattern: int, width: int, *, signed: bool) -> int:
+    """The number that a pattern of `width` bits is, in two's complement where that is signed."""
+    return pattern - (1 << width) if signed and pattern >> (width - 1) else pattern
+
+
+def joined(words: Iterable[int]) -> int:
+    """The words as one unsigned number."""
+    pattern = 0
+    for word in words:
+        pattern = pattern << 16 | word
+    return pattern
+
+
+def split(raw: int, count: int) -> tuple[int, ...]:
+    """A number as so many unsigned words."""
+    return tuple(raw >> 16 * place & 0xFFFF for place in reversed(range(count)))
+
+
+def raw_of(point: Point, words: Iterable[int]) -> int:
+    """The raw number of a point out of its words; of a text all its words as one number."""
+    pattern = joined(words)
+    if point.text is not None:
+        return pattern
+    low = 0 if point.bits is None else point.bits[1]
+    return number_of(pattern >> low & mask_of(point.width), point.width, signed=point.info.signed)
+
+
+def words_of(point: Point, raw: int) -> tuple[int, ...]:
+    """The unsigned words of a raw number."""
+    return split(raw, point.words)
+
+
+def group_mask(point: Point) -> int:
+    """The bits of its word that a point takes."""
+    return 0xFFFF if point.bits is None else mask_of(point.width, point.bits[1])
+
+
+def insert(point: Point, word: int, raw: int) -> int:
+    """A word with the bits of a point replaced, and those put in that are always written as a constant."""
+    low = 0 if point.bits is None else point.bits[1]
+    mask = group_mask(point)
+    word = word & ~mask & 0xFFFF | raw << low & mask
+    return word if point.fixed is None else word & ~point.fixed.mask | point.fixed.bits
+
+
+def with_fixed(point: Point, raw: int) -> int:
+    """A raw number of a whole word with the bits that are always written as a constant."""
+    if point.fixed is None or point.bits is not None:
+        return raw
+    pattern = (raw & ~point.fixed.mask | point.fixed.bits) & mask_of(point.width)
+    return number_of(pattern, point.width, signed=point.info.signed)

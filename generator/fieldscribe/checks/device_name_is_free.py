@@ -1,0 +1,32 @@
+"""A device's files take the place of no others: those of a system, of our runtime, or of a language."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+
+_UNSAFE = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
+
+
+def check(subject: Subject) -> None:
+    """The first reason why the name is taken, if there is one."""
+    header = subject.scope.header
+    name = str(header["device"])
+    for taken in _reasons(name):
+        hint = "name it after vendor and model, such as `hitachi_l200`"
+        subject.report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)
+        return
+
+
+def _reasons(name: str) -> Iterator[str]:
+    from fieldscribe.targets import TARGETS, target
+
+    if name in _UNSAFE:
+        yield "is no safe name for a folder on every system"
+    if name == "fieldscribe" or name.startswith("fieldscribe_"):
+        yield "is taken by the runtime, which stands beside the generated files"
+    yield from filter(None, (target(one).device_name_taken(name) for one in TARGETS))

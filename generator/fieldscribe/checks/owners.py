@@ -1,0 +1,171 @@
+"""What identifiers stand for, in words and with its place in the text."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.drafts import groups
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.targets.identifiers import Owner
+
+_LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
+_OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
+_OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
+"""Under which key of a description the things of a kind stand."""
+
+
+class Thing(NamedTuple):
+    """Something with a name: what messages call it, and where it stands; what a target needs itself stands nowhere."""
+
+    words: str
+    place: Span | None
+
+
+class _EnumFound(NamedTuple):
+    """An enum where it is said: one that many points share, or a point's own."""
+
+    name: str
+    thing: Thing
+    entries: Map
+
+
+def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
+    """What a description calls its groups, points and enums, which every target takes as it is."""
+    for group in groups(subject.scope):
+        name = str(group["group"])
+        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
+    for one in subject.resolved:
+        yield from _names_of_point(subject, one)
+    for enum in _enums(subject):
+        yield "the enums of generated code", enum.name, enum.thing
+
+
+def _names_of_point(subject: Subject, one: Resolved) -> Iterator[tuple[str, str, Thing]]:
+    """A point under its name, its name in a variant and its former names."""
+    where, point, draft = "generated code", one.point, one.draft
+    yield where, point.item, Thing(_point_words(draft), draft.span())
+    if point.variant is not None:
+        first = subject.index.by_name[point.name][0]
+        yield where, point.name, Thing(f"the point `{point.name}`", first.span())
+    for old in point.was:
+        place = draft.span("was")
+        if point.variant is not None:
+            yield where, replace(point, name=old).item, Thing(f"the old name `{old}` of {_short(draft)}", place)
+        yield where, old, Thing(f"the old name `{old}` of `{point.name}`", place)
+
+
+def _short(draft: Draft) -> str:
+    return f"`{draft.name}`" if draft.variant is None else f"`{draft.name}` of {draft.variant}"
+
+
+def _point_words(draft: Draft) -> str:
+    return f"the point {_short(draft)}"
+
+
+def _enums(subject: Subject) -> Iterator[_EnumFound]:
+    """The enums of generated points, each once, in the order of the points."""
+    seen: set[tuple[str, int]] = set()
+    for one in subject.resolved:
+        point, draft = one.point, one.draft
+        if not point.generated or (point.enum is None and point.digits is None):
+            continue
+        key, enum = ("enum", point.enum) if point.digits is None else ("digits", point.digits.enum)
+        if enum is None:
+            continue
+        said = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
+        entries: Map = subject.scope.named_enums[said] if isinstance(said, str) else said
+        if (enum.name, id(entries)) in seen:
+            continue
+        seen.add((enum.name, id(entries)))
+        thing = Thing(f"the enum of `{draft.name}`", draft.span(key))
+        if isinstance(said, str):
+            section = next(file["enums"] for file in subject.scope.files if said in file.get("enums", {}))
+            thing = Thing(f"the enum `{said}`", section.key_span(said))
+        yield _EnumFound(enum.name, thing, entries)
+
+
+class Owners:
+    """What the owners of identifiers are in one description."""
+
+    def __init__(self, subject: Subject) -> None:
+        self._subject = subject
+
+    def thing(self, owner: Owner) -> Thing:
+        """The owner in words, and where it stands."""
+        if owner.kind == "target":
+            return Thing(owner.name, None)
+        if owner.kind == "enum":
+            return self._enums[owner.name].thing
+        if owner.kind == "point":
+            return Thing(self._point_words(owner), self._draft(owner).span())
+        return Thing(self._words(owner), self._place(owner))
+
+    @cached_property
+    def _enums(self) -> dict[str, _EnumFound]:
+        return {enum.name: enum for enum in reversed(list(_enums(self._subject)))}
+
+    def _draft(self, point: Owner) -> Draft:
+        return self._subject.index.by_item(point.name)
+
+    def _point_words(self, owner: Owner) -> str:
+        draft = self._draft(owner)
+        return _point_words(draft) if owner.name == draft.item else f"the point `{owner.name}`"
+
+    def _words(self, owner: Owner) -> str:
+        named = f"the {owner.kind} `{owner.name}`"
+        if owner.of is None:
+            return named
+        whole = self.thing(owner.of).words.removeprefix("the point ")
+        return f"{named} of {whole}"
+
+    def _place(self, owner: Owner) -> Span:
+        scope = self._subject.scope
+        if owner.of is not None:
+            return self._place_of_part(owner, owner.of)
+        if owner.kind in _LISTED:
+            listed = scope.listed(_LISTED[owner.kind])
+            return next(raw.span("name") for raw in listed if raw["name"] == owner.name)
+        if owner.kind == "group":
+            return next(raw.span("group") for raw in groups(scope) if raw["group"] == owner.name)
+        if owner.kind == "special codes":
+            return self._holder_of_codes(owner).span("special")
+        holder = scope.header.get("variants") if owner.kind == "variant" else None
+        if owner.kind in _OF_BUS and scope.bus is not None:
+            holder = scope.bus.get(_OF_BUS[owner.kind])
+        return _key_place(holder, owner.name) or scope.header.span("device")
+
+    def _place_of_part(self, owner: Owner, of: Owner) -> Span:
+        if owner.kind == "entry":
+            enum = self._enums[of.name]
+            return _key_place(enum.entries, owner.name) or enum.entries.span()
+        if of.kind == "flag" and of.of is not None:
+            return self._place_of_part(of, of.of)
+        draft = self._holder_of_codes(of) if of.kind == "special codes" else self._draft(of)
+        if owner.kind == "numbering":
+            return _key_place(draft.group.get("numbering"), owner.name) or draft.span()
+        key = _OF_POINT.get(owner.kind)
+        holders = (draft.get(key), draft.group.get(key)) if key else ()
+        places = (_key_place(holder, owner.name) for holder in holders)
+        return next(filter(None, places), None) or draft.span(key)
+
+    def _holder_of_codes(self, codes: Owner) -> Draft:
+        """The first point that has codes which many share."""
+        return next(one.draft for one in self._subject.resolved if one.point.shared_codes == codes.name)
+
+
+def _key_place(holder: object, name: str) -> Span | None:
+    """Where the key stands that has the name, or that gives it to something."""
+    for key, value in holder.items() if isinstance(holder, Map) else ():
+        if name in (key, value, value.get("name") if isinstance(value, Map) else None):
+            return holder.key_span(key) if isinstance(holder, Map) else None
+    return None

@@ -1,0 +1,113 @@
+"""The integers of a scale that is known at compile time, and how wide they are."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.arithmetic.lines import Line, count_line, value_line
+from fieldscribe.arithmetic.rounding import nearest
+from fieldscribe.arithmetic.words import INT32, INT64
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Linear, Point
+
+EXACT_FLOAT = 1 << 24
+"""Every integer up to here is a binary32 number."""
+
+
+class Plan(NamedTuple):
+    """The integers of a scale: `to_raw` makes a raw number of a count, `to_value` a value of a raw number.
+
+    `raws` are the raw numbers of the type. `counts` are the counts whose raw numbers lie in the outer limits,
+    `numerator` is the largest that decoding to a value meets, `beyond` the raw numbers whose counts fit; each `_wide`
+    says that 32 bits do not suffice. `fits_float` says that binary32 holds every integer that values meet.
+    """
+
+    to_raw: Line
+    to_value: Line
+    raws: tuple[int, int]
+    count_wide: bool
+    encode_wide: bool
+    decode_wide: bool
+    numerator: int
+    counts: tuple[int, int]
+    beyond: tuple[int, int] | None
+    fits_float: bool
+
+
+def plan_of(point: Point, low: int, high: int) -> Plan:
+    """The plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
+    assert point.fixed_scale is not None
+    return _plan(point.fixed_scale, point.decimals or 0, point.held, low, high)
+
+
+@lru_cache(maxsize=4096)
+def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
+    """Proves the widths by computing what the extreme arguments meet.
+
+    Every step is linear in its argument, so each intermediate is largest at one end of the arguments. Code divides with
+    rounding, for which it adds up to half the divisor to the size of the numerator: each proof leaves room for all of
+    the divisor. Encoding is only ever asked for `counts`, for a count outside is refused before anything is computed;
+    decoding for any raw number that the type holds.
+    """
+    to_raw, to_value = count_line(rule, decimals), value_line(rule)
+    to_count = to_raw.inverse
+    ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
+    count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])
+    counts = _usable(to_raw, _counts(to_raw, low, high), INT64 if count_wide else INT32)
+    numerator = max(map(abs, to_value.meets(raws)))
+    return Plan(
+        to_raw,
+        to_value,
+        raws,
+        count_wide,
+        encode_wide=max(map(abs, to_raw.meets(counts))) + to_raw.divisor > INT32[1],
+        decode_wide=max(map(abs, to_count.meets(raws))) + to_count.divisor > INT32[1],
+        numerator=numerator,
+        counts=counts,
+        beyond=_countable(to_raw, raws),
+        fits_float=_fits_float(rule, low, high) and max(to_value.divisor, numerator) <= EXACT_FLOAT,
+    )
+
+
+def _usable(to_raw: Line, counts: tuple[int, int], limits: tuple[int, int]) -> tuple[int, int]:
+    """The counts that their type holds and whose numerators 64 bits hold; beyond are special codes alone."""
+    most = (INT64[1] - abs(to_raw.add)) // abs(to_raw.factor)
+    return max(counts[0], limits[0], -most), min(counts[1], limits[1], most)
+
+
+def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
+    """The raw numbers between which counts are computed in 64 bits; None where that is all that the type holds.
+
+    A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: both sides of
+    `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is multiplied or divided, the smallest number
+    of 64 bits needs no room for a sign that is turned round.
+    """
+    p, q, r = to_raw
+    most = INT64[1] - abs(p) // 2
+    low, high = -((most - q) // r), (most + q) // r
+    return None if (low <= raws[0] or p == r == 1) and raws[1] <= high else (max(low, raws[0]), min(high, raws[1]))
+
+
+def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
+    """The least and the greatest count whose rounded raw number lies in low..high.
+
+    A raw number is kept if the exact quotient lies less than a half outside its limit, or just a half on the side from
+    which rounding goes towards the limit: a half rounds away from zero, so it belongs to a limit above zero from below,
+    and to one below zero from above. Twice the numerator is compared, which is whole.
+    """
+    p, q, r = to_raw
+    if p < 0:
+        first, last = _counts(Line(-p, q, r), low, high)
+        return -last, -first
+    below, above = (2 * low - 1) * r - 2 * q, (2 * high + 1) * r - 2 * q
+    first = -(-below // (2 * p)) if low > 0 else below // (2 * p) + 1
+    last = above // (2 * p) if high < 0 else -(-above // (2 * p)) - 1
+    return first, last
+
+
+def _fits_float(rule: Linear, low: int, high: int) -> bool:
+    """Whether binary32 holds the constants of encoding, and a raw number that is one beyond its limits."""
+    largest = max(abs(low), abs(high)) + 1
+    return max(abs(rule.ratio.numerator), rule.ratio.denominator, largest) <= EXACT_FLOAT

@@ -1,0 +1,95 @@
+"""Rules that other points have a part in, with what is known of those points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.codec import powers_last
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from fractions import Fraction
+
+    from fieldscribe.model import Factor, Linear, Point
+
+Band = tuple[int, int]
+
+_MANTISSA = 1 << 24
+"""No mantissa of a binary32 number is larger."""
+
+
+@dataclass(frozen=True, slots=True)
+class Operand:
+    """A factor of a rule, with what is known of its point.
+
+    `held` are the raw numbers that the point's type holds. `exponents` are those for which ten to it is defined, None
+    for other factors. `codes` are the special codes, which are no quantities. The number of a `floating` one is its
+    value, a mantissa of 24 bits times a power of two; else it is raw * slope + intercept, which lies between `ends`.
+    """
+
+    point: str
+    slope: int
+    intercept: int
+    power: int
+    ten_to: bool
+    floating: bool
+    held: Band
+    exponents: Band | None
+    codes: tuple[Band, ...]
+    ends: Band
+
+    @property
+    def largest(self) -> int:
+        """No number of the operand (of a floating one, no mantissa) is larger in size."""
+        return max(abs(self.ends[0]), abs(self.ends[1]), 1)
+
+    @property
+    def over(self) -> bool:
+        """Whether the rule is divided by it."""
+        return self.power < 0
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """result = argument * ratio * product(operands) + offset; `steps` are the operands as code takes them in."""
+
+    ratio: Fraction
+    offset: Fraction
+    operands: tuple[Operand, ...]
+    steps: tuple[Operand, ...]
+
+    @property
+    def coded(self) -> tuple[tuple[str, Band], ...]:
+        """The special codes for which nothing can be computed, with the point that holds them."""
+        by_point = {one.point: one.codes for one in self.operands}
+        return tuple((name, band) for name, codes in by_point.items() for band in codes)
+
+
+def rule_of(linear: Linear, points: Mapping[str, Point]) -> Rule:
+    """A rule with its operands."""
+    known = {id(factor): _operand(factor, points[factor.point]) for factor in linear.factors}
+    return Rule(
+        linear.ratio,
+        linear.offset,
+        tuple([known[id(factor)] for factor in linear.factors]),
+        tuple([known[id(factor)] for factor in powers_last(linear)]),
+    )
+
+
+def _operand(factor: Factor, point: Point) -> Operand:
+    floating = point.info.floating
+    assert not floating or (factor.slope, factor.intercept, factor.ten_to) == (1, 0, False)
+    low, high = sorted(raw * factor.slope + factor.intercept for raw in point.held)
+    return Operand(
+        point=factor.point,
+        slope=factor.slope,
+        intercept=factor.intercept,
+        power=factor.power,
+        ten_to=factor.ten_to,
+        floating=floating,
+        held=point.held,
+        exponents=(factor.exponents or point.outer) if factor.ten_to else None,
+        codes=tuple([(code.low, code.high) for code in point.specials]),
+        ends=(-_MANTISSA, _MANTISSA) if floating else (low, high),
+    )

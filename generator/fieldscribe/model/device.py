@@ -1,0 +1,218 @@
+"""A whole device, and all of it that is no point: its bus, groups, messages, commands, worked examples, errata."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.model.numbers import Enum, Titles
+    from fieldscribe.model.point import Point, Source
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Points that the manual presents together."""
+
+    name: str
+    title: Titles
+    note: Titles
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Erratum:
+    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, how sure that is."""
+
+    id: str
+    points: tuple[str, ...]
+    where: str
+    source: Source
+    printed: str
+    taken: str
+    why: str
+    certainty: str
+    facts: tuple[str, ...] = ()
+    """The keys of what is printed, where that is given as facts and not in words alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """Facts that one family alone knows; the folder of the family says which."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A worked example of the manual. `answers` names the request that a response answers.
+
+    `valid` is False when it is misprinted; `corrected` is the frame as it should read (the printed bytes when valid).
+    `meaning` gives raw numbers by point name.
+    """
+
+    name: str
+    framing: str
+    direction: str
+    answers: str | None
+    printed: bytes
+    corrected: bytes
+    valid: bool
+    meaning: Mapping[str, int]
+    title: Titles
+    source: Source
+    errata: tuple[str, ...]
+    own: Own | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What one byte of a message carries.
+
+    `constant` (number: the byte itself), `unit`, `address` and `raw` (number: how far the byte lies above bit 0),
+    `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
+    bytes of the message that are combined).
+    """
+
+    kind: str
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A layout of bytes with an identifier, to which the unit number is added if `adds_unit`."""
+
+    name: str
+    title: Titles
+    direction: str
+    answers: str | None
+    identifier: int
+    adds_unit: bool
+    roles: tuple[Role, ...]
+    source: Source
+
+    @property
+    def words(self) -> int:
+        """How many words of a telegram one frame carries."""
+        return sum(role.kind == "word" for role in self.roles) // 2
+
+
+@dataclass(frozen=True, slots=True)
+class Telegram:
+    """A cyclic layout of `words` words, carried by frames of a message, or by the family's own frames."""
+
+    name: str
+    title: Titles
+    direction: str
+    words: int
+    message: str | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A named constant write. `value` is None where any value does; `wears` is how many writes the memory stands."""
+
+    name: str
+    title: Titles
+    note: Titles
+    space: str
+    address: int
+    function: int
+    value: int | None
+    wears: int | None
+    busy: str | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A number of the protocol with a name: a function or an exception.
+
+    `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
+    once; None is what the protocol says. `answers` are the codes of the other kind that belong to it: of a request its
+    positive responses, of a response or an error the requests that may get it; `refusals` the negative responses.
+    """
+
+    number: int
+    name: str
+    title: Titles
+    most: int | None
+    broadcast: bool | None = None
+    answers: tuple[int, ...] = ()
+    refusals: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A read of consecutive addresses that respects limits and holes: `points` are the points that it brings."""
+
+    space: str
+    function: int
+    address: int
+    count: int
+    points: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Bus:
+    """What the family's frames need to know of this device; `own` is what this family alone knows."""
+
+    framings: tuple[str, ...]
+    units: tuple[int, int]
+    broadcast: int | None
+    functions: tuple[Code, ...]
+    exceptions: tuple[Code, ...]
+    gaps: Mapping[str, tuple[tuple[int, int], ...]]
+    timing: Mapping[str, str]
+    serial: Mapping[str, Mapping[str, str]]
+    note: Titles
+    own: Own | None = None
+
+    def codes(self, section: str) -> tuple[Code, ...]:
+        """The numbered codes under a key of `bus`, whether all families have it or this one alone."""
+        found: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
+        return found
+
+    @property
+    def usual_unit(self) -> int:
+        """The unit that examples go to: 1, or the lowest that the device may have."""
+        low, high = self.units
+        return 1 if low <= 1 <= high else low
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A manual that facts were taken from."""
+
+    id: str
+    title: str
+    language: str
+    file: str | None
+    sha256: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """One product with one register map. `digest` covers what matters to code, and nothing else."""
+
+    id: str
+    version: str
+    vendor: str
+    model: str
+    title: Titles
+    note: Titles
+    family: str
+    documents: tuple[Document, ...]
+    variants: Mapping[str, tuple[str, ...]]
+    bus: Bus
+    groups: tuple[Group, ...]
+    points: tuple[Point, ...]
+    enums: tuple[Enum, ...]
+    blocks: Mapping[str, tuple[Block, ...]]
+    commands: tuple[Command, ...]
+    frames: tuple[Frame, ...]
+    errata: tuple[Erratum, ...]
+    digest: str
+    messages: tuple[Message, ...] = ()
+    telegrams: tuple[Telegram, ...] = ()

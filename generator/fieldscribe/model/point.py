@@ -1,0 +1,181 @@
+"""A point: its identity over a shape that it shares with others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from fractions import Fraction
+
+    from fieldscribe.existence import Condition
+    from fieldscribe.model.numbers import Special, Titles
+    from fieldscribe.model.rules import Allowed
+    from fieldscribe.model.shape import Shape
+
+Fact = TypeVar("Fact")
+
+
+class _Shared(Generic[Fact]):
+    """A fact that a point has from its shape: whoever asks a point need not know which facts are shared."""
+
+    __slots__ = ("_of",)
+
+    def __init__(self, of: Callable[[Shape], Fact]) -> None:
+        self._of = of
+
+    def __get__(self, point: Point, _: object) -> Fact:
+        return self._of(point.shape)
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Where in the manual a fact stands."""
+
+    document: str
+    section: str | None
+    page: str | None
+    line: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of measure; the empty symbol is the plain number."""
+
+    symbol: str
+    name: str
+    quantity: str
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a point is: for what purpose, in which space, at which words (the high part first), by which function."""
+
+    purpose: str
+    space: str
+    addresses: tuple[int, ...]
+    function: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One addressable datum: what tells it from others, and the shape and the numbers of its limits.
+
+    `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
+    manual prints no address. `bits` (high, low) is where in its word it lies, None for whole words. `steps` gives
+    (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
+    """
+
+    name: str
+    variant: str | None
+    code: str | None
+    group: str
+    space: str
+    places: tuple[Place, ...]
+    references: Mapping[str, int | str]
+    shape: Shape
+    bits: tuple[int, int] | None
+    title: Titles
+    note: Titles
+    unit: Unit
+    allowed: Allowed
+    default: Fraction | None
+    steps: tuple[tuple[int, int], ...]
+    record: str | None
+    set: int | None
+    changes: str | None
+    keeps: str | None
+    conditions: tuple[str, ...]
+    when: Condition | None
+    since: str | None
+    until: str | None
+    was: tuple[str, ...]
+    reserved: bool
+    source: Source
+    errata: tuple[str, ...]
+    generated: bool
+    reason: str | None
+    telegram: str | None = None
+    index: int | None = None
+    changes_with: tuple[str, ...] = ()
+    untyped: str | None = None
+    """What stands in place of a type: the manual's words for what no type says; empty where it does not settle it."""
+
+    type = _Shared(lambda shape: shape.type)
+    width = _Shared(lambda shape: shape.width)
+    access = _Shared(lambda shape: shape.access)
+    scale = _Shared(lambda shape: shape.scale)
+    decimals = _Shared(lambda shape: shape.decimals)
+    encodes_values = _Shared(lambda shape: shape.encodes_values)
+    most_raw = _Shared(lambda shape: shape.most_raw)
+    enum = _Shared(lambda shape: shape.enum)
+    flags = _Shared(lambda shape: shape.flags)
+    specials = _Shared(lambda shape: shape.specials)
+    shared_codes = _Shared(lambda shape: shape.shared_codes)
+    specials_of = _Shared(lambda shape: shape.specials_of)
+    text = _Shared(lambda shape: shape.text)
+    digits = _Shared(lambda shape: shape.digits)
+    fixed = _Shared(lambda shape: shape.fixed)
+    info = _Shared(lambda shape: shape.info)
+    form = _Shared(lambda shape: shape.form)
+    least = _Shared(lambda shape: shape.least)
+    greatest = _Shared(lambda shape: shape.greatest)
+    held = _Shared(lambda shape: shape.held)
+    readable = _Shared(lambda shape: shape.readable)
+    writable = _Shared(lambda shape: shape.writable)
+    fixed_scale = _Shared(lambda shape: shape.fixed_scale)
+    scale_arguments = _Shared(lambda shape: shape.scale_arguments)
+
+    @property
+    def raw_only(self) -> bool:
+        """Whether nobody says what the words mean, but where they are: they are reached raw, by their address."""
+        return not (self.generated or self.reserved) and self.access != "none" and bool(self.places)
+
+    @property
+    def words(self) -> int:
+        """How many 16-bit words (or single bits) the point takes; without a type, as many as the manual prints."""
+        return self.shape.words if self.untyped is None else max(1, len(self.addresses))
+
+    @property
+    def outer(self) -> tuple[int, int]:
+        """The least and greatest raw number that may ever be written; what the bits hold where nothing is said."""
+        least, greatest = self.shape.least, self.shape.greatest
+        low, high = self.allowed.outer or (least, greatest)
+        return max(low, least), min(high, greatest)
+
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """The words where the point is read (or, if it cannot be read, written), the high part first; may be empty."""
+        return self.places[0].addresses if self.places else ()
+
+    @property
+    def address(self) -> int | None:
+        """The lowest address, which a request names; None when the manual prints none."""
+        return min(self.addresses) if self.addresses else None
+
+    @property
+    def write_place(self) -> Place | None:
+        """Where the point is written: mostly where it is read; None when the manual prints no address."""
+        return next(
+            (place for place in self.places if place.purpose == "write"), self.places[0] if self.places else None
+        )
+
+    def special(self, raw: int) -> Special | None:
+        """The special code that a raw number is, if it is one."""
+        return next((code for code in self.shape.specials if code.low <= raw <= code.high), None)
+
+    @property
+    def item(self) -> str:
+        """The name of generated items: the name, with the variant's value behind it."""
+        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
+        return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))
+
+    @property
+    def limit_arguments(self) -> tuple[str, ...]:
+        """The points that the limits need at run time: their factors, and those whose codes lift them."""
+        return self.allowed.arguments

@@ -1,0 +1,131 @@
+"""Scales and limits: exact linear rules, which other points may have a part in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that.
+
+    `exponents` are the raw numbers for which ten to it is defined; None before the points are complete.
+    """
+
+    point: str
+    slope: int
+    intercept: int
+    power: int
+    ten_to: bool
+    exponents: tuple[int, int] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Linear:
+    """An exact linear rule: result = argument * ratio * product(factors) + offset."""
+
+    ratio: Fraction
+    offset: Fraction
+    factors: tuple[Factor, ...]
+
+    def at(self, argument: Fraction) -> Fraction:
+        """The result of a rule without factors."""
+        return argument * self.ratio + self.offset
+
+
+@dataclass(frozen=True, slots=True)
+class ScaleCase:
+    """raw = value by `rule`; holds always (`point` is None) or when the raw number of `point` equals `raw`."""
+
+    point: str | None
+    raw: int | None
+    rule: Linear
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A raw limit that other points set: the rule applied to 1, rounded half away from zero.
+
+    It does not apply while a point holds a raw number in one of the bands (low, high) of `unless`; `least` and
+    `greatest` bound it always.
+    """
+
+    rule: Linear
+    unless: tuple[tuple[str, tuple[tuple[int, int], ...]], ...]
+    least: int
+    greatest: int
+
+    def outermost(self, *, low: bool) -> int:
+        """The number that the limit never goes beyond, as the lower or the upper end of an interval."""
+        return self.least if low else self.greatest
+
+
+Bound = int | Limit
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A closed interval of raw numbers."""
+
+    low: Bound
+    high: Bound
+
+    @property
+    def outer(self) -> tuple[int, int]:
+        """The ends, those that other points set as far out as they can be."""
+        low, high = self.low, self.high
+        return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+
+    @property
+    def fixed(self) -> tuple[int, int] | None:
+        """The ends, if no other point sets one of them."""
+        return (self.low, self.high) if isinstance(self.low, int) and isinstance(self.high, int) else None
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """Which raw numbers may be written: a union of intervals in ascending order.
+
+    `listed` says that the author wrote single numbers. For f32 and f64 the numbers are values in the unit, and `units`
+    holds them instead. Many points allow the same; what follows is worked out once, as it is of a shape.
+    """
+
+    intervals: tuple[Interval, ...]
+    listed: bool
+    units: tuple[tuple[Fraction, Fraction], ...]
+
+    @cached_property
+    def outer(self) -> tuple[int, int] | None:
+        """The least and greatest raw number of all intervals; None where there are none."""
+        ends = [interval.outer for interval in self.intervals]
+        return (min(low for low, _ in ends), max(high for _, high in ends)) if ends else None
+
+    @cached_property
+    def fixed(self) -> tuple[tuple[int, int], ...]:
+        """The intervals that no other point has a part in."""
+        return tuple(interval.fixed for interval in self.intervals if interval.fixed is not None)
+
+    @property
+    def moves(self) -> bool:
+        """Whether other points set a limit."""
+        return len(self.fixed) < len(self.intervals)
+
+    @cached_property
+    def arguments(self) -> tuple[str, ...]:
+        """The points that the limits need at run time: their factors, and those whose codes lift them."""
+        names: dict[str, None] = {}
+        for interval in self.intervals if self.moves else ():
+            for bound in (interval.low, interval.high):
+                if isinstance(bound, Limit):
+                    names.update(dict.fromkeys(factor.point for factor in bound.rule.factors))
+                    names.update(dict.fromkeys(name for name, codes in bound.unless if codes))
+        return tuple(names)
+
+    def holds(self, raw: int) -> bool:
+        """Whether a raw number may be allowed: limits that other points set count as far out as they can be."""
+        return any(low <= raw <= high for low, high in (interval.outer for interval in self.intervals))

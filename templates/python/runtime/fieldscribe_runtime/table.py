@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: 0BSD
+"""A device's points, found by what people call them: names, old names, codes and groups, for the variants told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from .arguments import check_name, shown
+from .commands import Command
+from .descriptors import ByVariant, PointAttribute, Renamed
+from .errors import AbsentError, AccessError, RequestError
+from .lookup import find, is_code, nearest
+from .points import Decoding, Point
+
+if TYPE_CHECKING:
+    from .facts import Documented
+
+
+def check_unit(unit: int, units: tuple[int, int]) -> None:
+    """Raises RequestError (bad_unit) for a unit number that the device cannot have."""
+    low, high = units
+    if isinstance(unit, bool) or not isinstance(unit, int) or not low <= unit <= high:
+        raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {shown(unit)}")
+
+
+def check_variants(axes: Mapping[str, tuple[str, ...]], variants: Mapping[str, str | None]) -> None:
+    """Raises RequestError (bad_variant) for an axis or a value that the device has not."""
+    for axis, value in variants.items():
+        if axis not in axes:
+            known = f", only by {', '.join(axes)}" if axes else ""
+            raise RequestError("bad_variant", f"the device has no variants by {axis!r}{known}")
+        if value is not None and value not in axes[axis]:
+            raise RequestError("bad_variant", f"{axis} is one of {', '.join(axes[axis])}, not {shown(value)}")
+
+
+def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
+    """Whether the variants that are told have a point; one of a variant needs it told."""
+    axis, values = point.facts.only_for or ("", ())
+    left = variants.get(axis) in (None, *values)
+    variant = point.facts.variant
+    return left and (variant is None or variants.get(variant[0]) == variant[1])
+
+
+class PointTable:
+    """A device's points, with what its bus needs to know."""
+
+    POINTS: ClassVar[Mapping[str, PointAttribute[Any, Any]]] = {}
+    BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
+    """Planned reads by group, where the family plans."""
+    VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
+    """Points that are no attributes, by name, with the reason."""
+
+    OLD_NAMES: ClassVar[Mapping[str, Renamed]] = {}
+    """What points were called before."""
+
+    if not TYPE_CHECKING:  # type checkers report names that do not exist
+
+        def __getattr__(self, name: str) -> Any:
+            """Say why a point that the manual has is no attribute, or not of this device."""
+            found = next((vars(kind)[name] for kind in type(self).__mro__ if name in vars(kind)), None)
+            if hasattr(found, "__get__"):
+                return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
+            documented = type(self).DOCUMENTED.get(name)
+            message = f"{type(self).__name__!r} object has no attribute {name!r}"
+            raise AttributeError(
+                message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
+            )
+
+    def __init_subclass__(cls) -> None:
+        points = [point for point in vars(cls).values() if isinstance(point, PointAttribute)]
+        cls.POINTS = {**cls.POINTS, **{point.facts.item: point for point in points}}
+        renamed = {name: alias for name, alias in vars(cls).items() if isinstance(alias, Renamed)}
+        cls.OLD_NAMES = {**cls.OLD_NAMES, **renamed}
+
+
+class NamedPoints(PointTable):
+    """The points of a device whose variants are known as far as its maker was told."""
+
+    variants: Mapping[str, str | None]
+
+    def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
+        """A point by name, old name or code, that of this device's variant; raises AccessError."""
+        check_name("point", what)
+        name = what
+        if (old := self.OLD_NAMES.get(what)) is not None:
+            old.warn(stacklevel=4)
+            name = old.new_name.rstrip("_")
+        found = self._found(name)
+        if found is not None:
+            return found
+        coded = find(self.POINTS.values(), what)
+        points = [point for point in coded if self._has(point)] or coded
+        if len({point.facts.name for point in points}) > 1:
+            raise AccessError(f"{what} means several points: {', '.join(point.facts.item for point in points)}")
+        if len(points) != 1:
+            name = points[0].facts.name if points else name
+            raise AccessError(f"{name} {self._absence(name)}")
+        return points[0]
+
+    def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
+        """The points of that name, one for each variant that has its own."""
+        return [point for point in self.POINTS.values() if point.facts.name == name]
+
+    def _found(self, name: str) -> PointAttribute[Any, Any] | None:
+        return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
+
+    def _absence(self, name: str) -> str:
+        """Why there is no such point, or not yet."""
+        axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
+        if not axes:
+            return self._other_meaning(name)
+        if self.variants.get(axes[0]) is None:
+            return f"depends on {axes[0]}: pass it when the device is made"
+        return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
+
+    def _other_meaning(self, name: str) -> str:
+        """What a name is that no point has as its own: a documented point, a command, a group, or one like others."""
+        for documented, facts in self.DOCUMENTED.items():
+            if name in (documented, documented.rstrip("_")) or is_code(facts.code, name):
+                return f"is documented only{'' if documented == name else f', as {documented}'}: {facts}"
+        if isinstance(getattr(type(self), name, None), Command):
+            return f"is a command of this device: {name}.send() gives it"
+        if name in self._groups():
+            return f"is a group of this device: read_many({name!r}) reads it"
+        near = nearest([*self.POINTS.values()], name)
+        return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
+
+    def _groups(self) -> list[str]:
+        return list(dict.fromkeys([point.facts.group for point in self.POINTS.values() if point.facts.group]))
+
+    def _meant_by_group(self, group: str) -> str:
+        """What may be meant where there is no such group."""
+        if self._found(group) is not None or find(self.POINTS.values(), group):
+            return f"; it is a point: read_many([{group!r}]) reads it"
+        return f", only {', '.join(self._groups())}"
+
+    def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
+        """The point that another one needs; raises AccessError that says so."""
+        found = self._found(name)
+        if found is None:
+            raise AccessError(f"{point.label} needs {name}, which {self._absence(name)}")
+        return found
+
+    def _require(self, point: Point) -> None:
+        """Raises AccessError if the point belongs to another variant than the one given for this device."""
+        axis, value = point.facts.variant or ("", None)
+        if self.variants.get(axis, value) not in (value, None):
+            raise AbsentError(f"{point.label} exists only for {axis} {value}")
+        axis, values = point.facts.only_for or ("", ())
+        if self.variants.get(axis) not in (None, *values):
+            raise AbsentError(f"{point.label} exists only for {axis} {' or '.join(values)}")
+
+    def _has(self, point: Point) -> bool:
+        return exists(point, self.variants)
+
+    def _surely_has(self, point: Point) -> bool:
+        """Whether the point is there for all that is known: no condition is open."""
+        axis, _ = point.facts.only_for or ("", ())
+        known = not axis or self.variants.get(axis) is not None
+        return known and not point.facts.uncertain and self._has(point)
+
+    def _listed(self, what: Iterable[str | Point]) -> list[Decoding[Any]]:
+        if isinstance(what, (Point, bytes, bytearray)) or not isinstance(what, Iterable):
+            raise AccessError(f"takes the name of a group, or a list of points and their names, not {shown(what)}")
+        points: list[Decoding[Any]] = []
+        for one in what:
+            point = self._own(one)
+            self._require(point)
+            if not isinstance(point, Decoding):
+                raise AccessError(f"{point.label} cannot be read")
+            points.append(point)
+        return points
+
+    def _own(self, one: Any) -> PointAttribute[Any, Any]:
+        """The point that a caller means by a name, a code, or a point of this device."""
+        if isinstance(one, ByVariant):
+            same = getattr(type(self), one.name, None) is one
+            return self._resolved(one.name.rstrip("_") if same else one)
+        if not isinstance(one, Point):
+            return self._resolved(one)
+        point = self._resolved(one.facts.item)
+        if one.facts is not point.facts or getattr(one, "_device", self) is not self:
+            raise AccessError(f"{one.label} is a point of another device")
+        return point
