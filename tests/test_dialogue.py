@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.families.modbus.conversation.explaining import read_text
 from fieldscribe.families.modbus.conversation.listener import ModbusListener
 from fieldscribe.families.modbus.conversation.words import raw_of, words_of, write_request
 from fieldscribe.families.modbus.requests import crc16
 from hypothesis import given
 from hypothesis import strategies as st
-from models import named, sample_device
+from models import changed, named, sample_device
 
 if TYPE_CHECKING:
     from fieldscribe.conversation.answers import Heard
@@ -89,6 +91,16 @@ def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     heard = hear(rtu("01 01 00 00 00 14"), reply)
     assert heard.kind == "reply"
     assert said(heard)[0].startswith("run_command = on (raw 1)")
+
+
+def test_how_points_of_one_and_of_several_words_are_read() -> None:
+    by_name = {one.item: one for one in DEVICE.points}
+    assert read_text(DEVICE, by_name["running"]).startswith("function 01h, 1 bit")
+    assert read_text(DEVICE, by_name["base_frequency"]).startswith("function 03h, 1 word")
+    wide = next(one for one in DEVICE.points if len(one.addresses) == 2 and one.readable)
+    assert re.match(r"function 0[34]h, 2 words\b", read_text(DEVICE, wide))
+    assert read_text(DEVICE, changed(by_name["running"], access="w")) == ""
+    assert read_text(DEVICE, replace(by_name["running"], places=())) == ""
 
 
 def test_coils_by_name_with_padding() -> None:

@@ -11,6 +11,7 @@ import os
 import shutil
 import time
 from dataclasses import dataclass
+from functools import cache
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +25,8 @@ from mutants.rooms import MODULE, functions, rooms
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from pathlib import Path
+
+    from fieldscribe.model import Device
 
 TESTS = ROOT / "tests"
 TARGETS = ("c", "python", "rust", "docs", "vectors")
@@ -63,15 +66,23 @@ def _size_with_parts(device_file: Path) -> int:
 
 def compiled_to(device: str, target: str) -> dict[str, str]:
     """The outputs of a device by their paths, as digests, and what was found in it."""
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_device, outputs
+    from fieldscribe.pipeline import outputs
 
-    report = Report()
-    made = load_device(devices()[device], report)
-    found = {"findings": repr(report.findings)}
+    made, findings = _loaded(device)
+    found = {"findings": findings}
     if made is not None:
         found |= {path: sha256(text.encode()).hexdigest() for _, path, text in outputs(made, (target,))}
     return found
+
+
+@cache
+def _loaded(device: str) -> tuple[Device | None, str]:
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.pipeline import load_device
+
+    report = Report()
+    made = load_device(devices()[device], report)
+    return made, repr(report.findings)
 
 
 def measured_output(device: str, target: str, folder: Path) -> tuple[Witness, dict[str, str]]:
@@ -157,6 +168,7 @@ def _spent() -> float:
     return sum(os.times()[:4])
 
 
+@cache
 def _names() -> str:
     """The names of all functions."""
     sources = [source for room in rooms().values() for source in room]

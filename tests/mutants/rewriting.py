@@ -20,10 +20,12 @@ _OTHERS = {"min": "max", "max": "min", "any": "all", "all": "any"}
 def rewritten(text: str) -> Iterator[tuple[str, int, int, str]]:
     """The sort of change, from where to where, and what stands there then."""
     starts, lines = line_starts(text), text.encode("utf-8").splitlines(keepends=True)
-    for node in ast.walk(ast.parse(text)):
+    tree = ast.parse(text)
+    formatted = {part for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in ast.walk(node)}
+    for node in ast.walk(tree):
         for what, changed, after in _rewritings(node):
             first, last = span(changed, starts, lines)
-            if _is_there(text[first:last], changed):
+            if changed not in formatted or _is_there(text[first:last], changed):
                 yield what, first, last, after
 
 

@@ -49,6 +49,7 @@ def drawn_in(room: str, sources: list[Source], seed: str) -> Iterator[Mutant]:
     return of_kind(sources, random.Random(f"{seed} generator {room}"))
 
 
+@cache
 def functions(source: Source) -> list[tuple[int, int, str]]:
     """Where each function of a file stands, and its name, the outer ones first."""
     starts, lines = line_starts(source.text), source.text.encode("utf-8").splitlines(keepends=True)
@@ -67,9 +68,9 @@ def functions_of(tree: ast.AST, outer: str = "") -> Iterator[tuple[ast.FunctionD
 
 def place_of(mutant: Mutant) -> str:
     """The function that a mutant changes, as `path::name`; the module alone if it is in none."""
-    text = (HOUSE / mutant.path).read_text("utf-8")
-    start = len(_common(text, mutant.text))
-    around = [name for first, end, name in functions(Source("generator", "", "", "", text)) if first <= start < end]
+    source = next(one for room in rooms().values() for one in room if one.path == mutant.path)
+    start = len(_common(source.text, mutant.text))
+    around = [name for first, end, name in functions(source) if first <= start < end]
     return f"{mutant.path}::{around[-1] if around else MODULE}"
 
 
