@@ -7,7 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
+from asked import asked
+from fieldscribe.conversation.family import Conversation
 from fieldscribe.conversation.refusals import RefusedError
+from fieldscribe.conversation.selection import UnclearError
 from fieldscribe.families.modbus.conversation.explaining import read_text
 from fieldscribe.families.modbus.conversation.listener import ModbusListener
 from fieldscribe.families.modbus.conversation.words import raw_of, words_of, write_request
@@ -91,6 +94,15 @@ def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     heard = hear(rtu("01 01 00 00 00 14"), reply)
     assert heard.kind == "reply"
     assert said(heard)[0].startswith("run_command = on (raw 1)")
+
+
+def test_a_family_that_offers_no_conversation_says_so() -> None:
+    nothing, point = Conversation(), DEVICE.points[0]
+    with pytest.raises(UnclearError, match="frames of the family modbus are not known here"):
+        nothing.decode(DEVICE, {}, ["01"], asked())
+    with pytest.raises(UnclearError, match="frames of the family modbus are not known here"):
+        nothing.frames_for(DEVICE, point, 0, {}, asked())
+    assert (nothing.read_text(DEVICE, point), nothing.write_text(DEVICE, point)) == ("", "")
 
 
 def test_how_points_of_one_and_of_several_words_are_read() -> None:

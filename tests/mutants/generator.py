@@ -33,7 +33,7 @@ BESIDE = 3.0
 """Seconds of tests in a file that do not enter the changed function themselves; they may read what another one made."""
 STARTED = 0.3
 """Seconds that a file of tests takes before its first test."""
-LIMIT = 120
+LIMIT = 45
 """Seconds of a processor after which a mutant is taken to hang."""
 _LOADED = ("jinja2", "yaml", "rich.console", "rich.table", "hypothesis", "jsonschema")
 

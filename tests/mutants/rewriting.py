@@ -43,7 +43,31 @@ def _stated_impossible(node: ast.AST) -> ast.stmt | ast.expr | None:
         return node if states else None
     if isinstance(node, ast.keyword) and node.arg in ("strict", "maxsize"):
         return node.value
+    if isinstance(node, ast.Assign) and _is_type(node.value):
+        return node.value
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "cast":
+        return node.args[0]
     return node if isinstance(node, ast.Assert) else None
+
+
+_GENERIC = (
+    "tuple",
+    "list",
+    "dict",
+    "set",
+    "frozenset",
+    "type",
+    "Callable",
+    "Mapping",
+    "Sequence",
+    "Iterable",
+    "Iterator",
+)
+
+
+def _is_type(value: ast.expr) -> bool:
+    """Whether it is the name of a type, which only the type checker reads: `tuple[str, "Owner"]`."""
+    return isinstance(value, ast.Subscript) and isinstance(value.value, ast.Name) and value.value.id in _GENERIC
 
 
 def _is_there(found: str, node: ast.expr) -> bool:
