@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from fractions import Fraction
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
@@ -53,17 +54,21 @@ documents:
   manual:
     {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
 bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: Parameters}
-  points:
-  - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
-  - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
-  - {name: second_source, at: 1003h, line: 9}
-  - {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
-  - {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
+group: {name: main, space: holding, source: {document: manual, section: Parameters}}
+points:
+- {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
+- {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
+- {name: second_source, at: 1003h, line: 9}
+- {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
+- {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
 """
+
+
+def write(folder: Path, device: str) -> None:
+    """Writes device.yaml, and what stands behind a line `# part NAME` as that part."""
+    first, *parts = re.split(r"^# part (.*)\n", device, flags=re.MULTILINE)
+    for name, text in zip(["device.yaml", *parts[::2]], [first, *parts[1::2]], strict=True):
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 def audit(
@@ -73,7 +78,7 @@ def audit(
     folder = tmp_path / "audited"
     folder.mkdir(exist_ok=True)
     digest = sha256(MANUAL.encode()).hexdigest()
-    (folder / "device.yaml").write_text(device.replace("SHA", digest), encoding="utf-8")
+    write(folder, device.replace("SHA", digest))
     path = tmp_path / "manual.txt"
     path.write_text(manual, encoding="utf-8")
     code = main(["audit", str(folder), "--manual", str(path), "--report", "json"])
@@ -138,8 +143,9 @@ The request 05 06 10 28 01 F4 0C 91 is printed with the checksum 0C 92.
 """  # fmt: skip
 
 LONG_DEVICE = (
-    DEVICE[: DEVICE.index("groups:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
-    + """frames:
+    DEVICE[: DEVICE.index("group:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
+    + """parts: [parameters.yaml]
+frames:
 - {name: write_base_frequency, line: 28, direction: request, bytes: 05 06 10 28 01 F4 0C 92}
 errata:
 - id: checksum
@@ -149,23 +155,18 @@ errata:
   taken: {crc: 0C 91}
   why: So the bytes say.
   certainty: certain
-groups:
-- group: coils
-  space: coil
-  source: {document: manual, section: Coils}
-  numbering: {modicon: wire + 1}
-  points:
+group: {name: coils, space: coil, source: {document: manual, section: Coils}, numbering: {modicon: wire + 1}}
+points:
 """
     + "".join(
-        f"  - {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
+        f"- {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
         for number in range(20)
     )
-    + """- group: parameters
-  space: holding
-  source: {document: manual, section: Parameters}
-  points:
-  - {code: P601, name: factor, at: ~, range: 0..9, line: 32}
-  - {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
+    + """# part parameters.yaml
+group: {name: parameters, space: holding, source: {document: manual, section: Parameters}}
+points:
+- {code: P601, name: factor, at: ~, range: 0..9, line: 32}
+- {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
 """
 )
 
@@ -278,29 +279,18 @@ bus:
     12: {name: unused_12, line: 9}
 telegrams:
 - {name: task, direction: request, words: 2}
-groups:
-- group: parameters
-  space: parameter
-  source: {document: manual, section: Words}
-  points:
-  - code: P0700
-    name: source
-    at: 700
-    type: u32
-    access: r
-    flags: {31..16: parameter, 15..0: bit}
-    line: 11
-    lines: {flags: 6..6}
-  - {code: r0021, name: frequency, at: 21, access: r, line: 11}
-- group: words
-  space: telegram
-  telegram: task
-  access: w
-  numbering: {pzd: wire + 1}
-  source: {document: manual, section: Words}
-  points:
-  - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
-  - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
+parts: [words.yaml]
+group: {name: parameters, space: parameter, source: {document: manual, section: Words}}
+points:
+- code: P0700
+  name: source
+  at: 700
+  type: u32
+  access: r
+  flags: {31..16: parameter, 15..0: bit}
+  line: 11
+  lines: {flags: 6..6}
+- {code: r0021, name: frequency, at: 21, access: r, line: 11}
 errata:
 - id: letter
   point: frequency
@@ -316,6 +306,17 @@ errata:
   taken: {refusals: [7]}
   why: The response list has it.
   certainty: likely
+# part words.yaml
+group:
+  name: words
+  space: telegram
+  telegram: task
+  access: w
+  numbering: {pzd: wire + 1}
+  source: {document: manual, section: Words}
+points:
+- {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
+- {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
 """
 
 
@@ -336,7 +337,7 @@ def test_uss_manuals_are_read_as_they_write(
     folder = tmp_path / "audited"
     folder.mkdir()
     manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
-    (folder / "device.yaml").write_text(USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()), "utf-8")
+    write(folder, USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()))
     (tmp_path / "manual.txt").write_text(manual, "utf-8")
     main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
     assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing
@@ -457,10 +458,10 @@ Highbyte: source, Bit 7 to Bit 3 are always zero, Bit 0 = 0 => off, Bit 0 = 1 =>
 16 characters: ID 90 and ID 91, ID 92, ID 93, ID 94, ID 95, ID 96, ID 97
 """
 MORE_POINTS = """\
-  - {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
-  - {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
-  - {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
-  - {name: fault_text, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
+- {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
+- {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
+- {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
+- {name: fault_text, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
 enums:
   delay:
     0: {name: ms_100, quantity: 100 ms}
@@ -511,11 +512,11 @@ Pin\t1\tshield
 Pin\t2\tplus
 """
 SPLIT_POINTS = """\
-  - {code: P601, name: p601, at: 601, type: ~, section: "4.3", line: 27}
-  - {code: P103, name: p103, at: 103, type: ~, line: 27}
-  - {code: "P740[2]", name: p740_2, at: ~, type: ~, line: 27}
-  - {name: rule, at: 38, line: 28, printed: {wire: "0b100110"}}
-  - {name: later, at: 0009h, line: 32}
+- {code: P601, name: p601, at: 601, type: ~, section: "4.3", line: 27}
+- {code: P103, name: p103, at: 103, type: ~, line: 27}
+- {code: "P740[2]", name: p740_2, at: ~, type: ~, line: 27}
+- {name: rule, at: 38, line: 28, printed: {wire: "0b100110"}}
+- {name: later, at: 0009h, line: 32}
 looked_through:
 - {lines: 35..38, why: Wiring.}
 """

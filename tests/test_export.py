@@ -15,7 +15,7 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
-from models import linear, named, point, sample_device, scaled, titles, value_of
+from models import linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
@@ -263,9 +263,3 @@ def test_computed_ends_as_expressions() -> None:
     assert bound_of(Limit(moved, (), -32768, 32767), True, limited) == "(d.raw + 3) / 10 ** (e.raw - 2) + 1 / 2"
     alone = linear("1/3", 4, value_of("f", -1, slope=5))
     assert bound_of(Limit(alone, (), -32768, 32767), True, limited) == "1 / (f.raw * 5) / 3 + 4"
-
-
-def test_a_default_between_two_raw_numbers_is_text() -> None:
-    odd = replace(named(DEVICE, "base_frequency"), default=Fraction(1, 20))
-    exported: Any = export_model(sample_device((odd,)))
-    assert exported["points"][0]["default"] == "0.5"

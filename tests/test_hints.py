@@ -27,12 +27,9 @@ bus:
   framings: [rtu]
   units: 1..247
   functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: mode, at: 900, range: 0..5}
+group: {name: main, space: holding, source: {document: manual, section: "1"}}
+points:
+- {name: mode, at: 900, range: 0..5}
 """
 _LINE = re.compile(r"`(([a-z_]+): .*?)`(?= |$|,|;|:)")
 
@@ -78,7 +75,7 @@ WRITTEN = [
     ("type: U16", "type: u16"),
     ("type: uint32_be", "type: u32"),
     ("keeps: true", "keeps: yes"),
-    ("words: little endian, type: u32", "words: low first"),
+    ("word_order: little endian, type: u32", "word_order: low first"),
     ("changes: constant", "changes: never"),
     ("steps: 10", "steps: {0: 10}"),
     ("bits: 15:8", "bits: 15..8"),
@@ -114,7 +111,7 @@ def findings(folder: Path, facts: str, *, number: int = 1) -> tuple[Diagnostic, 
     """What is found of a point with these facts."""
     space = ", space: coil" if "type: bit" in facts or "type: bool" in facts else ""
     file = folder / "device.yaml"
-    file.write_text(f"{HEAD}  - {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
+    file.write_text(f"{HEAD}- {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
     report = Report()
     load_device(file, report)
     return report.findings
@@ -188,7 +185,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("scale: [{if: mode == 0, then: value = raw}]", "unknown-key", "did you mean `when`?"),
         ("no_value: [7FFFh]", "unknown-key", "`special: {7FFFh: {name: not_available, no_value: yes}}`"),
         ("size: 2", "unknown-key", "the `type` says how wide a number is"),
-        ("byte_order: little", "unknown-key", "`words: low first`"),
+        ("byte_order: little", "unknown-key", "`word_order: low first`"),
         ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),
         ("divisor: 10", "unknown-key", "`scale: value = raw / 10`"),
         ("offset: -40", "unknown-key", "what is added to a number stands in its rule"),
@@ -203,6 +200,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("space: input_registers", "unknown-space", "write `space: input`"),
         ("format: int16", "unknown-format", "write `type: s16`"),
         ("unit: 10", "wrong-type", "a unit is a symbol such as `Hz`"),
+        ("default: 50.0, scale: value = raw * 0.1", "wrong-type", "`default_in_units: 50.0`"),
         ("default: auto, enum: {0: off, 1: on}", "bad-number", "write a number, or one of off, on"),
         ("enum: {0: off, 1-3: on}", "bad-number", "write a row for each number"),
         ("enum: {0: {name: off, title: Off}}", "unknown-key", "`{name: off, en: Off}`"),
@@ -223,11 +221,16 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("range: 0..FFFF", "unknown-point", "if a hexadecimal number is meant, write 0FFFFh"),
         ('range: ">= 0"', "bad-formula", "an interval has both ends"),
         ("range: 0.0..50.0", "bad-number", "write `range_in_units: 0.0..50.0`"),
-        ("keeps: eeprom", "unknown-command", "write `keeps: yes`"),
+        ("keeps: eeprom", "wrong-choice", "write `keeps: yes`"),
+        ("keeps: enter", "wrong-choice", "is named as `keep_with: enter`"),
         ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
-        ("sets: 4", "wrong-type", "has its address"),
+        ("sets: 4", "missing-key", "`sets: {2: {at: …}}`"),
         ("title: {english: X}", "unknown-key", "write `en`"),
-        ("keeps: choice", "wrong-choice", "write `keeps: yes`, `keeps: no`, or the command that stores"),
+        (
+            "keeps: choice",
+            "wrong-choice",
+            "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores",
+        ),
         ("type", "yaml-comma", "give it a value: `type: …`"),
         ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
         ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
@@ -251,7 +254,7 @@ def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: s
     ],
 )
 def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: {name}, at: 1}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: {name}, at: 1}}\n", "utf-8")
     report = Report()
     load_device(tmp_path / "device.yaml", report)
     assert report.findings[0].hint == hint
@@ -259,14 +262,14 @@ def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
 
 @pytest.mark.parametrize("at", ["1 - 2", "1..2", "[1, 2]"])
 def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: {at}, type: u32}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: {at}, type: u32}}\n", "utf-8")
     report = Report()
     load_device(tmp_path / "device.yaml", report)
     assert "write `at: 1`" in (report.findings[0].hint or "")
 
 
 def test_an_address_may_be_computed(tmp_path: Path) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: 1029h - 1}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: 1029h - 1}}\n", "utf-8")
     report = Report()
     device = load_device(tmp_path / "device.yaml", report)
     assert device is not None
@@ -282,18 +285,28 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("units: 1..247", "units: 1-247", "write 1..247"),
         ("units: 1..247", "units: [1, 247]", "write `units: 1..247`"),
         ("units: 1..247", "units: 1..247\n  gaps: {holding: [100-200]}", "write 100..200"),
-        ("units: 1..247", "units: 1..247\n  words: little", "write `words: low first`"),
+        ("units: 1..247", "units: 1..247\n  word_order: little", "write `word_order: low first`"),
         ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
         ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
         ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),
-        ("- group: main", "- name: main", "did you mean `group`?"),
+        ("group: {name: main", "group: {names: main", "did you mean `name`?"),
         ('source: {document: manual, section: "1"}', "source: page 5", 'section: "page 5"}`'),
         ("space: holding", "space: HR", "write `space: holding`"),
-        ("space: holding", "space: holding\n  numbering: {modicon: +1}", "write a formula: wire + 1"),
-        ("groups:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroups:", "write `bytes: 01 03 00`"),
-        ("groups:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroups:", "write `bytes: 01 03`"),
-        ("groups:", "points: [{name: x, at: 1}]\ngroups:", "points stand in a group"),
-        ("groups:", "variants: {size: {title: Size, values: [a, 2]}}\ngroups:", "write `values: {a: {}, 2: {}}`"),
+        ("space: holding", "space: holding, numbering: {modicon: +1}", "write a formula: wire + 1"),
+        ("group:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroup:", "write `bytes: 01 03 00`"),
+        ("group:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroup:", "write `bytes: 01 03`"),
+        ("points:", "groups: [{group: a, space: holding}]\npoints:", "a file holds one group: `group: {name: …"),
+        (
+            "group: {name: main,",
+            "access: rw\ngroup: {name: main,",
+            "a group says this of its points: `group: {…, access: …}`",
+        ),
+        (
+            'group: {name: main, space: holding, source: {document: manual, section: "1"}}',
+            "group: main",
+            "write `group: {name: main, space: …, source: …}`",
+        ),
+        ("group:", "variants: {size: {title: Size, values: [a, 2]}}\ngroup:", "write `values: {a: {}, 2: {}}`"),
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
@@ -308,7 +321,7 @@ def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: 
 
 def test_a_number_for_people_is_no_address(tmp_path: Path) -> None:
     file = tmp_path / "device.yaml"
-    file.write_text(f"{HEAD}  - {{name: made, at: 4x0010}}\n", "utf-8")
+    file.write_text(f"{HEAD}- {{name: made, at: 4x0010}}\n", "utf-8")
     report = Report()
     load_device(file, report)
     assert "on the wire it is 9, in the space `holding`" in (report.findings[0].hint or "")
@@ -343,7 +356,7 @@ WIDE = [
 @pytest.mark.parametrize(("factor", "scale", "way_out"), WIDE)
 def test_a_scale_that_is_too_wide_names_a_way_that_works(factor: str, scale: str, way_out: str, tmp_path: Path) -> None:
     kind = "" if "type" in factor else ", type: u32"
-    said = f"  - {{name: k, at: 10, {factor}{kind}}}\n  - {{name: a, at: 0, type: u32, {scale}}}\n"
+    said = f"- {{name: k, at: 10, {factor}{kind}}}\n- {{name: a, at: 0, type: u32, {scale}}}\n"
     (one,) = found_in(said, tmp_path)
     assert "bits" in one.message
     assert one.hint is not None

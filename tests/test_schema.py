@@ -138,7 +138,7 @@ def test_descriptions_are_valid() -> None:
 def test_both_readings_agree_on_mutations(seed: int) -> None:
     """Wrong values at random places of the devices that use everything."""
     dice = random.Random(seed)
-    places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str)]
+    places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str) if len(path) > 1]
     wrongs = [
         None,
         True,
@@ -161,7 +161,7 @@ def test_both_readings_agree_on_mutations(seed: int) -> None:
     for _ in range(100):
         start, path = dice.choice(places)
         device = changed(start, path, dice.choice(wrongs))
-        root = load(SourceFile("mutated.yaml", as_yaml(device)), Report())
+        root = load(SourceFile("mutated.yaml", as_yaml(device[path[0]])), Report())
         assert root is not None
         valid += agree(root)
     assert 2 < valid < 85

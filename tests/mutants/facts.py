@@ -88,11 +88,12 @@ def _shared(path: str, node: Node | None) -> Shared:
 
 
 def _points(path: str, node: Node | None, around: dict[str, tuple[Fact, ...]], shared: Shared) -> Iterator[Point]:
+    group = next((value for name, _, value in _entries(node) if name == "group"), None)
     own = {
         name: facts
-        for name, _, value in _entries(node)
+        for name, _, value in _entries(group)
         if isinstance(value, yaml.ScalarNode) or name == "numbering"
-        if (facts := tuple(_facts(path, value, (name,)))) and name not in NOT_FACTS
+        if (facts := tuple(_facts(path, value, (name,)))) and name not in {"name", *NOT_FACTS}
     }
     for name, _, value in _entries(node):
         if name == "points" and isinstance(value, yaml.SequenceNode):

@@ -1,4 +1,4 @@
-"""What the checks look at: the resolved parts of one device, still with their places in the text."""
+"""What the checks read: the resolved parts of one device, with their places in the text."""
 
 from __future__ import annotations
 
@@ -24,11 +24,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A printed fact that disagrees: about whom, under which key of `printed`, where, and what to say of it.
+    """A printed fact that disagrees with the description: whom it is about, its key, its place, and the message.
 
-    `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
-    whether what an erratum takes is what was taken, where comparing the two as texts would not do. `flag` is the flag
-    of the point that it is about.
+    `taken` is what the description has instead; None if only an erratum can tell the right value. `right` compares
+    what an erratum says was taken, where comparing numbers or texts is not enough. `flag` is the flag that it is about.
     """
 
     about: str
@@ -40,14 +39,14 @@ class Printed:
     right: Callable[[Any], bool] | None = None
     flag: str | None = None
 
-    def fits(self, said: Any) -> bool:
-        """Whether what an erratum says was taken is what was taken."""
-        return self.right(said) if self.right is not None else same(said, self.taken)
+    def fits(self, stated: Any) -> bool:
+        """Whether an erratum's `taken` is what the description has."""
+        return self.right(stated) if self.right is not None else same(stated, self.taken)
 
 
 @dataclass(slots=True)
 class Subject:
-    """One device under check. `frames` are replaced as they are checked; `cited` maps whom errata are about to them."""
+    """One device under check. `frames` collects the checked frames; `cited` finds errata by what they are about."""
 
     scope: Scope
     index: Index
@@ -70,12 +69,12 @@ class Subject:
 
     @property
     def bus_is_whole(self) -> bool:
-        """Whether all that was written under `bus` could be read: else what rests on it cannot be judged."""
+        """Whether everything under `bus` could be read; if not, checks that need it are left out."""
         return self.scope.bus is not None and not _lost(self.scope.bus)
 
     @property
     def models(self) -> tuple[Device, Device]:
-        """The model and what code may know of it, made when first asked for: only of a device without errors."""
+        """The models of the whole device and of its code; only for a device without errors."""
         if self._models is None:
             from fieldscribe.resolve.device import build_device
 
@@ -84,7 +83,7 @@ class Subject:
 
     @property
     def sound(self) -> Device:
-        """The device as code may know it, without the points that something is wrong with."""
+        """The device as code sees it, without the points that have findings."""
         from fieldscribe.resolve.device import sound_device
 
         return sound_device(self) if self.report.has_errors else self.models[1]
@@ -94,28 +93,28 @@ class Subject:
         """Where findings go."""
         return self.scope.report
 
-    def disagrees(self, one: Printed) -> None:
-        """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both."""
-        for erratum in self.cited.get(one.about, ()):
-            stated = erratum.printed(one.key)
-            if erratum.raw.get("flag") != one.flag:
+    def disagrees(self, fact: Printed) -> None:
+        """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
+        for erratum in self.cited.get(fact.about, ()):
+            stated = erratum.printed(fact.key)
+            if erratum.raw.get("flag") != fact.flag:
                 continue
-            if stated is None or not same(stated, one.printed):
+            if stated is None or not same(stated, fact.printed):
                 continue
-            erratum.used.add(one.key)
-            said = erratum.raw["taken"].get(one.key) if isinstance(erratum.raw["taken"], Map) else None
-            if said is None or (one.taken is not None and not one.fits(said)):
-                wrong = f"the erratum takes {_shown(said)} for `{one.key}`, the facts say {_shown(one.taken)}"
-                if said is None:
-                    wrong = f"the erratum does not say what was taken for `{one.key}`"
-                hint = f"write `taken: {{{one.key}: {_shown(one.taken)}}}`"
+            erratum.used.add(fact.key)
+            taken = erratum.raw["taken"].get(fact.key) if isinstance(erratum.raw["taken"], Map) else None
+            if taken is None or (fact.taken is not None and not fact.fits(taken)):
+                wrong = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
+                if taken is None:
+                    wrong = f"the erratum does not say what was taken for `{fact.key}`"
+                hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
                 self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
             return
-        named = f"`flag: {one.flag}` and " if one.flag is not None else ""
+        named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
         hint = (
-            f"correct the fact, or explain it: an erratum with {named}`printed: {{{one.key}: {_shown(one.printed)}}}`"
+            f"correct the fact, or explain it: an erratum with {named}`printed: {{{fact.key}: {_shown(fact.printed)}}}`"
         )
-        self.report.error("printed-disagrees", one.message, one.span, hint)
+        self.report.error("printed-disagrees", fact.message, fact.span, hint)
 
 
 def _lost(value: Any) -> bool:
@@ -123,10 +122,10 @@ def _lost(value: Any) -> bool:
 
 
 def same(left: Any, right: Any) -> bool:
-    """Whether two printed things are the same: as numbers in any notation, or as text but for blanks and case."""
+    """Whether two facts are equal: as numbers in any notation, as texts without regard to blanks and case."""
     if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
         lefts, rights = _listed(left), _listed(right)
-        return len(lefts) == len(rights) and all(same(one, other) for one, other in zip(lefts, rights, strict=True))
+        return len(lefts) == len(rights) and all(same(left, other) for left, other in zip(lefts, rights, strict=True))
     numbers = [_number(left), _number(right)]
     if None not in numbers:
         return numbers[0] == numbers[1]

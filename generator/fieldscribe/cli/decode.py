@@ -66,12 +66,12 @@ def run(arguments: Namespace) -> int:
         heard = conversation_of(device).decode(device, settings, _frames(arguments.frames), options)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    heard = [one for one in heard if arguments.unit is None or one.unit == arguments.unit]
+    heard = [reading for reading in heard if arguments.unit is None or reading.unit == arguments.unit]
     if arguments.format == "json":
-        print_json({"device": device.id, "frames": [one.as_data() for one in heard]})
+        print_json({"device": device.id, "frames": [reading.as_data() for reading in heard]})
     else:
         _print(heard)
-    return FINDINGS if any(one.wrong for one in heard) else FINE
+    return FINDINGS if any(reading.wrong for reading in heard) else FINE
 
 
 def _frames(words: list[str]) -> list[str]:
@@ -94,14 +94,14 @@ def _print(heard: list[Heard]) -> None:
     from fieldscribe.conversation.hexadecimal import spaced
     from fieldscribe.report import visible
 
-    for place, one in enumerate(heard):
+    for place, reading in enumerate(heard):
         if place:
             print_lines([[]])
-        rows = [("Frame", one.summary)]
-        rows += [("Says", item.text) for item in one.items]
-        rows += [("Header" if one.framing == "tcp" else "Checksum", one.checks)] if one.checks else []
-        rows += [("Wrong", fault) for fault in (*one.faults, *one.findings)]
-        rows += [("Note", note) for note in one.notes]
-        print_rows(visible(one.shown) or spaced(one.data), [(label, visible(text)) for label, text in rows])
+        rows = [("Frame", reading.summary)]
+        rows += [("Says", item.text) for item in reading.items]
+        rows += [("Header" if reading.framing == "tcp" else "Checksum", reading.checks)] if reading.checks else []
+        rows += [("Wrong", fault) for fault in (*reading.faults, *reading.findings)]
+        rows += [("Note", note) for note in reading.notes]
+        print_rows(visible(reading.shown) or spaced(reading.data), [(label, visible(text)) for label, text in rows])
     if not heard:
         print_lines([[("", "no frame of that unit")]])

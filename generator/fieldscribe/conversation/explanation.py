@@ -30,6 +30,7 @@ _PRINTED = {
     "type": "Type",
     "scale": "Scale",
     "default": "Default",
+    "default_in_units": "Default",
     "code": "Code",
     "title": "Title",
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.wording.exact import fixed_rule, hex_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
@@ -21,12 +21,11 @@ def sample_raw(point: Point) -> int | None:
         first = point.allowed.units[0][0] if point.allowed.units else 0
         number = first if point.default is None else point.default
         return pattern_of(number, point.info.bits)
-    rule = fixed_rule(point)
-    if rule is not None and point.default is not None:
-        raw = rule.argument(point.default)
-        special = point.special(int(raw))
-        if raw.denominator == 1 and (special is None or special.writable):
-            return with_fixed(point, int(raw)) if special is None else int(raw)
+    raw = point.default_raw
+    if raw is not None:
+        special = point.special(raw)
+        if special is None or special.writable:
+            return with_fixed(point, raw) if special is None else raw
     ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
     return with_fixed(point, min(ends, key=abs)) if ends else None
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.reading import Inputs
 
-_PART_KEYS = frozenset({"group", "groups", "points"})
+_PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")
 
 

@@ -22,6 +22,7 @@ def keys_markdown() -> str:
     """The page: one table for each kind of mapping."""
     lines = ["# All keys of the description language", ""]
     lines += ["Made by `make keys` from the table of keys; `README.md` beside this page shows them at work.", ""]
+    lines += ["Whole numbers are written as manuals write them: `4136`, `0x1028`, `1028h`, `H'33F`, `0b0101`.", ""]
     for place in PLACES:
         lines += [f"## {place.heading}", "", place.shape.meaning, ""]
         lines += ["| key | type | meaning | example |", "|---|---|---|---|"]

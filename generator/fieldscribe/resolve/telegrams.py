@@ -109,7 +109,7 @@ def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
     most = words * (_MULTIPLEXED if multiplexed else 1)
     if raw["words"] > most:
         text = f"the frames of `{name}` carry at most {most} words, the telegram has {raw['words']}"
-        hint = "its layout needs `words`, and a `multiplexer` where there are several frames"
+        hint = "its layout needs `telegram`, and a `multiplexer` where there are several frames"
         scope.report.error("too-many-items", text, span, hint)
         return 0
     return words if multiplexed else 0

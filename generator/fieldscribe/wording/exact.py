@@ -66,7 +66,7 @@ def plus_text(start: str, numerator: int, denominator: int) -> str:
 
 
 def fixed_rule(point: Point) -> Line | None:
-    """Values from raw numbers, where no other point has a part in it; None else, and where the rule is unknown."""
+    """The rule from raw numbers to values; None where it depends on other points or is unknown."""
     if point.scale is None:
         return SAME if point.generated or not point.unit.symbol else None
     return None if point.fixed_scale is None else value_line(point.fixed_scale)

@@ -31,13 +31,24 @@ PART = Place(
     "A part",
     "A file that device.yaml lists under `parts`: one group, or shared facts.",
     [
-        {"group": "standard_a", "space": "holding", "points": []},
+        {"group": {"name": "standard_a", "space": "holding"}, "points": []},
         {"enums": {"contact": {"0": "open", "1": "closed"}}},
     ],
     more=_PRIVATE,
 )
 GROUP = Place(
-    "group", "A group", "A group of points.", [{"group": "standard_a", "space": "holding", "points": []}], more=_PRIVATE
+    "group",
+    "A group, under `group`",
+    "What the points of a file share: a file holds one group at most, with its `points` beside it.",
+    [
+        {
+            "name": "standard_a",
+            "space": "holding",
+            "access": "rw",
+            "source": {"document": "manual", "section": "Gruppe A"},
+        }
+    ],
+    more=_PRIVATE,
 )
 POINT = Place(
     "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
@@ -76,15 +87,6 @@ FORMAT = Place(
     "A format, under `formats`",
     "What a point means, to be shared by name.",
     [{"scale": "value = raw * 0.1", "unit": "%"}],
-)
-AT = Place(
-    "at",
-    "An address by rule, under `at`",
-    "The address on the wire; the words of a text in reading order (`739..732`); where addresses follow a rule, the "
-    "number with its sets and indices; ~ where the manual prints none.",
-    ["1028h", 4136, "739..732", {"number": 543, "sets": 4, "indices": 3}],
-    before=(Whole(), Text(200)),
-    after=(NOTHING,),
 )
 FIXED = Place(
     "fixed",
@@ -254,7 +256,6 @@ ERRATUM = Place(
     more=_PRIVATE,
 )
 
-GROUPS = (PART, GROUP)
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
 """The point once more: only what differs."""
@@ -265,7 +266,7 @@ CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
 """What has a place in the manual beside points."""
 
 PLACES = (
-    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, AT, FIXED, DIGITS, RECORD, CASE, ENTRY),
+    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, RECORD, CASE, ENTRY),
     *(SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
     *(COMMAND, FRAME, ERRATUM),
 )

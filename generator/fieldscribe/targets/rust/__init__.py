@@ -1,4 +1,4 @@
-"""The Rust target: a `no_std` crate per device, with a conformance test, on top of one small runtime crate."""
+"""The Rust target: a `no_std` crate for each device, with a conformance test, on top of a small runtime crate."""
 
 from __future__ import annotations
 

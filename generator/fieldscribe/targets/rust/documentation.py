@@ -1,6 +1,6 @@
-"""What doc comments say, from names and numbers alone: titles, notes and the words of errata are in the documentation.
+"""The doc comments. They have names and numbers only; titles, notes and the texts of errata are in the documentation.
 
-So a corrected title touches no code, as it touches no digest.
+So a corrected title changes neither code nor digest.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ def sentence(name: str) -> str:
 
 
 def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
-    """The lines of a point's doc comment behind `///`; an empty line parts paragraphs. These errata are named."""
+    """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
     paragraphs = [sentence(point.item), f"{', '.join(_facts(point))}."]
     if point.specials:
         paragraphs.append(f"{codes_text(point, '`')}.")
     named = [f"`{name}`" for name in point.errata if name in errata]
     if named:
         paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
-    lines = [line for paragraph in paragraphs for line in ("", *(f" {one}" for one in wrapped(paragraph)))]
+    lines = [line for paragraph in paragraphs for line in ("", *(f" {text}" for text in wrapped(paragraph)))]
     return tuple(lines[1:])
 
 
 def wrapped(text: str) -> Iterator[str]:
-    """The text in lines; one begins with what cannot be taken for the mark of a list or a heading."""
+    """The text in lines, none of which begins like a list or a heading."""
     line = ""
     for word in text.split(" "):
         if len(line) + len(word) >= _WIDTH and _BEGINS.match(word):
@@ -104,7 +104,7 @@ def _facts(point: Point) -> Iterator[str]:
 
 
 def _resolution(point: Point) -> Iterator[str]:
-    """What a raw step and a count are."""
+    """The unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
     resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
@@ -118,7 +118,7 @@ def _resolution(point: Point) -> Iterator[str]:
 
 
 def _count(point: Point) -> str:
-    """What one count of a scaled point is; empty if it has none."""
+    """The unit of one count of a scaled point; empty if it has no counts."""
     if point.form != "scaled" or point.decimals is None:
         return ""
     return with_unit(f"0.{'1':0>{point.decimals}}" if point.decimals else "1", point)

@@ -1,4 +1,4 @@
-"""Lines as rustfmt breaks them, for the few places where names decide whether one line is enough."""
+"""Lines broken as by rustfmt, for the places where the length of names decides."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Lines = tuple[str, ...]
 
 
 def binding(indent: int, left: str, right: str) -> Lines:
-    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if that is too long."""
+    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if it is still too long."""
     line = f"{left} = {right};"
     if indent + len(line) <= _WIDTH:
         return (line,)
@@ -27,7 +27,7 @@ def binding(indent: int, left: str, right: str) -> Lines:
 
 
 def assignment(indent: int, left: str, lines: Lines) -> Lines:
-    """`left = lines;` where these are several; the first goes to the next line if it is too long."""
+    """`left = lines;` for an expression of several lines; its first goes to a line of its own if it is too long."""
     first = f"{left} = {lines[0]}"
     if indent + len(first) <= _WIDTH:
         return (first, *lines[1:-1], f"{lines[-1]};")
@@ -45,11 +45,11 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
     line = f"{name}({', '.join(parameters)}) -> {result} {{"
     if indent + len(line) <= _WIDTH:
         return (line,)
-    return (f"{name}(", *(f"    {one}," for one in parameters), f") -> {result} {{")
+    return (f"{name}(", *(f"    {parameter}," for parameter in parameters), f") -> {result} {{")
 
 
 def array(items: list[str]) -> Lines:
-    """What stands between an array's brackets: one line, else a line per item."""
+    """The contents of an array's brackets: one line, else a line for each item."""
     joined = ", ".join(items)
     return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
 
@@ -71,12 +71,12 @@ def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
         if indent + 4 + len(line) + 1 <= _WIDTH:
             lines.append(f"    {line},")
         else:
-            lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
+            lines += [f"    {name}(", *(f"        {argument}," for argument in arguments), "    ),"]
     return (*lines, "];")
 
 
 def fields_of(indent: int, type_: str, names: Lines) -> Lines:
-    """A struct literal that takes its fields from `all`."""
+    """A struct literal whose fields come from the struct `all`."""
     joined = ", ".join(f"{name}: all.{name}" for name in names)
     if len(joined) <= _STRUCT_WIDTH:
         return (f"{type_} {{ {joined} }}",)
@@ -88,7 +88,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
 
 
 def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
-    """Items in as few lines as their width needs, where rustfmt does not look."""
+    """Items in as few lines as possible, for macros, where rustfmt changes nothing."""
     lines = [left]
     for place, item in enumerate(items):
         text = item + (between if place + 1 < len(items) else right)
@@ -100,7 +100,7 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
 
 
 def chained(steps: Sequence[str]) -> Lines:
-    """Calls of which each may fail, in one line, else with a line for each step behind a question mark."""
+    """A chain of fallible calls, on one line or with a line for each call."""
     line = "?".join(steps)
     if len(line) <= _FREE_WIDTH:
         return (line,)
@@ -108,7 +108,7 @@ def chained(steps: Sequence[str]) -> Lines:
 
 
 def chain(left: str, start: str, steps: list[str]) -> Lines:
-    """`left = start.step().step();`: one step in the line of a binding, several in a line each."""
+    """`left = start.step().step();`: with one step on one line, with several on a line each."""
     if len(steps) < 2:
         return binding(0, left, "".join((start, *steps)))
     return (f"{left} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")
