@@ -22,7 +22,21 @@ SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export
 POINT_KEYS = (
     *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
     *("places", "type", "words", "access", "bits", "variant", "when", "since", "until", "record", "set", "repeat"),
-    *("format", "unit", "default", "step", "special", "fixed", "changes", "together", "scale", "raw", "enum", "open"),
+    *(
+        "format",
+        "unit",
+        "display",
+        "default",
+        "step",
+        "special",
+        "fixed",
+        "changes",
+        "together",
+        "scale",
+        "raw",
+        "enum",
+        "open",
+    ),
     *("flags", "digits", "encoding", "persistence", "conditions", "title", "source", "errata", "generated"),
 )
 TOP_KEYS = (
@@ -96,6 +110,7 @@ def test_a_scaled_point() -> None:
         "repeat": None,
         "format": None,
         "unit": "Hz",
+        "display": None,
         "default": 500,
         "step": None,
         "special": [],
@@ -155,7 +170,7 @@ def test_no_value_and_a_span_of_special_codes() -> None:
         {"raw": [32768, 32768], "name": "no_value", "no_value": True, "writable": False},
         {"raw": [65280, 65535], "name": "error", "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 2
+    assert exported["format"] == 3
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 

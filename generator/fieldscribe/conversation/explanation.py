@@ -124,6 +124,7 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
     yield "Scale", wording.scale_text(point, by_name)
     yield "Resolution", wording.resolution_text(point)
+    yield "Shown with", wording.decimals_text(point)
     yield "Widths", "; ".join(wording.width_texts(point))
     yield "Range", "" if point.flags else wording.range_text(point, by_name)
     yield "Raw range", wording.raw_range_text(point)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.exact import hex_text, rounded
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
@@ -34,6 +34,7 @@ def sample_said(point: Point, raw: int) -> str:
     """The number as an example: what it means, and the raw number."""
     if point.info.floating:
         number = float_of(raw, point.info.bits)
-        return f"for example {wording.with_unit(f'{number:g}', point)} is the pattern {hex_text(raw, point.width // 4)}"
+        shown = f"{number:g}" if point.display is None else rounded(*number.as_integer_ratio(), point.display)
+        return f"for example {wording.with_unit(shown, point)} is the pattern {hex_text(raw, point.width // 4)}"
     meaning = wording.meaning_text(point, raw)
     return f"for example {meaning} is raw {raw}" if meaning else f"for example raw {raw}"

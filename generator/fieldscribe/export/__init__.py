@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
 
-FORMAT = 2
+FORMAT = 3
 """The version of the exported shape."""
 
 

@@ -47,6 +47,7 @@ def export_point(
         "repeat": _repeat(point),
         "format": None,
         "unit": point.unit.symbol,
+        "display": None if point.display is None else {"decimals": point.display},
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
         "special": [_special(special) for special in point.specials],

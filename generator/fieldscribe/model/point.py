@@ -110,6 +110,7 @@ class Point:
     access = _Shared(lambda shape: shape.access)
     scale = _Shared(lambda shape: shape.scale)
     decimals = _Shared(lambda shape: shape.decimals)
+    display = _Shared(lambda shape: shape.display)
     encodes_values = _Shared(lambda shape: shape.encodes_values)
     most_raw = _Shared(lambda shape: shape.most_raw)
     enum = _Shared(lambda shape: shape.enum)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ class Shape:
     products of the scale exceed 53 bits: then values are only decoded. `most_raw` is the greatest raw number that a
     run-time scale can compute with, if the type holds larger ones: those are an overflow. `specials` are no quantities;
     `specials_of` names the type, group or format that those come from which the point shares with others.
+    `display` is the number of decimals that people see, None if nothing says it; no computation depends on it.
 
     Equal shapes are one object, so that the facts derived below are worked out once.
     """
@@ -41,6 +42,7 @@ class Shape:
     fixed: Fixed | None = None
     encodes_values: bool = True
     most_raw: int | None = None
+    display: int | None = field(default=None, repr=False)
 
     def __hash__(self) -> int:
         """A hash of the facts that usually differ, because titles have no hash; equality compares all."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
@@ -12,6 +12,7 @@ from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.defaults import default_of
+from fieldscribe.resolve.display import display_of
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import Paths, paths_of
@@ -167,7 +168,8 @@ def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges
         digits=digits,
         fixed=fixed_of(scope, draft, word.bits, word.width) if "w" in access else None,
     )
-    return shape, allowed, paths
+    shown = display_of(draft, shape, ranges.bounds)
+    return shape if shown is None else replace(shape, display=shown), allowed, paths
 
 
 def _first(place: Place, word: Word) -> int:

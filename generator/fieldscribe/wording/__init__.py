@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import SAME
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
@@ -88,7 +88,23 @@ def access_text(access: str) -> str:
 def value_text(point: Point, raw: int) -> str:
     """The value of a raw number, without its unit; empty where other points decide it or raw is a bit pattern."""
     rule = None if point.info.floating else fixed_rule(point)
-    return "" if rule is None else shown(raw, rule)
+    if rule is None:
+        return ""
+    if point.display is not None:
+        return rounded(raw * rule.factor + rule.add, rule.divisor, point.display)
+    return shown(raw, rule)
+
+
+def display_text(point: Point) -> str:
+    """With how many decimals people see the value: `shown with 2 decimals`; empty where nobody says it."""
+    return f"shown with {decimals_text(point)}" if point.display is not None else ""
+
+
+def decimals_text(point: Point) -> str:
+    """How many that are: `2 decimals`; empty where nobody says it."""
+    if point.display is None:
+        return ""
+    return f"{point.display or 'no'} decimal{'' if point.display == 1 else 's'}"
 
 
 def meaning_text(point: Point, raw: int) -> str:
@@ -98,7 +114,8 @@ def meaning_text(point: Point, raw: int) -> str:
         return special.name
     if point.enum is not None:
         return next((entry.name for entry in point.enum.entries if entry.raw == raw), "")
-    return "" if point.scale is None and not point.unit.symbol else with_unit(value_text(point, raw), point)
+    itself = point.scale is None and not point.unit.symbol and not point.display
+    return "" if itself else with_unit(value_text(point, raw), point)
 
 
 def resolution_text(point: Point) -> str:

@@ -78,6 +78,8 @@ pub struct PointInfo {
     pub unit: &'static str,
     /// How many decimals counts have.
     pub decimals: u32,
+    /// With how many decimals people see the value, where the description says it.
+    pub display_decimals: Option<u32>,
     /// What can be done with it.
     pub access: Access,
 }

@@ -16,6 +16,7 @@ pub mod can;
 pub mod check;
 pub mod client;
 pub mod digits;
+mod display;
 mod error;
 pub mod flags;
 pub mod form;
@@ -33,6 +34,7 @@ pub mod text;
 pub mod uss;
 
 pub use client::{AsyncTransport, LocalTransport, Transport};
+pub use display::{Displayed, Shown};
 pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;

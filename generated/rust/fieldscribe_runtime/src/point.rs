@@ -99,6 +99,8 @@ pub trait Point {
     const WORDS: u16 = 1;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
+    /// With how many decimals people see the value, where the description says it.
+    const DISPLAY_DECIMALS: Option<u32> = None;
     /// The symbol of the value's unit; empty for a plain number.
     const UNIT: &'static str = "";
     /// The least raw number that the manual allows.
@@ -124,6 +126,7 @@ pub trait Point {
         telegram: Self::TELEGRAM,
         unit: Self::UNIT,
         decimals: Self::DECIMALS,
+        display_decimals: Self::DISPLAY_DECIMALS,
         access: Self::ACCESS,
     };
 

@@ -98,6 +98,7 @@ KEYS = (
         Text(20),
         inherited=(GROUP,),
     ),
+    Key("display", _GROUPED, places.DISPLAY.shape, inherited=(GROUP,)),
     Key(
         "decimals",
         FACTS,

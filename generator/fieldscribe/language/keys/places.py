@@ -103,6 +103,12 @@ DIGITS = Place(
     "numbers.",
     [{"count": 4, "enum": "input_delay"}],
 )
+DISPLAY = Place(
+    "display",
+    "How a value is shown, under `display`",
+    "How a person should see a value. What is encoded, decoded and checked does not change.",
+    [{"decimals": 2}],
+)
 RECORD = Place(
     "record",
     "A record, under `records`",
@@ -266,8 +272,8 @@ CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
 """What has a place in the manual beside points."""
 
 PLACES = (
-    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, RECORD, CASE, ENTRY),
-    *(SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
+    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, DISPLAY, RECORD, CASE),
+    *(ENTRY, SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
     *(COMMAND, FRAME, ERRATUM),
 )
 """All that have a table of their own in KEYS.md, in its order."""

@@ -7,6 +7,7 @@ from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import (
     CASE,
     DIGITS,
+    DISPLAY,
     ENTRY,
     FLAG,
     LINES,
@@ -37,6 +38,14 @@ _CITED = (
 
 KEYS = (
     Key("count", DIGITS, "How many digits.", [4], Whole(1, 5), required=True),
+    Key(
+        "decimals",
+        DISPLAY,
+        "With how many decimals a value is shown, rounded to nearest, halves away from zero; zeros at its end stay.",
+        [2],
+        Whole(0, 12),
+        required=True,
+    ),
     Key("when", CASE, "A point compared with a constant.", ["unit_mode == 0"], Text(200), required=True),
     Key("rule", CASE, "The rule that then holds.", ["raw = value * 100"], Text(500), required=True),
     Key("quantity", ENTRY, "A quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),

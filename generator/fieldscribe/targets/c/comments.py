@@ -10,6 +10,7 @@ from fieldscribe.wording import (
     codes_text,
     condition_text,
     default_text,
+    display_text,
     range_text,
     raw_range_text,
     resolution_text,
@@ -41,6 +42,8 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield from filter(None, (_range(point), *_steps(point)))
     spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
     yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
+    if point.display is not None:
+        yield display_text(point)
     if default := default_text(point):
         yield f"default {default}"
     if point.when is not None:

@@ -165,6 +165,8 @@ def _place_cases(point: Point, view: PointView) -> list[str]:
     cases = []
     if point.fixed is not None:
         cases.append(f"FIXED({view.macro})")
+    if point.display is not None:
+        cases.append(f"DISPLAY({view.macro})")
     if point.text is not None:
         cases.append(f"PLACE_OF_TEXT({view.macro}, {view.function}, {_index_and_telegram(point, view)})")
     elif point.addresses and (point.index is not None or point.telegram is not None):

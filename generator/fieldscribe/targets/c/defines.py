@@ -71,6 +71,8 @@ def _raw_number(point: Point, macro: str) -> Iterator[Define]:
         yield f"{macro}_RAW_MAX", signed(high)
     if point.form == "scaled" and point.decimals is not None:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
+    if point.display is not None:
+        yield f"{macro}_DISPLAY_DECIMALS", f"{point.display}"
 
 
 def _bits(point: Point, macro: str) -> Iterator[Define]:

@@ -148,6 +148,8 @@ def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iter
         yield f"special codes of {link('codes', point.specials_of)}"
     if point.steps:
         yield cell("steps: " + wording.steps_text(point))
+    if point.display is not None:
+        yield cell(wording.display_text(point))
     yield from (cell(f"{place.purpose}: {place.space} {_words(place.addresses)}") for place in point.places[1:])
     yield from map(cell, wording.width_texts(point))
     yield from _conditions(device, point, by_name)

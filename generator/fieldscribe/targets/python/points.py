@@ -18,7 +18,7 @@ from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from fieldscribe.model import Device, Point
 
@@ -125,9 +125,7 @@ def _point(point: Point, family: PythonFamily, scope: PackageScope, errata: Coll
 
 
 def _arguments(point: Point, scope: PackageScope) -> list[Node]:
-    arguments = [form(point, scope), *_places(point, scope)]
-    if point.unit.symbol:
-        arguments.append(f"unit={python_string(point.unit.symbol)}")
+    arguments = [form(point, scope), *_places(point, scope), *_shown(point)]
     if (limits := allowed(point, scope)) is not None:
         arguments.append(limits)
     if point.default is not None:
@@ -148,6 +146,14 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
     if uncertain(point, scope.variants):
         arguments.append("uncertain=True")
     return arguments
+
+
+def _shown(point: Point) -> Iterator[str]:
+    """What stands behind a value, and with how many decimals people see it."""
+    if point.unit.symbol:
+        yield f"unit={python_string(point.unit.symbol)}"
+    if point.display is not None:
+        yield f"display={point.display}"
 
 
 def _places(point: Point, scope: PackageScope) -> list[Node]:

@@ -119,10 +119,13 @@ def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint])
     """The tables of the kinds for places, fixed bits, texts and digits, and for exchanges."""
     placed = (subject for subject in scope.subjects if _has_place(subject.point))
     fixed = (subject for subject in scope.subjects if subject.point.fixed is not None)
+    shown = [subject for subject in scope.subjects if subject.point.display is not None]
     alone = ("(alone)",)
     for kind, rows in (
         ("place", tuple(row_of(subject, alone) for subject in placed)),
         ("fixed", tuple(row_of(subject, alone) for subject in fixed)),
+        ("display", tuple(row_of(subject, alone) for subject in shown)),
+        ("told", tuple(row_of(subject, _bracketed(_arguments(*of_scale(subject)))) for subject in shown)),
         ("text_decode", tuple(row_of(subject, _sizes(subject.point)) for subject in texts if subject.point.readable)),
         ("text_encode", tuple(row_of(subject, _sizes(subject.point)) for subject in texts if subject.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),

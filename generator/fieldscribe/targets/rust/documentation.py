@@ -14,6 +14,7 @@ from fieldscribe.wording import (
     address_text,
     codes_text,
     condition_text,
+    display_text,
     raw_range_text,
     resolution_text,
     scale_text,
@@ -96,6 +97,8 @@ def _facts(point: Point) -> Iterator[str]:
         if span:
             yield f"raw {rust_code(span)}"
     yield from _resolution(point)
+    if point.display is not None:
+        yield display_text(point)
     yield access_text(point.access)
     if point.variant:
         yield f"for {rust_code(point.variant)}"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
-    | {"decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
+    | {"decimals", "display_decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
     | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
     | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
 )

@@ -49,6 +49,8 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
+    if point.display is not None:
+        yield f"display {point.display};"
     yield from _outer_limits(subject)
     yield from form_lines(subject, scope)
     yield from code_lines(subject)

@@ -15,6 +15,7 @@ from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.shapes import Shapes
+from fieldscribe.targets.vectors.shown import shown
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
@@ -99,6 +100,7 @@ def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tu
         digits(lines, point)
     else:
         whole(lines, oracle, point, deep=deep)
+    shown(lines, oracle, point, deep=deep)
     names(lines, point, deep=deep)
     specials(lines, point)
     flags(lines, point)

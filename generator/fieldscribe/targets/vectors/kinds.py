@@ -99,6 +99,9 @@ KINDS = table(
         # the values of an axis of variants, and what is only documented
         "variant": "only:python axis:word choices:names",
         "left_out": "only:python names:names codes:names",
+        # the number of decimals that people see, and the texts of values
+        "display": "decimals:int",
+        "told": "only:python.rust raw:int status:word text:text?",
         # the symbol of a point's unit
         "symbol": "only:rust symbol:text",
         # the addresses of points that are only documented

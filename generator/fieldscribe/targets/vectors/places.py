@@ -36,6 +36,8 @@ def address(lines: Lines, point: Point) -> None:
         lines.add("place", point.addresses, point.index, point.telegram)
     if point.unit.symbol:
         lines.add("symbol", point.unit.symbol)
+    if point.display is not None:
+        lines.add("display", point.display)
 
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:

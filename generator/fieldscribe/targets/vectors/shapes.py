@@ -36,7 +36,7 @@ def shape_of(point: Point) -> Hashable:
     kind = point.type, point.width, point.access, point.fixed, point.encodes_values, point.decimals, point.most_raw
     named = point.digits.enum if point.digits is not None else point.enum
     enum = None if named is None else tuple((entry.raw, entry.name) for entry in named.entries)
-    return (*kind, point.scale, specials, limits, enum, bool(point.flags), len(point.allowed.units))
+    return (*kind, point.display, point.scale, specials, limits, enum, bool(point.flags), len(point.allowed.units))
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:
