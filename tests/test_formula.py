@@ -387,3 +387,9 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert (error.message + error.hint).isprintable()
     cut_off(text)
     assert perf_counter() - begun < 0.2
+
+
+def test_a_sign_that_only_divides_is_no_interval() -> None:
+    with pytest.raises(FormulaError) as caught:
+        parse_expression("2 \u00f7 3")
+    assert caught.value.hint == "write /"
