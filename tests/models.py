@@ -283,7 +283,17 @@ def sample_bus() -> Bus:
 
 
 ERRATA = (
-    Erratum("a020_wire", ("base_frequency",), "", SOURCE, "wire 4137", "wire 4136", "Hex is right.", "certain"),
+    Erratum(
+        "a020_wire",
+        ("base_frequency",),
+        "",
+        SOURCE,
+        "wire 4137",
+        "wire 4136",
+        "Hex is right.",
+        "certain",
+        (("wire", "4137"),),
+    ),
     Erratum("f001_address", ("setpoint_display",), "", SOURCE, "No address.", "at: ~", "An empty cell.", "unknown"),
     Erratum("write_crc", (), "frame:write_base", SOURCE, "crc A8 54", "crc 0C 91", "The CRC of the bytes.", "certain"),
 )

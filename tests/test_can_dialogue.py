@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING
 import pytest
 from asked import asked
 from devices_by_family import at, can_frame, coded, shipped
+from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.options import Options, refuse_foreign
+from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.others import explain_others
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.samples import sample_raw
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can.conversation import decode, frames_for
-from fieldscribe.families.can.conversation.listener import CanListener
-from fieldscribe.families.can.conversation.notation import Pasted, read_frames
-from fieldscribe.families.can.conversation.recognition import recognise
 from fieldscribe.families.can.frames import CanFrame, parse
+from fieldscribe.families.can.notation import Pasted, read_frames
+from fieldscribe.families.can.recognition import recognise
+from fieldscribe.families.can.speech import CanSpeech
 from fieldscribe.model import Role
 from fieldscribe.pipeline import load_device
+from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from models import kitchen_sink, named
@@ -32,7 +32,7 @@ from models import kitchen_sink, named
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")
@@ -284,7 +284,7 @@ _HEADS = st.sampled_from([b"", b"\xdd", b"\xff\x01", b"\xee\x01", b"\xdd\x0e", b
 
 @given(st.lists(st.tuples(_IDS, _HEADS, st.binary(max_size=12)), min_size=1, max_size=8))
 def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
-    listening = CanListener(DEVICE, {})
+    listening = Listener(DEVICE, {}, CanSpeech(DEVICE))
     for number, head, rest in frames:
         for data in (head + rest, (head + rest)[:8]):
             heard = listening.hear(Pasted(CanFrame(number, data)))

@@ -7,20 +7,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from asked import asked
-from fieldscribe.conversation.family import Conversation
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.selection import UnclearError
-from fieldscribe.families.modbus.conversation.explaining import read_text
-from fieldscribe.families.modbus.conversation.listener import ModbusListener
-from fieldscribe.families.modbus.conversation.words import raw_of, words_of, write_request
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.asked import RefusedError
+from fieldscribe.conversation.listener import Listener
+from fieldscribe.families.modbus.explaining import read_text
 from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.sending import words_of, write_request
+from fieldscribe.families.modbus.speech import ModbusSpeech
 from hypothesis import given
 from hypothesis import strategies as st
 from models import changed, named, sample_device
 
 if TYPE_CHECKING:
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 DEVICE = sample_device()
 
@@ -33,7 +32,7 @@ def rtu(text: str) -> bytes:
 
 def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> Heard:
     """The last of the frames, heard after the others."""
-    listening = ModbusListener(DEVICE, settings)
+    listening = Listener(DEVICE, settings, ModbusSpeech(DEVICE))
     if request is not None:
         listening.expect_reply_to(request)
     return [listening.hear(data) for data in frames][-1]
@@ -94,15 +93,6 @@ def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     heard = hear(rtu("01 01 00 00 00 14"), reply)
     assert heard.kind == "reply"
     assert said(heard)[0].startswith("run_command = on (raw 1)")
-
-
-def test_a_family_that_offers_no_conversation_says_so() -> None:
-    nothing, point = Conversation(), DEVICE.points[0]
-    with pytest.raises(UnclearError, match="frames of the family modbus are not known here"):
-        nothing.decode(DEVICE, {}, ["01"], asked())
-    with pytest.raises(UnclearError, match="frames of the family modbus are not known here"):
-        nothing.frames_for(DEVICE, point, 0, {}, asked())
-    assert (nothing.read_text(DEVICE, point), nothing.write_text(DEVICE, point)) == ("", "")
 
 
 def test_how_points_of_one_and_of_several_words_are_read() -> None:
@@ -208,11 +198,11 @@ def test_commands_and_loopback() -> None:
 
 def test_tcp_is_known_by_its_header() -> None:
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
-    heard = ModbusListener(rtu_only, {}).hear(bytes.fromhex("000700000006050310280001"))
+    heard = Listener(rtu_only, {}, ModbusSpeech(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.findings == ("the manual knows only RTU frames",)
-    wrong = ModbusListener(DEVICE, {}, "tcp").hear(bytes.fromhex("000700000009050310280001"))
+    wrong = Listener(DEVICE, {}, ModbusSpeech(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)
 
@@ -226,7 +216,7 @@ def test_pieces_are_no_frames(text: str) -> None:
 
 @given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
 def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
-    listening = ModbusListener(DEVICE, {}, framing)
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE, framing))
     if asked:
         listening.expect_reply_to(frames[0])
     for data in frames:
@@ -244,10 +234,10 @@ def test_any_request_and_reply_are_safe(address: int, function: int, rest: bytes
 def test_words() -> None:
     swapped = named(DEVICE, "swapped_count")
     assert words_of(swapped, 0x12345678, swapped.addresses) == (0x5678, 0x1234)
-    assert raw_of(swapped, swapped.addresses, {0x2000: 0x5678, 0x2001: 0x1234}) == 0x12345678
+    assert raw_of(swapped, (0x1234, 0x5678)) == 0x12345678
     factor = named(DEVICE, "power_factor")
     assert words_of(factor, -1, factor.addresses) == (0xFFFF,)
-    assert raw_of(factor, factor.addresses, {0x2002: 0xFFFF}) == -1
+    assert raw_of(factor, (0xFFFF,)) == -1
 
 
 def test_requests_to_write() -> None:

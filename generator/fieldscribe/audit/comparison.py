@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 _SHORT = 100
 """Findings show at most so many characters of a line."""

@@ -9,8 +9,8 @@ from fieldscribe.checks.meetings import Meetings
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Command, Point
+    from fieldscribe.resolve.subject import Subject
 
 _WHOLE = (15, 0)
 _MOST = 512

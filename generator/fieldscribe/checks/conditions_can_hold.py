@@ -9,10 +9,10 @@ from fieldscribe.checks.meetings import Meetings, clauses
 from fieldscribe.existence import ends_before
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.existence import Clause, Domain
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _MOST_SHOWN = 12
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _LONGEST = 30
 

@@ -8,10 +8,10 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:

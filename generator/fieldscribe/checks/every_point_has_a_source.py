@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.subject import Subject
 
 
 @dataclass(frozen=True, slots=True)

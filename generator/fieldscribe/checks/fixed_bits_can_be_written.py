@@ -8,9 +8,9 @@ from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.meetings import Meetings
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Fixed, Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _RIVALS = ("enum", "digits", "scale")
 """Keys that a word with fixed bits cannot have."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.model import Frame, Point

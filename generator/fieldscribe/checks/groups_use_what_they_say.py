@@ -10,8 +10,8 @@ from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.subject import Subject
 
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 

@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import parse_integer
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 _LISTS = lists_with(DEVICE, "lines")
 

@@ -9,9 +9,9 @@ from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)

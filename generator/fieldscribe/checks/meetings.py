@@ -10,9 +10,9 @@ from fieldscribe.existence import ANY, Clause, Comparison, Domain, ends_before, 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 
 class Meetings:

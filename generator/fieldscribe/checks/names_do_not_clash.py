@@ -12,7 +12,7 @@ from fieldscribe.checks.owners import Owners, given_names
 
 if TYPE_CHECKING:
     from fieldscribe.checks.owners import Thing
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:

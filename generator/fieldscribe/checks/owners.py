@@ -12,10 +12,10 @@ from fieldscribe.resolve.drafts import groups
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
     from fieldscribe.targets.identifiers import Owner
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe import wording
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.arithmetic.words import number_of
-from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
+from fieldscribe.resolve.subject import Printed, Subject, same
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
 

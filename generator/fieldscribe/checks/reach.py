@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.resolve.telegrams import SPACE
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
+    from fieldscribe.resolve.subject import Subject
 
 Needs = Callable[["Subject", list["Point"]], Iterable[tuple[int, str, str]]]
 """Yields what the device lacks: how many of the points need it, what it is, and a hint."""

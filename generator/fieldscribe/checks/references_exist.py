@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families import families
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:

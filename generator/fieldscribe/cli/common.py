@@ -53,7 +53,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Say that there is no such command; the exit code."""
-    from fieldscribe.conversation.selection import quoted
+    from fieldscribe.asked import quoted
 
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
@@ -122,7 +122,8 @@ def _known_folder(name: Path) -> Path:
 
 def open_device(arguments: Namespace) -> Device:
     """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
-    from fieldscribe.conversation.selection import UnclearError, choose_variants
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.conversation.selection import choose_variants
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_device
 
@@ -228,8 +229,7 @@ def _reader() -> ReadLines:
 
 def settings_of(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
     """The settings of other points that `--with` gives. Raises StopError."""
-    from fieldscribe.conversation.refusals import RefusedError
-    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.asked import RefusedError, UnclearError
     from fieldscribe.conversation.typed_values import read_settings
 
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
@@ -53,17 +53,17 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Decode; the exit code: 1 when there is a fault or a finding."""
+    from fieldscribe.asked import UnclearError
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
-    from fieldscribe.conversation.family import conversation_of
-    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.conversation.listener import decode
 
     device = open_device(arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        heard = conversation_of(device).decode(device, settings, _frames(arguments.frames), options)
+        heard = decode(device, settings, _frames(arguments.frames), options)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     heard = [reading for reading in heard if arguments.unit is None or reading.unit == arguments.unit]
@@ -91,8 +91,8 @@ def _frames(words: list[str]) -> list[str]:
 
 def _print(heard: list[Heard]) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.conversation.hexadecimal import spaced
     from fieldscribe.report import visible
+    from fieldscribe.wording.buses import spaced
 
     for place, reading in enumerate(heard):
         if place:

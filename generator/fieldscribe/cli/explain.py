@@ -45,11 +45,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Explain; the exit code."""
+    from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.conversation.lookup import near, number_of
+    from fieldscribe.conversation.lookup import near
     from fieldscribe.conversation.others import explain_others
-    from fieldscribe.conversation.selection import did_you_mean, quoted
+    from fieldscribe.hexadecimal import number_of
 
     device = open_device(arguments)
     matches = _matches(device, arguments.what)
@@ -72,7 +73,7 @@ def run(arguments: Namespace) -> int:
 
 def _no_unit(symbol: str) -> tuple[str, str]:
     """The message and the hint for a unit that is neither the description's nor a shipped one."""
-    from fieldscribe.conversation.selection import quoted
+    from fieldscribe.asked import quoted
     from fieldscribe.language.units import unit_hint
 
     return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
@@ -83,7 +84,8 @@ def _matches(device: Device, what: str) -> list[Match]:
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
     from fieldscribe.conversation.lookup import find
-    from fieldscribe.conversation.selection import absence, label
+    from fieldscribe.conversation.selection import absence
+    from fieldscribe.wording import label
 
     matches = find(device, what)
     existing = [match for match in matches if not absence(device, match.point)]
@@ -109,8 +111,8 @@ def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[
 
 
 def _print(explanations: list[tuple[list[str], Explanation]], what: str) -> None:
+    from fieldscribe.asked import quoted
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.conversation.selection import quoted
 
     if len(explanations) > 1:
         print_lines([[("strong", f"`{quoted(what)}` can mean {len(explanations)} things.")], []])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.conversation.options import Options
+    from fieldscribe.asked import Options
     from fieldscribe.model import Device
 
 
@@ -58,9 +58,9 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     """The options that were given. Raises StopError for one that the device's family does not take."""
     from dataclasses import fields
 
+    from fieldscribe.asked import Options, UnclearError
     from fieldscribe.cli.common import StopError
-    from fieldscribe.conversation.options import Options, refuse_foreign
-    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.conversation.options import refuse_foreign
     from fieldscribe.families import families
 
     common = {

@@ -46,9 +46,9 @@ def run(arguments: Namespace) -> int:
 
 def _chosen(known: Sequence[Known], words: Sequence[str]) -> tuple[list[Known], int]:
     """The units that the words name, and the exit code; reports words that name none."""
+    from fieldscribe.asked import quoted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import usage_error
-    from fieldscribe.conversation.selection import quoted
     from fieldscribe.language.units import shipped_unit, unit_hint
 
     chosen: dict[str, Known] = {}

@@ -34,8 +34,8 @@ class Erratum:
     taken: str
     why: str
     certainty: str
-    facts: tuple[str, ...] = ()
-    """The keys of the printed facts; empty if the erratum is only told in words."""
+    facts: tuple[tuple[str, str], ...] = ()
+    """The printed facts by their keys; empty if the erratum is only told in words."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import SAME
+from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
@@ -18,6 +19,11 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
+
+
+def label(point: Point) -> str:
+    """How a point is called in answers: code and name."""
+    return f"{line(point.code)} {point.item}" if point.code else point.item
 
 
 def address_text(address: int) -> str:

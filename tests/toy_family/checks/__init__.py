@@ -10,9 +10,9 @@ from toy_family.facts import of_bus
 from toy_family.frames import tone_of
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.subject import Subject
 
 
 _MOST = 1000

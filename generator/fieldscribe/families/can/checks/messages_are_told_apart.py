@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Message
+    from fieldscribe.resolve.subject import Subject
 
 _MOST = 64
 """With how many messages of its identifier each message is compared."""

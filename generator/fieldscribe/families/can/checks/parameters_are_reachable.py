@@ -10,8 +10,8 @@ from fieldscribe.families.can.frames import carries
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import Seen, from_words, hex_of, report_no_frame, report_no_request
-from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.families.can.facts import identifier_of
 from fieldscribe.families.can.frames import LENGTH, CanFrame, Parsed, checksum, parse
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Printed
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 

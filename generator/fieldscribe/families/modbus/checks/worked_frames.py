@@ -13,11 +13,11 @@ from fieldscribe.checks.frames_agree import (
     report_no_request,
     report_wrong_error,
 )
-from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.families.modbus.functions import SPACES, profile_of
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import build, crc16, parse_request
 from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Printed
 from fieldscribe.families.uss.facts import FAMILY
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.bus import code_list
+from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Code
+    from fieldscribe.resolve.subject import Subject
 
 _LISTS = ("answers", "refusals")
 

@@ -11,8 +11,8 @@ from fieldscribe.families.uss.telegrams import READ_TASK, write_task
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
+    from fieldscribe.resolve.subject import Subject
 
 _SHORT = 3
 """The words of a parameter part that carries values of one word only."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_error
-from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.families.uss.telegrams import (
     VARIABLE,
@@ -18,6 +17,7 @@ from fieldscribe.families.uss.telegrams import (
     parse,
     telegram,
 )
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE
 from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.wording.buses import check_text, spaced, too_short
 
 MOST_BYTES = {"rtu": 256, "tcp": 260}
 
@@ -59,34 +60,33 @@ def _rtu(data: bytes) -> Wrapped:
     if len(data) < 4:
         if _has_length(data[1:]):
             return _without_checksum(data)
-        return Wrapped("rtu", data, None, "none", _too_short("an RTU frame has at least 4 bytes", data))
+        return Wrapped("rtu", data, None, "none", too_short("an RTU frame", 4, data))
     body, there = data[:-2], data[-2:]
     right = _crc(body)
     if right == there:
-        return Wrapped("rtu", data, data, f"ok ({_hex(there)})", _too_long("rtu", data))
+        return Wrapped("rtu", data, data, check_text(there, right), _too_long("rtu", data))
     if right == there[::-1]:
-        said = f"its two bytes are swapped: {_hex(there)}, the low byte {_hex(right)} travels first"
+        said = f"its two bytes are swapped: {spaced(there)}, the low byte {spaced(right)} travels first"
         return Wrapped("rtu", data, body + right, said, "the bytes of the checksum are swapped")
     if not _has_length(data[1:-2]) and _has_length(data[1:]):
         return _without_checksum(data)
-    said = f"wrong: {_hex(there)}; these bytes give {_hex(right)}"
-    return Wrapped("rtu", data, body + right, said, "the checksum is wrong")
+    return Wrapped("rtu", data, body + right, check_text(there, right), "the checksum is wrong")
 
 
 def _without_checksum(data: bytes) -> Wrapped:
     right = _crc(data)
-    return Wrapped("rtu", data, data + right, f"missing; it would be {_hex(right)}", "the checksum is missing")
+    return Wrapped("rtu", data, data + right, check_text(b"", right), "the checksum is missing")
 
 
 def _tcp(data: bytes) -> Wrapped:
     if len(data) < 8:
-        return Wrapped("tcp", data, None, "none", _too_short("a TCP frame has at least 8 bytes", data))
+        return Wrapped("tcp", data, None, "none", too_short("a TCP frame", 8, data))
     protocol, length = data[2:4], int.from_bytes(data[4:6], "big")
     right = len(data) - 6
     mended = data[:2] + b"\0\0" + (right & 0xFFFF).to_bytes(2, "big") + data[6:]
     transaction = int.from_bytes(data[:2], "big")
     if protocol != b"\0\0":
-        said = f"wrong: protocol number {_hex(protocol)} in place of 00 00"
+        said = f"wrong: protocol number {spaced(protocol)} in place of 00 00"
         return Wrapped("tcp", data, mended, said, "the header does not say Modbus")
     if length != right:
         said = f"wrong: it says {length} bytes follow, {right} do"
@@ -110,14 +110,6 @@ def _has_length(pdu: bytes) -> bool:
     return size == 5 or (size >= 6 and size == 6 + pdu[5])
 
 
-def _too_short(least: str, data: bytes) -> str:
-    return f"{least}, here {'is 1' if len(data) == 1 else f'are {len(data)}'}"
-
-
 def _too_long(framing: str, data: bytes) -> str:
     most = MOST_BYTES[framing]
     return f"the frame has {len(data)} bytes, {most} are the most" if len(data) > most else ""
-
-
-def _hex(data: bytes) -> str:
-    return data.hex(" ").upper()

@@ -5,8 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from fieldscribe.asked import RefusedError
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import units_text
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
+
+    from fieldscribe.model import Bus, Point
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,3 +104,36 @@ class Sent:
 
     frames: tuple[str, ...]
     notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """How a point is written, in words, and how frames show it with a raw number as an example.
+
+    `shown` gives nothing where no frame can be built; `joint` stands between the words and the example.
+    """
+
+    how: str
+    shown: Callable[[int], str] | None = None
+    joint: str = "; "
+
+
+_WHY = {
+    "bad_framing": "the device does not speak this framing",
+    "bad_unit": "the device cannot have this unit number",
+    "bad_function": "the device allows no function that writes it",
+    "bad_count": "it has more words than the device takes in one request",
+    "bad_address": "it lies beyond the last address",
+    "bad_link": "the device knows no such link",
+    "bad_task": "over this link there is no task that writes it",
+    "bad_parameter": "its number cannot be sent",
+    "bad_index": "its index cannot be sent",
+    "bad_value": "its value does not fit into the parameter part of this link",
+    "no_message": "the manual gives no message that writes it",
+}
+
+
+def refused(bus: Bus, point: Point, status: str, hint: str = "") -> RefusedError:
+    """That no frame can be built which writes a point, and why."""
+    hint = hint or (units_text(bus) if status == "bad_unit" else "")
+    return RefusedError(status, f"{label(point)}: {_WHY.get(status, status)}", hint)

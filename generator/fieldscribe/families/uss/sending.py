@@ -7,31 +7,20 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import insert, words_of
-from fieldscribe.conversation.answers import Sent
-from fieldscribe.conversation.hexadecimal import spaced
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.remarks import units_text
-from fieldscribe.conversation.selection import UnclearError, label
-from fieldscribe.families.uss.conversation.links import asked, link_of
-from fieldscribe.families.uss.conversation.remarks import find_code
+from fieldscribe.asked import RefusedError, UnclearError
+from fieldscribe.families.answers import Sent, refused
+from fieldscribe.families.uss.links import asked, link_of
 from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
 from fieldscribe.text import line
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import numbered, spaced
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.options import Options
+    from fieldscribe.asked import Options
     from fieldscribe.model import Device, Point
-
-_STATUS_WORDS = {
-    "bad_link": "the device knows no such link",
-    "bad_unit": "the device cannot have this unit number",
-    "bad_task": "over this link there is no task that writes it",
-    "bad_parameter": "its number cannot be sent",
-    "bad_index": "its index cannot be sent",
-    "bad_value": "its value does not fit into the parameter part of this link",
-}
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
@@ -115,21 +104,19 @@ def _pattern(point: Point, raw: int) -> int:
 def _built(device: Device, point: Point, link: Link, request: Request) -> bytes:
     status, data = build(device.bus, link, request)
     if status != "ok":
-        raise RefusedError(status, f"{label(point)}: {_STATUS_WORDS.get(status, status)}", _hint(device, link, status))
+        raise refused(device.bus, point, status, _hint(link, status))
     return data
 
 
-def _hint(device: Device, link: Link, status: str) -> str:
-    if status == "bad_unit":
-        return units_text(device.bus)
-    if status in ("bad_task", "bad_value"):
-        length = "is variable" if link.pkw == VARIABLE else f"has {link.pkw} words"
-        return f"the parameter part of this link {length}; take another --pkw, if the device is set so"
-    return ""
+def _hint(link: Link, status: str) -> str:
+    if status not in ("bad_task", "bad_value"):
+        return ""
+    length = "is variable" if link.pkw == VARIABLE else f"has {link.pkw} words"
+    return f"the parameter part of this link {length}; take another --pkw, if the device is set so"
 
 
 def _task_note(device: Device, task: int) -> str:
-    code = find_code(device.bus.functions, task)
+    code = numbered(device.bus.functions, task)
     return line(f"task {task}" + (f" {code.name}: {code.title['en']}" if code is not None else ""))
 
 

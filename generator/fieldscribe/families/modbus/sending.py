@@ -1,27 +1,28 @@
-"""Raw numbers in the words or bits of a frame, and the request that writes a point."""
+"""The request that writes a point."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, split
-from fieldscribe.arithmetic.words import raw_of as raw_of_words
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.remarks import units_text
-from fieldscribe.conversation.selection import label
+from fieldscribe.asked import RefusedError
+from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import spaced, units_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
     from fieldscribe.model import Device, Place, Point
 
 
-def raw_of(point: Point, addresses: tuple[int, ...], words: Mapping[int, int]) -> int:
-    """The raw number of a point out of words by address; `addresses` has the high part first."""
-    return raw_of_words(point, [words[address] for address in addresses])
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+    """The request that writes a raw number. Raises RefusedError."""
+    del settings  # a request carries nothing but the point
+    return Sent((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
 
 
 def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:
@@ -44,18 +45,13 @@ def write_request(
             f"read {hex_text(min(place.addresses))}, replace the bits of mask {hex_text(mask)} "
             f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
         )
-    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
     values = words_of(point, raw, place.addresses)
-    request = Request(
-        device.bus.usual_unit if unit is None else unit,
-        _function(device, place),
-        min(place.addresses),
-        len(values),
-        values,
-    )
+    to = device.bus.usual_unit if unit is None else unit
+    request = Request(to, _function(device, place), min(place.addresses), len(values), values)
+    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
     status, data = build(profile_of(device.bus), chosen, request)
     if status != "ok":
-        raise RefusedError(status, f"{label(point)}: {_STATUS_WORDS.get(status, status)}", _status_hint(device, status))
+        raise refused(device.bus, point, status, _hint(device, status))
     return request, data
 
 
@@ -65,23 +61,13 @@ def _function(device: Device, place: Place) -> int:
     space = SPACES[place.space]
     single = space.write_one if len(place.addresses) == 1 else None
     most = profile_of(device.bus).most
-    usable = [one for one in (single, space.write_many) if one is not None]
-    return next((one for one in usable if one in most), usable[0] if usable else 0)
+    usable = [function for function in (single, space.write_many) if function is not None]
+    return next((function for function in usable if function in most), usable[0] if usable else 0)
 
 
-_STATUS_WORDS = {
-    "bad_framing": "the device does not speak this framing",
-    "bad_unit": "the device cannot have this unit number",
-    "bad_function": "the device allows no function that writes it",
-    "bad_count": "it has more words than the device takes in one request",
-    "bad_address": "it lies beyond the last address",
-}
-
-
-def _status_hint(device: Device, status: str) -> str:
+def _hint(device: Device, status: str) -> str:
     if status == "bad_framing":
         return f"it speaks {' and '.join(framings_of(device.bus))}"
-    if status != "bad_unit":
-        return ""
-    everyone = "" if device.bus.broadcast is None else f", or {device.bus.broadcast} for all units at once"
-    return f"{units_text(device.bus)}{everyone}"
+    if status == "bad_unit" and device.bus.broadcast is not None:
+        return f"{units_text(device.bus)}, or {device.bus.broadcast} for all units at once"
+    return ""

@@ -6,9 +6,9 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.hexadecimal import HexError, parse_hex, rejoined
-from fieldscribe.conversation.selection import UnclearError, quoted
+from fieldscribe.asked import UnclearError, quoted
 from fieldscribe.families.can.frames import CanFrame
+from fieldscribe.hexadecimal import HexError, parse_hex, rejoined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.telegrams import START, VARIABLE, Link, check_byte
+from fieldscribe.wording.buses import check_text, counted, too_short
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +58,7 @@ def recognise(data: bytes, framing: str) -> Wrapped:
     if framing == "uss":
         return _telegram(data)
     if not data or len(data) % 2:
-        size = f"here {'is 1 byte' if len(data) == 1 else f'are {len(data)} bytes'}"
+        size = f"here {'is' if len(data) == 1 else 'are'} {counted(len(data), 'byte')}"
         return Wrapped(framing, data, None, None, faults=(f"the part is made of words of two bytes, {size}",))
     return Wrapped(framing, data, None, _words(data))
 
@@ -97,11 +98,11 @@ def split(words: tuple[int, ...], link: Link, *, request: bool) -> tuple[tuple[i
 
 
 def _count(words: int) -> str:
-    return f"it has {words} word{'' if words == 1 else 's'}"
+    return f"it has {counted(words, 'word')}"
 
 
 def _data(link: Link) -> str:
-    return f"{link.pzd} word{'' if link.pzd == 1 else 's'} of process data"
+    return f"{counted(link.pzd, 'word')} of process data"
 
 
 def _words(data: bytes) -> tuple[int, ...]:
@@ -110,22 +111,20 @@ def _words(data: bytes) -> tuple[int, ...]:
 
 def _telegram(data: bytes) -> Wrapped:
     if len(data) < _LEAST_BYTES:
-        fault = f"a telegram has at least {_LEAST_BYTES} bytes, here {'is 1' if len(data) == 1 else f'are {len(data)}'}"
-        return Wrapped("uss", data, None, None, faults=(fault,))
+        return Wrapped("uss", data, None, None, faults=(too_short("a telegram", _LEAST_BYTES, data),))
     faults = []
     if data[0] != START:
         faults.append(f"a telegram begins with {START:02X}h, this with {data[0]:02X}h")
     right, whole = check_byte(data[:-1]), True
-    checks = f"ok ({data[-1]:02X})"
+    checks = check_text(data[-1:], bytes((right,)))
     if data[1] == len(data) - 1 and len(data) % 2:
-        checks = f"missing; it would be {check_byte(data):02X}"
+        checks = check_text(b"", bytes((check_byte(data),)))
         faults.append("the check byte is missing")
         whole = False
     else:
         if data[1] + 2 != len(data):
             faults.append(f"its length byte says {data[1] + 2} bytes, here are {len(data)}")
         if data[-1] != right:
-            checks = f"wrong: {data[-1]:02X}; these bytes give {right:02X}"
             faults.append("the check byte is wrong")
     body = data[3:-1] if whole else data[3:]
     if len(body) % 2:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.lookup import word_text
 from fieldscribe.families.can.frames import carries
 from fieldscribe.text import line
-from fieldscribe.wording import address_text, fixed_text
+from fieldscribe.wording import address_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.families.can.conversation.recognition import Recognised
     from fieldscribe.families.can.frames import CanFrame
-    from fieldscribe.model import Device, Message, Point
+    from fieldscribe.families.can.recognition import Recognised
+    from fieldscribe.model import Device, Message
 
 
 def message_text(device: Device, found: Recognised) -> str:
@@ -55,21 +54,3 @@ def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
     place = known[0][0] if known else 0
     names = ", ".join(f"{hex_text(number, 2)} {name}" for _, number, name in known)
     return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"
-
-
-def fixed_finding(point: Point, word: int) -> str:
-    """That a written word has not the bits beside a bit group that are always written as a constant."""
-    if point.bits is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
-        return ""
-    return f"the word breaks what is always written: {fixed_text(point)}"
-
-
-def waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) -> str:
-    """Which words of a number came, and with which multiplexer the others come."""
-    came = [
-        f"only the {word_text(point.addresses, at)} = {words[0]:04X}h"
-        for at, words in zip(point.addresses, parts, strict=True)
-        if words
-    ]
-    slots = [str(at // per_frame) for at, words in zip(point.addresses, parts, strict=True) if not words]
-    return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(dict.fromkeys(slots))}"

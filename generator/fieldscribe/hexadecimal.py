@@ -1,11 +1,11 @@
-"""Bytes as people paste them: with blanks, commas, colons, dashes, `0x`, or none of these."""
+"""Bytes and numbers as people paste them: with blanks, commas, colons, dashes, `0x`, or none of these."""
 
 from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.asked import UnclearError
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 _BETWEEN = re.compile(r"[\s,;:|\-]+")
 _MARK = re.compile(r"0[xX]|\\x|[hH]'")
 _DIGITS = re.compile(r"[0-9A-Fa-f]+")
+
+_HEX = re.compile(r"0x([0-9a-f]+)|([0-9][0-9a-f]*)h|h'([0-9a-f]+)'?", re.IGNORECASE)
+_DECIMAL = re.compile(r"[0-9]+")
+_LONGEST = 64
 
 
 class HexError(ValueError):
@@ -26,6 +30,15 @@ def parse_hex(text: str) -> bytes:
     if not pieces:
         raise HexError("there are no bytes")
     return b"".join(_piece(piece, place) for place, piece in enumerate(pieces, 1))
+
+
+def number_of(text: str) -> int | None:
+    """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
+    if len(text) > _LONGEST or not text.isascii():
+        return None
+    if found := _HEX.fullmatch(text):
+        return int(found[1] or found[2] or found[3], 16)
+    return int(text) if _DECIMAL.fullmatch(text) else None
 
 
 def typed_bytes(text: str, what: str, example: str) -> bytes:
@@ -41,11 +54,6 @@ def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
     if len(words) > 2 and len({len(word.strip()) for word in words} - set(sizes)) == 0:
         return [" ".join(words)]
     return list(words)
-
-
-def spaced(data: bytes) -> str:
-    """Bytes as manuals print them: `05 06 10 28`."""
-    return data.hex(" ").upper()
 
 
 def _piece(piece: str, place: int) -> bytes:

@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, insert, words_of
-from fieldscribe.conversation.answers import Sent
-from fieldscribe.conversation.lookup import number_of
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.remarks import units_text
-from fieldscribe.conversation.selection import UnclearError, label, quoted
+from fieldscribe.asked import RefusedError, UnclearError, quoted
+from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.can.frames import build, carries
-from fieldscribe.wording import fixed_text
+from fieldscribe.hexadecimal import number_of
+from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from fieldscribe.conversation.options import Options
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
     from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.model import Device, Message, Point
 
@@ -46,19 +45,20 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
     message = request_of(device, writes=True)
     place = point.write_place
     if message is None or place is None or place.space != "parameter":
-        raise RefusedError("no_message", f"{label(point)}: the manual gives no message that writes it")
+        raise refused(device.bus, point, "no_message")
     chosen = device.bus.usual_unit if unit is None else unit
     frames = []
     for address, word in zip(place.addresses, words, strict=True):
         status, frame = build(message, device.bus.units, chosen, address, word)
         if status != "ok":
-            raise _refused(device, point, status)
+            raise refused(device.bus, point, status)
         frames.append(frame_text(frame))
     return tuple(frames)
 
 
-def frames_for(device: Device, point: Point, raw: int, options: Options) -> Sent:
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
     """The frames that write a raw number; a bit group into the word that is there. Raises RefusedError."""
+    del settings  # a message carries one parameter alone
     there: str | None = options.own.get("with_word")
     if point.bits is None:
         if there is not None:
@@ -90,10 +90,3 @@ def _word(text: str) -> int:
     if number is None or number > 0xFFFF:
         raise UnclearError(f"--with-word: `{quoted(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
     return number
-
-
-def _refused(device: Device, point: Point, status: str) -> RefusedError:
-    if status == "bad_unit":
-        message = f"{label(point)}: the device cannot have this unit number"
-        return RefusedError(status, message, units_text(device.bus))
-    return RefusedError(status, f"{label(point)}: {status.replace('_', ' ')}")

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.asked import UnclearError
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.families.uss.telegrams import VARIABLE, Link
 
 if TYPE_CHECKING:
-    from fieldscribe.conversation.options import Options
+    from fieldscribe.asked import Options
     from fieldscribe.model import Bus, Device
 
 _USUAL_PZD = 2

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.remarks import strange_unit
-from fieldscribe.conversation.selection import label
-from fieldscribe.families.modbus.conversation.address_book import AddressBook, Area, span_text
-from fieldscribe.families.modbus.functions import BROADCAST, profile_of
+from fieldscribe.families.modbus.facts import FAMILY
+from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
 from fieldscribe.text import line
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import counted, numbered, spaced, span_text, strange_unit
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from fieldscribe.families.directory import Directory
     from fieldscribe.families.modbus.functions import Profile
     from fieldscribe.families.modbus.requests import Request
+    from fieldscribe.families.spoken import Span
     from fieldscribe.model import Device
 
 _FUNCTIONS: Mapping[int, str] = {
@@ -40,15 +43,6 @@ _EXCEPTIONS: Mapping[int, str] = {
     0x0A: "gateway path unavailable",
     0x0B: "gateway target did not answer",
 }
-REPLY_FAULTS: Mapping[str, str] = {
-    "wrong_unit": "it comes from another unit than was asked",
-    "wrong_transaction": "its transaction number is not that of the request",
-    "wrong_function": "its function is not that of the request",
-    "bad_byte_count": "it brings another number of bytes than was asked for",
-    "echo_mismatch": "it does not repeat the request",
-    "short_frame": "it is shorter than it says",
-    "long_frame": "it is longer than it says",
-}
 
 
 def function_text(function: int) -> str:
@@ -59,7 +53,7 @@ def function_text(function: int) -> str:
 
 def exception_text(device: Device, code: int) -> str:
     """An exception in the device's own words, else in those of the protocol."""
-    own = next((one for one in device.bus.exceptions if one.number == code), None)
+    own = numbered(device.bus.exceptions, code)
     if own is not None:
         return line(f"{hex_text(code, 2)} {own.name}: {own.title['en']}")
     common = _EXCEPTIONS.get(code)
@@ -69,19 +63,13 @@ def exception_text(device: Device, code: int) -> str:
     return f"{hex_text(code, 2)}: {meaning}"
 
 
-def area_of(request: Request, *, carried: bool = True) -> Area:
-    """The addresses that a request names, with what it writes to them."""
-    values = request.values if carried and request.values else None
-    return Area(request.function, request.address, request.count, values)
-
-
-def area_text(area: Area) -> str:
-    """An area in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
-    if area.function == 0x08:
-        return f"sub-function {hex_text(area.address)}"
-    item = "bit" if area.space in ("coil", "discrete") else "word"
-    where = span_text(area.address, area.address + area.count - 1)
-    return f"{area.space} {where}, {area.count} {item}{'' if area.count == 1 else 's'}"
+def span_said(request: Request) -> str:
+    """What a request names, in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
+    if request.function == 0x08:
+        return f"sub-function {hex_text(request.address)}"
+    space = next(name for name, space in SPACES.items() if request.function in astuple(space))
+    where = span_text(request.address, request.address + request.count - 1)
+    return f"{space} {where}, {counted(request.count, FAMILY.spaces[space])}"
 
 
 def request_findings(device: Device, request: Request) -> Iterator[str]:
@@ -100,12 +88,12 @@ def request_findings(device: Device, request: Request) -> Iterator[str]:
         yield "it reaches beyond the last address"
 
 
-def request_notes(device: Device, book: AddressBook, request: Request) -> Iterator[str]:
+def request_notes(device: Device, directory: Directory, request: Request, span: Span) -> Iterator[str]:
     """What is good to know about a request, and what looks like a slip."""
     if request.unit == profile_of(device.bus).broadcast and not any(request_findings(device, request)):
         yield "broadcast: no unit answers"
     if request.function != 0x08:
-        yield from _off_by_one(book, area_of(request))
+        yield from _off_by_one(directory, span)
 
 
 def _broadcast_findings(function: int, profile: Profile) -> Iterator[str]:
@@ -120,7 +108,7 @@ def manual_notes(device: Device, data: bytes) -> Iterator[str]:
     for frame in device.frames:
         if frame.printed == data and not frame.valid:
             known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
-            right = frame.corrected.hex(" ").upper()
+            right = spaced(frame.corrected)
             yield line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {right}")
             return
 
@@ -131,17 +119,17 @@ def framing_finding(device: Device, framing: str) -> str:
     return "" if not known or framing in known else f"the manual knows only {' and '.join(known).upper()} frames"
 
 
-def _off_by_one(book: AddressBook, area: Area) -> Iterator[str]:
+def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
     """An address that is no point, while the one below is: probably a Modicon number (counted from 1)."""
-    if area.address == 0 or book.starting_at(area.space, area.address):
+    if span.address == 0 or directory.starting_at(span.space, span.address):
         return
-    for point, place in book.starting_at(area.space, area.address - 1):
-        if len(place.addresses) > area.count:
+    for point, place in directory.starting_at(span.space, span.address - 1):
+        if len(place.addresses) > span.count:
             continue
-        keys = [key for key, number in point.references.items() if number == area.address]
-        called = f"{area.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
-        below = hex_text(area.address - 1)
+        keys = [key for key, number in point.references.items() if number == span.address]
+        called = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
+        below = hex_text(span.address - 1)
         yield (
-            f"no point starts at {hex_text(area.address)}, but one less, {below}, is {label(point)}: {called}on "
+            f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {called}on "
             "the wire addresses count from 0, so this frame may be one too high"
         )

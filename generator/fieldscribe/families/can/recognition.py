@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.remarks import strange_unit
 from fieldscribe.families.can.frames import LENGTH, CanFrame, carried, carries, checksum
+from fieldscribe.wording.buses import check_text, strange_unit
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Reco
     sums = [(byte, checksum(frame.data, role.number)) for role, byte in found if role.kind == "xor"]
     checks = ""
     if sums:
-        there, right_sums = (bytes(pair[at] for pair in sums).hex(" ").upper() for at in (0, 1))
-        checks = f"ok ({there})" if there == right_sums else f"wrong: {there}; these bytes give {right_sums}"
+        there, right_sums = (bytes(pair[at] for pair in sums) for at in (0, 1))
+        checks = check_text(there, right_sums)
         faults += ["the checksum is wrong"] if there != right_sums else []
     return Recognised(message, unit, frame, checks, tuple(faults))

@@ -4,57 +4,37 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.remarks import strange_unit
-from fieldscribe.families.uss.conversation.recognition import KEEPING_TASKS, TASK_WIDTHS
+from fieldscribe.families.uss.recognition import KEEPING_TASKS, TASK_WIDTHS
 from fieldscribe.text import line
+from fieldscribe.wording.buses import numbered, strange_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
-    from fieldscribe.families.uss.conversation.recognition import Part
+    from fieldscribe.families.uss.recognition import Part
     from fieldscribe.families.uss.telegrams import Link
-    from fieldscribe.model import Code, Device, Point
-
-REPLY_FAULTS: Mapping[str, str] = {
-    "wrong_unit": "it comes from another unit than was asked",
-    "wrong_parameter": "it is about another parameter or element",
-    "wrong_response": "its response does not belong to the task",
-    "wrong_length": "it has too few words for its response",
-}
-_ALL_ELEMENTS = 255
+    from fieldscribe.model import Code, Device
 
 
 def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
     """A task, response or error with its name: `task 1 read_value`."""
-    code = find_code(codes, number)
+    code = numbered(codes, number)
     return f"{kind} {number}" + (f" {code.name}" if code is not None else ", which the manual does not list")
-
-
-def find_code(codes: tuple[Code, ...], number: int) -> Code | None:
-    """The code of that number."""
-    return next((one for one in codes if one.number == number), None)
 
 
 def error_text(device: Device, error: int) -> str:
     """An error value in the manual's words."""
-    code = find_code(device.bus.exceptions, error)
+    code = numbered(device.bus.exceptions, error)
     if code is None:
         return f"error {error}, which the manual does not list"
     return line(f"error {error} {code.name}: {code.title['en']}")
-
-
-def parameter_text(part: Part, points: list[Point]) -> str:
-    """Which element a part is about: `parameter 1082`, `parameter 2010, index 1`."""
-    index = "all elements (index 255)" if part.index == _ALL_ELEMENTS else f"index {part.index}"
-    alone = part.index == 0 and all(point.index is None for point in points)
-    return f"parameter {part.parameter}" + ("" if alone else f", {index}")
 
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
     """What the device will not take of a request."""
     if unit is not None and (strange := strange_unit(device.bus, unit)):
         yield strange
-    code = find_code(device.bus.functions, part.code)
+    code = numbered(device.bus.functions, part.code)
     if code is None:
         yield f"the device does not know task {part.code}"
     elif part.code and not code.answers:
@@ -83,17 +63,10 @@ def _misplaced(part: Part, link: Link) -> Iterator[str]:
         yield f"over this link a single word stands {where}{also}"
 
 
-def width_finding(point: Point, width: int, *, request: bool) -> str:
-    """That a value has another number of words than the parameter."""
-    words = "a double word" if point.words == 2 else f"{point.words} word{'' if point.words == 1 else 's'}"
-    said = f"the parameter is {words}, the {'task' if request else 'response'} carries {width}"
-    return f"{said}; a device answers with a wrong data type" if request else said
-
-
 def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:
     """That the error is not one of the task."""
     error = part.values[0]
-    code = find_code(device.bus.exceptions, error)
+    code = numbered(device.bus.exceptions, error)
     if task is not None and code is not None and code.answers and task not in code.answers:
         yield f"the manual does not give error {error} for task {task}"
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.samples import sample_raw, sample_said
-from fieldscribe.families.can.conversation.sending import frame_text, read_frame, request_of, write_frames
+from fieldscribe.asked import RefusedError
+from fieldscribe.families.answers import Way
 from fieldscribe.families.can.frames import CanFrame, carries, identifier
+from fieldscribe.families.can.sending import frame_text, read_frame, request_of, write_frames
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
 
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: by a message, or out of a telegram; empty if it cannot be read."""
-    if not point.readable or not point.places:
-        return ""
     if point.telegram is not None:
         return _telegram_text(device, point)
     message = request_of(device, writes=False)
@@ -28,28 +26,31 @@ def read_text(device: Device, point: Point) -> str:
     return f"{_count(point, message)}to unit {device.bus.usual_unit}: {read_frame(device, point.addresses[0])}"
 
 
-def write_text(device: Device, point: Point) -> str:
-    """How to write the point, with a frame for one allowed number; empty if it cannot be written."""
+def way_to_write(device: Device, point: Point) -> Way | None:
+    """How to write the point; None if it cannot be written."""
     message = request_of(device, writes=True)
-    if not point.writable or not point.places or point.telegram is not None or message is None:
-        return ""
+    if point.telegram is not None or message is None:
+        return None
     head = _count(point, message)
     if point.bits is not None:
         fixed = f"; {fixed_text(point)}" if point.fixed is not None else ""
-        return (
+        return Way(
             f"{head}after the word was read: replace the bits of mask {hex_text(group_mask(point))} and write it back, "
             f"for other points share the word{fixed}"
         )
-    raw = int.from_bytes(b"TEXT".ljust(2 * point.words), "big") if point.text is not None else sample_raw(point)
-    if raw is None:
-        return head.rstrip(", ")
-    raw = with_fixed(point, raw)
+    if point.text is None:
+        return Way(head.rstrip(", "), lambda raw: _written(device, point, raw), ", ")
+    shown = _written(device, point, int.from_bytes(b"TEXT".ljust(2 * point.words), "big"))
+    return Way(f'{head}for example "TEXT", padded with spaces{shown}' if shown else head.rstrip(", "))
+
+
+def _written(device: Device, point: Point, raw: int) -> str:
+    """The frames that write the point; empty where there are none."""
     try:
-        frames = write_frames(device, point, words_of(point, raw), None)
+        frames = write_frames(device, point, words_of(point, with_fixed(point, raw)), None)
     except RefusedError:
-        return head.rstrip(", ")
-    said = 'for example "TEXT", padded with spaces' if point.text is not None else sample_said(point, raw)
-    return f"{head}{said}; to unit {device.bus.usual_unit}: {' '.join(frames)}"
+        return ""
+    return f"; to unit {device.bus.usual_unit}: {' '.join(frames)}"
 
 
 def _count(point: Point, message: Message) -> str:
