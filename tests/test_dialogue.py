@@ -10,7 +10,7 @@ import pytest
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
-from fieldscribe.families.modbus.explaining import read_text
+from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.modbus.requests import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
