@@ -41,8 +41,8 @@ pub use form::Count;
 pub use info::{Access, PointInfo};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, Point, Readable,
-    Scaled, Space, Whole, Writable,
+    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, NeedsNothing, Point,
+    Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

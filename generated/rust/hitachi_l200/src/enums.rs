@@ -2,7 +2,9 @@
 // Regenerate with: fieldscribe generate hitachi_l200 --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! Named numbers.
+//! Named numbers, shown by their names.
+
+use core::fmt;
 
 /// Run command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,6 +25,15 @@ impl RunCommand {
             Self::Stop => Some("stop"),
             Self::Run => Some("run"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for RunCommand {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -72,6 +83,15 @@ impl DirectionCommand {
     }
 }
 
+impl fmt::Display for DirectionCommand {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for DirectionCommand {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -113,6 +133,15 @@ impl ExternalTrip {
             Self::NoTrip => Some("no_trip"),
             Self::Trip => Some("trip"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for ExternalTrip {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -162,6 +191,15 @@ impl TripReset {
     }
 }
 
+impl fmt::Display for TripReset {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for TripReset {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -203,6 +241,15 @@ impl OffOn {
             Self::Off => Some("off"),
             Self::On => Some("on"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for OffOn {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -252,6 +299,15 @@ impl Running {
     }
 }
 
+impl fmt::Display for Running {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for Running {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -293,6 +349,15 @@ impl DirectionStatus {
             Self::Forward => Some("forward"),
             Self::Reverse => Some("reverse"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for DirectionStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -342,6 +407,15 @@ impl Ready {
     }
 }
 
+impl fmt::Display for Ready {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for Ready {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -383,6 +457,15 @@ impl Alarm {
             Self::Normal => Some("normal"),
             Self::Tripped => Some("tripped"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Alarm {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -432,6 +515,15 @@ impl DataWrite {
     }
 }
 
+impl fmt::Display for DataWrite {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for DataWrite {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -473,6 +565,15 @@ impl ErrorFlag {
             Self::NoError => Some("no_error"),
             Self::Error => Some("error"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for ErrorFlag {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -546,6 +647,15 @@ impl InverterStatus {
     }
 }
 
+impl fmt::Display for InverterStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for InverterStatus {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -610,6 +720,15 @@ impl RotationDirection {
     }
 }
 
+impl fmt::Display for RotationDirection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for RotationDirection {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -660,6 +779,15 @@ impl TripCode {
     }
 }
 
+impl fmt::Display for TripCode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for TripCode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -703,6 +831,15 @@ impl MotorDirection {
             Self::Forward => Some("forward"),
             Self::Reverse => Some("reverse"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for MotorDirection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -761,6 +898,15 @@ impl FrequencySource {
     }
 }
 
+impl fmt::Display for FrequencySource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for FrequencySource {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -811,6 +957,15 @@ impl RunSource {
             Self::RunKey => Some("run_key"),
             Self::Modbus => Some("modbus"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for RunSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -868,6 +1023,15 @@ impl AtTerminalSelection {
     }
 }
 
+impl fmt::Display for AtTerminalSelection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for AtTerminalSelection {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -917,6 +1081,15 @@ impl InputOStartCondition {
     }
 }
 
+impl fmt::Display for InputOStartCondition {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for InputOStartCondition {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -955,6 +1128,15 @@ impl AnalogInputFilter {
         match self {
             Self::Samples16DeadBand => Some("samples_16_dead_band"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for AnalogInputFilter {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1001,6 +1183,15 @@ impl JogStopMode {
             Self::Ramp => Some("ramp"),
             Self::DcBrake => Some("dc_brake"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for JogStopMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1052,6 +1243,15 @@ impl BoostMode {
     }
 }
 
+impl fmt::Display for BoostMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for BoostMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1093,6 +1293,15 @@ impl VfCharacteristic {
             Self::Constant => Some("constant"),
             Self::Quadratic => Some("quadratic"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for VfCharacteristic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1142,6 +1351,15 @@ impl InactiveActive {
     }
 }
 
+impl fmt::Display for InactiveActive {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for InactiveActive {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1183,6 +1401,15 @@ impl DcBrakeTrigger {
             Self::Edge => Some("edge"),
             Self::Level => Some("level"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for DcBrakeTrigger {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1238,6 +1465,15 @@ impl PidProcessValueSource {
     }
 }
 
+impl fmt::Display for PidProcessValueSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for PidProcessValueSource {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1283,6 +1519,15 @@ impl PidInversion {
             Self::SetpointMinusProcessValue => Some("setpoint_minus_process_value"),
             Self::ProcessValueMinusSetpoint => Some("process_value_minus_setpoint"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for PidInversion {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1335,6 +1580,15 @@ impl AvrMode {
     }
 }
 
+impl fmt::Display for AvrMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for AvrMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1378,6 +1632,15 @@ impl Ramp2Selection {
             Self::Terminal2ch => Some("terminal_2ch"),
             Self::Frequency => Some("frequency"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Ramp2Selection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1427,6 +1690,15 @@ impl RampCurve {
     }
 }
 
+impl fmt::Display for RampCurve {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for RampCurve {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1468,6 +1740,15 @@ impl InputOiStartCondition {
             Self::MinimumFrequency => Some("minimum_frequency"),
             Self::ZeroHz => Some("zero_hz"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for InputOiStartCondition {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1526,6 +1807,15 @@ impl CalculationInput {
     }
 }
 
+impl fmt::Display for CalculationInput {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for CalculationInput {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1580,6 +1870,15 @@ impl CalculationOperator {
     }
 }
 
+impl fmt::Display for CalculationOperator {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for CalculationOperator {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1627,6 +1926,15 @@ impl FrequencyOffsetSign {
     }
 }
 
+impl fmt::Display for FrequencyOffsetSign {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for FrequencyOffsetSign {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1668,6 +1976,15 @@ impl PotentiometerStartCondition {
             Self::MinimumFrequency => Some("minimum_frequency"),
             Self::ZeroHz => Some("zero_hz"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for PotentiometerStartCondition {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1723,6 +2040,15 @@ impl RestartMode {
     }
 }
 
+impl fmt::Display for RestartMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for RestartMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1772,6 +2098,15 @@ impl PowerFailureTripAtStandstill {
     }
 }
 
+impl fmt::Display for PowerFailureTripAtStandstill {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for PowerFailureTripAtStandstill {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1813,6 +2148,15 @@ impl PowerFailureRestarts {
             Self::Attempts16 => Some("attempts_16"),
             Self::Unlimited => Some("unlimited"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for PowerFailureRestarts {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1861,6 +2205,15 @@ impl MotorProtectionCharacteristic {
             Self::Constant => Some("constant"),
             Self::Quadratic2 => Some("quadratic_2"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for MotorProtectionCharacteristic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -1915,6 +2268,15 @@ impl CurrentLimitMode {
     }
 }
 
+impl fmt::Display for CurrentLimitMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for CurrentLimitMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1958,6 +2320,15 @@ impl CurrentLimitSource {
             Self::Parameter => Some("parameter"),
             Self::TerminalO => Some("terminal_o"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for CurrentLimitSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2009,6 +2380,15 @@ impl ParameterLock {
             Self::ParametersAndSetpoint => Some("parameters_and_setpoint"),
             Self::Parameters => Some("parameters"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for ParameterLock {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2065,6 +2445,15 @@ impl InitializationMode {
     }
 }
 
+impl fmt::Display for InitializationMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for InitializationMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2112,6 +2501,15 @@ impl StopKeyLock {
     }
 }
 
+impl fmt::Display for StopKeyLock {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for StopKeyLock {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2153,6 +2551,15 @@ impl CoastRestartMode {
             Self::StartAt0Hz => Some("start_at_0_hz"),
             Self::Synchronize => Some("synchronize"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for CoastRestartMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2217,6 +2624,15 @@ impl NetworkDisplay {
     }
 }
 
+impl fmt::Display for NetworkDisplay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for NetworkDisplay {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2272,6 +2688,15 @@ impl StopMode {
     }
 }
 
+impl fmt::Display for StopMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for StopMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2313,6 +2738,15 @@ impl Contact {
             Self::NormallyOpen => Some("normally_open"),
             Self::NormallyClosed => Some("normally_closed"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Contact {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2362,6 +2796,15 @@ impl AnalogOutputSource {
     }
 }
 
+impl fmt::Display for AnalogOutputSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for AnalogOutputSource {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2403,6 +2846,15 @@ impl MotorPotentiometerMemory {
             Self::Discard => Some("discard"),
             Self::Keep => Some("keep"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for MotorPotentiometerMemory {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2455,6 +2907,15 @@ impl ResetMode {
     }
 }
 
+impl fmt::Display for ResetMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for ResetMode {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2501,6 +2962,15 @@ impl LogicOperator {
             Self::LogicOr => Some("logic_or"),
             Self::LogicXor => Some("logic_xor"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for LogicOperator {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -2585,6 +3055,15 @@ impl MotorPower {
     }
 }
 
+impl fmt::Display for MotorPower {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for MotorPower {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -2654,6 +3133,15 @@ impl MotorPoles {
             Self::Poles6 => Some("poles_6"),
             Self::Poles8 => Some("poles_8"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for MotorPoles {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }

@@ -135,6 +135,12 @@ impl fmt::Debug for DigitalInputs {
     }
 }
 
+impl fmt::Display for DigitalInputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for DigitalInputs {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -234,6 +240,12 @@ impl runtime::Flags for DigitalOutputs {
 }
 
 impl fmt::Debug for DigitalOutputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DigitalOutputs {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }

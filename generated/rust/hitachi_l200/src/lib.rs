@@ -8,10 +8,13 @@
 //! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
 //! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
+//! [`runtime::modbus::reply_length`] tells a transport when a reply is complete.
+//!
+//! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use hitachi_l200::runtime::modbus::Framing;
-//! use hitachi_l200::{points, Client, ClientError, Transport, PROFILE};
+//! use hitachi_l200::{blocks, commands, points as p, with, Client, ClientError, Framing, PROFILE, Reading,
+//!     Transport};
 //!
 //! struct Line; // your port
 //!
@@ -19,14 +22,34 @@
 //!     type Error = std::io::Error;
 //!
 //!     fn exchange(&mut self, _request: &[u8], _reply: &mut [u8]) -> Result<usize, Self::Error> {
-//!         // throw away what came before, send the request, read until the line is silent
+//!         // throw away what came before, send the request, read until the reply is complete
 //!         Err(std::io::ErrorKind::TimedOut.into())
 //!     }
 //! }
 //!
+//! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.read::<p::NetworkFrequencySetpoint>()?;
+//!     println!("it is {value:?}");
+//!     client.write::<p::NetworkFrequencySetpoint>(200.0)?;
+//!     // What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.
+//!     let with = with::DcBrakeFrequency { start_frequency: 1 };
+//!     client.write_with::<p::DcBrakeFrequency>(1.0, with)?;
+//!     match client.read::<p::UpperFrequencyLimit>()? {
+//!         Reading::Value(value) => println!("it is {value:?}"),
+//!         Reading::Special(code) => println!("no quantity: {code}"),
+//!     }
+//!     for block in blocks::COILS {
+//!         let reply = client.read_block(block)?;
+//!         if block.brings::<p::RunCommand>() {
+//!             println!("it is {:?}", reply.value::<p::RunCommand>()?);
+//!         }
+//!     }
+//!     client.command(&commands::ENTER)?;
+//!     Ok(())
+//! }
+//!
 //! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
-//! let found = client.read::<points::RunCommand>();
-//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
 #![no_std]
@@ -38,13 +61,14 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::modbus::LocalClient;
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
+use fieldscribe_runtime::modbus::{Block, Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "hitachi_l200";
@@ -134,7 +158,7 @@ const FUNCTIONS: &[Function] = &[
 ///
 /// fn is_refused<E>(error: &ClientError<E>) -> bool {
 ///     use exceptions::FUNCTION_NOT_SUPPORTED as REFUSED;
-///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }))
+///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }, _))
 /// }
 /// # let (code, name) = (exceptions::FUNCTION_NOT_SUPPORTED, None);
 /// # assert!(is_refused::<()>(&ReplyError::Exception { code, name }.into()));

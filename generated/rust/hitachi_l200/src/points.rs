@@ -822,8 +822,8 @@ point! {
 point! {
     /// Acceleration time.
     ///
-    /// `F002` at holding 1013h (4115), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `F002` at holding 1013h (4115), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F002")]
     AccelerationTime: u32 = "acceleration_time", "F002";
     at Holding 0x1013;
@@ -842,8 +842,8 @@ point! {
 point! {
     /// Acceleration time set 2.
     ///
-    /// `F202` at holding 1500h (5376), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `F202` at holding 1500h (5376), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F202")]
     AccelerationTimeSet2: u32 = "acceleration_time_set_2", "F202";
     at Holding 0x1500;
@@ -862,8 +862,8 @@ point! {
 point! {
     /// Deceleration time.
     ///
-    /// `F003` at holding 1015h (4117), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `F003` at holding 1015h (4117), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F003")]
     DecelerationTime: u32 = "deceleration_time", "F003";
     at Holding 0x1015;
@@ -882,8 +882,8 @@ point! {
 point! {
     /// Deceleration time set 2.
     ///
-    /// `F203` at holding 1502h (5378), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `F203` at holding 1502h (5378), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F203")]
     DecelerationTimeSet2: u32 = "deceleration_time_set_2", "F203";
     at Holding 0x1502;
@@ -2183,8 +2183,8 @@ point! {
 point! {
     /// Acceleration time 2.
     ///
-    /// `A092` at holding 1073h (4211), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `A092` at holding 1073h (4211), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     ///
     /// Erratum: `a092_resolution`.
     #[doc(alias = "A092")]
@@ -2205,8 +2205,8 @@ point! {
 point! {
     /// Deceleration time 2.
     ///
-    /// `A093` at holding 1075h (4213), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `A093` at holding 1075h (4213), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     ///
     /// Erratum: `a093_resolution`.
     #[doc(alias = "A093")]
@@ -2227,8 +2227,8 @@ point! {
 point! {
     /// Deceleration time 2 set 2.
     ///
-    /// `A293` at holding 1519h (5401), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
-    /// count is `0.01 s`, read and write.
+    /// `A293` at holding 1519h (5401), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
+    /// information, not checked), one count is `0.01 s`, read and write.
     ///
     /// Erratum: `a293_resolution`.
     #[doc(alias = "A293")]

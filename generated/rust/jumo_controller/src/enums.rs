@@ -2,4 +2,4 @@
 // Regenerate with: fieldscribe generate jumo_controller --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! Named numbers.
+//! Named numbers, shown by their names.

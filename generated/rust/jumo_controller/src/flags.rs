@@ -135,6 +135,12 @@ impl fmt::Debug for ProgramStatus {
     }
 }
 
+impl fmt::Display for ProgramStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for ProgramStatus {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -372,6 +378,12 @@ impl fmt::Debug for BinaryOutputs {
     }
 }
 
+impl fmt::Display for BinaryOutputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for BinaryOutputs {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -571,6 +583,12 @@ impl fmt::Debug for BinaryInputs {
     }
 }
 
+impl fmt::Display for BinaryInputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for BinaryInputs {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -689,6 +707,12 @@ impl runtime::Flags for ControlContacts {
 }
 
 impl fmt::Debug for ControlContacts {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for ControlContacts {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -850,6 +874,12 @@ impl runtime::Flags for BinarySignals {
 }
 
 impl fmt::Debug for BinarySignals {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for BinarySignals {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1092,6 +1122,12 @@ impl fmt::Debug for BinaryOutputControl {
     }
 }
 
+impl fmt::Display for BinaryOutputControl {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for BinaryOutputControl {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -1210,6 +1246,12 @@ impl runtime::Flags for ProgramControllerCommands {
 }
 
 impl fmt::Debug for ProgramControllerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for ProgramControllerCommands {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1395,6 +1437,12 @@ impl fmt::Debug for ControllerCommands {
     }
 }
 
+impl fmt::Display for ControllerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for ControllerCommands {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -1494,6 +1542,12 @@ impl runtime::Flags for OperationCommands {
 }
 
 impl fmt::Debug for OperationCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for OperationCommands {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1617,6 +1671,12 @@ impl runtime::Flags for TimerCommands {
 }
 
 impl fmt::Debug for TimerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for TimerCommands {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }

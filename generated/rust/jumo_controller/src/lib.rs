@@ -8,10 +8,12 @@
 //! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
 //! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
+//! [`runtime::modbus::reply_length`] tells a transport when a reply is complete.
+//!
+//! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use jumo_controller::runtime::modbus::Framing;
-//! use jumo_controller::{points, Client, ClientError, Transport, PROFILE};
+//! use jumo_controller::{blocks, points as p, Client, ClientError, Framing, PROFILE, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -19,14 +21,25 @@
 //!     type Error = std::io::Error;
 //!
 //!     fn exchange(&mut self, _request: &[u8], _reply: &mut [u8]) -> Result<usize, Self::Error> {
-//!         // throw away what came before, send the request, read until the line is silent
+//!         // throw away what came before, send the request, read until the reply is complete
 //!         Err(std::io::ErrorKind::TimedOut.into())
 //!     }
 //! }
 //!
+//! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.read::<p::ProgramStatus>()?;
+//!     println!("it is {value:?}");
+//!     for block in blocks::PROCESS_DATA {
+//!         let reply = client.read_block(block)?;
+//!         if block.brings::<p::ProgramStatus>() {
+//!             println!("it is {:?}", reply.value::<p::ProgramStatus>()?);
+//!         }
+//!     }
+//!     Ok(())
+//! }
+//!
 //! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
-//! let found = client.read::<points::ProgramStatus>();
-//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
 #![no_std]
@@ -38,13 +51,14 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::modbus::LocalClient;
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
+use fieldscribe_runtime::modbus::{Block, Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "jumo_controller";
@@ -85,7 +99,7 @@ const FUNCTIONS: &[Function] = &[
 ///
 /// fn is_refused<E>(error: &ClientError<E>) -> bool {
 ///     use exceptions::INVALID_FUNCTION as REFUSED;
-///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }))
+///     matches!(error, ClientError::Reply(ReplyError::Exception { code: REFUSED, .. }, _))
 /// }
 /// # let (code, name) = (exceptions::INVALID_FUNCTION, None);
 /// # assert!(is_refused::<()>(&ReplyError::Exception { code, name }.into()));
@@ -143,6 +157,3 @@ pub const BLOCKS: &[(&str, &[Block])] = &[
     ("examples", blocks::EXAMPLES),
     ("command_words", blocks::COMMAND_WORDS),
 ];
-
-/// Named constant writes.
-pub mod commands {}

@@ -2,4 +2,4 @@
 // Regenerate with: fieldscribe generate nord_sk5xxe --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! Named numbers.
+//! Named numbers, shown by their names.

@@ -317,23 +317,26 @@ impl ControlWord {
 
 impl runtime::Flags for ControlWord {
     const NAME: &'static str = "ControlWord";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("ready_to_run", 0x0001),
-        runtime::Flag::active_low("inhibit_voltage", 0x0002),
-        runtime::Flag::active_low("quick_stop", 0x0004),
-        runtime::Flag::new("enable_operation", 0x0008),
-        runtime::Flag::new("enable_pulses", 0x0010),
-        runtime::Flag::new("enable_ramp", 0x0020),
-        runtime::Flag::new("enable_setpoint", 0x0040),
-        runtime::Flag::new("acknowledge_fault", 0x0080),
-        runtime::Flag::new("start_function_480_11", 0x0100),
-        runtime::Flag::new("start_function_480_12", 0x0200),
-        runtime::Flag::new("control_data_valid", 0x0400),
-        runtime::Flag::new("clockwise", 0x0800),
-        runtime::Flag::new("counter_clockwise", 0x1000),
-        runtime::Flag::new("reserved", 0x2000),
-        runtime::Flag::new("parameter_set", 0xC000),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_14: runtime::Names = &[(0, "set_1"), (1, "set_2"), (2, "set_3"), (3, "set_4")];
+        &[
+            runtime::Flag::new("ready_to_run", 0x0001),
+            runtime::Flag::active_low("inhibit_voltage", 0x0002),
+            runtime::Flag::active_low("quick_stop", 0x0004),
+            runtime::Flag::new("enable_operation", 0x0008),
+            runtime::Flag::new("enable_pulses", 0x0010),
+            runtime::Flag::new("enable_ramp", 0x0020),
+            runtime::Flag::new("enable_setpoint", 0x0040),
+            runtime::Flag::new("acknowledge_fault", 0x0080),
+            runtime::Flag::new("start_function_480_11", 0x0100),
+            runtime::Flag::new("start_function_480_12", 0x0200),
+            runtime::Flag::new("control_data_valid", 0x0400),
+            runtime::Flag::new("clockwise", 0x0800),
+            runtime::Flag::new("counter_clockwise", 0x1000),
+            runtime::Flag::new("reserved", 0x2000),
+            runtime::Flag::named("parameter_set", 0xC000, NAMES_14),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -341,6 +344,12 @@ impl runtime::Flags for ControlWord {
 }
 
 impl fmt::Debug for ControlWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for ControlWord {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -664,23 +673,26 @@ impl StatusWord {
 
 impl runtime::Flags for StatusWord {
     const NAME: &'static str = "StatusWord";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("ready_to_switch_on", 0x0001),
-        runtime::Flag::new("ready_to_run", 0x0002),
-        runtime::Flag::new("operation_enabled", 0x0004),
-        runtime::Flag::new("fault", 0x0008),
-        runtime::Flag::new("voltage_enabled", 0x0010),
-        runtime::Flag::active_low("quick_stop", 0x0020),
-        runtime::Flag::new("switch_on_inhibit", 0x0040),
-        runtime::Flag::new("warning", 0x0080),
-        runtime::Flag::new("setpoint_reached", 0x0100),
-        runtime::Flag::new("bus_control", 0x0200),
-        runtime::Flag::new("function_481_9", 0x0400),
-        runtime::Flag::new("clockwise", 0x0800),
-        runtime::Flag::new("counter_clockwise", 0x1000),
-        runtime::Flag::new("function_481_10", 0x2000),
-        runtime::Flag::new("parameter_set", 0xC000),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_14: runtime::Names = &[(0, "set_1"), (1, "set_2"), (2, "set_3"), (3, "set_4")];
+        &[
+            runtime::Flag::new("ready_to_switch_on", 0x0001),
+            runtime::Flag::new("ready_to_run", 0x0002),
+            runtime::Flag::new("operation_enabled", 0x0004),
+            runtime::Flag::new("fault", 0x0008),
+            runtime::Flag::new("voltage_enabled", 0x0010),
+            runtime::Flag::active_low("quick_stop", 0x0020),
+            runtime::Flag::new("switch_on_inhibit", 0x0040),
+            runtime::Flag::new("warning", 0x0080),
+            runtime::Flag::new("setpoint_reached", 0x0100),
+            runtime::Flag::new("bus_control", 0x0200),
+            runtime::Flag::new("function_481_9", 0x0400),
+            runtime::Flag::new("clockwise", 0x0800),
+            runtime::Flag::new("counter_clockwise", 0x1000),
+            runtime::Flag::new("function_481_10", 0x2000),
+            runtime::Flag::named("parameter_set", 0xC000, NAMES_14),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -688,6 +700,12 @@ impl runtime::Flags for StatusWord {
 }
 
 impl fmt::Debug for StatusWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for StatusWord {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }

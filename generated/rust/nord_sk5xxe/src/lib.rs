@@ -8,10 +8,12 @@
 //! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
 //! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
+//! [`runtime::modbus::reply_length`] tells a transport when a reply is complete.
+//!
+//! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use nord_sk5xxe::runtime::modbus::Framing;
-//! use nord_sk5xxe::{points, Client, ClientError, Transport, PROFILE};
+//! use nord_sk5xxe::{blocks, commands, points as p, Client, ClientError, Framing, PROFILE, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -19,14 +21,26 @@
 //!     type Error = std::io::Error;
 //!
 //!     fn exchange(&mut self, _request: &[u8], _reply: &mut [u8]) -> Result<usize, Self::Error> {
-//!         // throw away what came before, send the request, read until the line is silent
+//!         // throw away what came before, send the request, read until the reply is complete
 //!         Err(std::io::ErrorKind::TimedOut.into())
 //!     }
 //! }
 //!
+//! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.read::<p::ControlWord>()?;
+//!     println!("it is {value:?}");
+//!     for block in blocks::PROCESS_DATA {
+//!         let reply = client.read_block(block)?;
+//!         if block.brings::<p::ControlWord>() {
+//!             println!("it is {:?}", reply.value::<p::ControlWord>()?);
+//!         }
+//!     }
+//!     client.command(&commands::MAKE_READY_TO_SWITCH_ON)?;
+//!     Ok(())
+//! }
+//!
 //! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
-//! let found = client.read::<points::ControlWord>();
-//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
 #![no_std]
@@ -38,13 +52,14 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::modbus::LocalClient;
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Framing, Function, Profile};
+use fieldscribe_runtime::modbus::{Block, Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "nord_sk5xxe";
@@ -75,9 +90,6 @@ const FUNCTIONS: &[Function] = &[
     Function::new(6, 1),
     Function::new(16, 123),
 ];
-
-/// Exception codes: why the device refuses a request, as [`runtime::modbus::ReplyError::Exception`] has them.
-pub mod exceptions {}
 
 /// Reads that bring all readable points of a group, as the device allows them.
 pub mod blocks {

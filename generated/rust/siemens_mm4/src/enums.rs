@@ -2,7 +2,9 @@
 // Regenerate with: fieldscribe generate siemens_mm4 --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! Named numbers.
+//! Named numbers, shown by their names.
+
+use core::fmt;
 
 /// User access level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,6 +25,15 @@ impl UserAccessLevel {
             Self::Level2 => Some("level_2"),
             Self::Expert => Some("expert"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for UserAccessLevel {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -72,6 +83,15 @@ impl CommandSource {
     }
 }
 
+impl fmt::Display for CommandSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for CommandSource {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -113,6 +133,15 @@ impl MainSetpointSource {
             Self::UssRs232 => Some("uss_rs232"),
             Self::UssRs485 => Some("uss_rs485"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for MainSetpointSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -159,6 +188,15 @@ impl OutputPhaseSequence {
     }
 }
 
+impl fmt::Display for OutputPhaseSequence {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for OutputPhaseSequence {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -198,6 +236,15 @@ impl UssNormalisation {
             Self::ByReferenceFrequency => Some("by_reference_frequency"),
             Self::HundredthsOfHertz => Some("hundredths_of_hertz"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for UssNormalisation {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -249,6 +296,15 @@ impl UssPkwLength {
             Self::Words4 => Some("words_4"),
             Self::Variable => Some("variable"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for UssPkwLength {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }

@@ -388,6 +388,12 @@ impl fmt::Debug for InverterStatusWord {
     }
 }
 
+impl fmt::Display for InverterStatusWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for InverterStatusWord {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -466,6 +472,12 @@ impl runtime::Flags for P0731Source {
 }
 
 impl fmt::Debug for P0731Source {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for P0731Source {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -554,6 +566,12 @@ impl fmt::Debug for JogTimeSelectionSource {
     }
 }
 
+impl fmt::Display for JogTimeSelectionSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for JogTimeSelectionSource {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -632,6 +650,12 @@ impl runtime::Flags for DcBrakingSource {
 }
 
 impl fmt::Debug for DcBrakingSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DcBrakingSource {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -720,6 +744,12 @@ impl fmt::Debug for UssRs232AnswerSourceIndex0 {
     }
 }
 
+impl fmt::Display for UssRs232AnswerSourceIndex0 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for UssRs232AnswerSourceIndex0 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -798,6 +828,12 @@ impl runtime::Flags for UssRs232AnswerSourceIndex1 {
 }
 
 impl fmt::Debug for UssRs232AnswerSourceIndex1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for UssRs232AnswerSourceIndex1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -886,6 +922,12 @@ impl fmt::Debug for UssRs232AnswerSourceIndex2 {
     }
 }
 
+impl fmt::Display for UssRs232AnswerSourceIndex2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for UssRs232AnswerSourceIndex2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -964,6 +1006,12 @@ impl runtime::Flags for UssRs232AnswerSourceIndex3 {
 }
 
 impl fmt::Debug for UssRs232AnswerSourceIndex3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for UssRs232AnswerSourceIndex3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1052,6 +1100,12 @@ impl fmt::Debug for UssRs485AnswerSourceIndex0 {
     }
 }
 
+impl fmt::Display for UssRs485AnswerSourceIndex0 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for UssRs485AnswerSourceIndex0 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -1130,6 +1184,12 @@ impl runtime::Flags for UssRs485AnswerSourceIndex1 {
 }
 
 impl fmt::Debug for UssRs485AnswerSourceIndex1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for UssRs485AnswerSourceIndex1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1218,6 +1278,12 @@ impl fmt::Debug for UssRs485AnswerSourceIndex2 {
     }
 }
 
+impl fmt::Display for UssRs485AnswerSourceIndex2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for UssRs485AnswerSourceIndex2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -1296,6 +1362,12 @@ impl runtime::Flags for UssRs485AnswerSourceIndex3 {
 }
 
 impl fmt::Debug for UssRs485AnswerSourceIndex3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for UssRs485AnswerSourceIndex3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1666,6 +1738,12 @@ impl fmt::Debug for ControlWord {
     }
 }
 
+impl fmt::Display for ControlWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for ControlWord {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -1822,6 +1900,12 @@ impl runtime::Flags for SecondControlWord {
 }
 
 impl fmt::Debug for SecondControlWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for SecondControlWord {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2217,6 +2301,12 @@ impl runtime::Flags for StatusWord {
 }
 
 impl fmt::Debug for StatusWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for StatusWord {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }

@@ -9,9 +9,10 @@
 //! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
+//! Many points are called as types of Rust are, so import their module and not all of them:
+//!
 //! ```
-//! use siemens_mm4::runtime::uss::Link;
-//! use siemens_mm4::{points, Client, ClientError, Transport, PROFILE};
+//! use siemens_mm4::{points as p, Client, ClientError, Link, PROFILE, Reading, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -19,14 +20,23 @@
 //!     type Error = std::io::Error;
 //!
 //!     fn exchange(&mut self, _request: &[u8], _reply: &mut [u8]) -> Result<usize, Self::Error> {
-//!         // throw away what came before, send the request, read until the line is silent
+//!         // throw away what came before, send the request, read until the reply is complete
 //!         Err(std::io::ErrorKind::TimedOut.into())
 //!     }
 //! }
 //!
+//! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.read::<p::UserAccessLevel>()?;
+//!     println!("it is {value:?}");
+//!     match client.read::<p::UssTelegramOffTimeIndex0>()? {
+//!         Reading::Value(value) => println!("it is {value:?}"),
+//!         Reading::Special(code) => println!("no quantity: {code}"),
+//!     }
+//!     Ok(())
+//! }
+//!
 //! let mut client = Client::new(Line, &PROFILE, Link::new(127, 0), 0);
-//! let found = client.read::<points::UserAccessLevel>();
-//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
 #![no_std]
@@ -38,7 +48,8 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::uss::{AsyncClient, Client, ClientError, LocalClient};
+pub use fieldscribe_runtime::uss::LocalClient;
+pub use fieldscribe_runtime::uss::{AsyncClient, Client, ClientError, Link};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};

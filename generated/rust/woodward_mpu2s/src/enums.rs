@@ -2,9 +2,11 @@
 // Regenerate with: fieldscribe generate woodward_mpu2s --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! Named numbers.
+//! Named numbers, shown by their names.
 
 #![allow(clippy::too_many_lines, reason = "a line for each name")]
+
+use core::fmt;
 
 /// Supply presence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +27,15 @@ impl SupplyPresence {
             Self::Absent => Some("absent"),
             Self::Present => Some("present"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for SupplyPresence {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -74,6 +85,15 @@ impl PowerMeasurementPhases {
     }
 }
 
+impl fmt::Display for PowerMeasurementPhases {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for PowerMeasurementPhases {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -115,6 +135,15 @@ impl Switch2 {
             Self::Off => Some("off"),
             Self::On => Some("on"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Switch2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -164,6 +193,15 @@ impl BreakerLogic {
     }
 }
 
+impl fmt::Display for BreakerLogic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for BreakerLogic {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -205,6 +243,15 @@ impl GeneratorBreakerSignalLogic {
             Self::Pulse => Some("pulse"),
             Self::Constant => Some("constant"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for GeneratorBreakerSignalLogic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -254,6 +301,15 @@ impl ContactLogic {
     }
 }
 
+impl fmt::Display for ContactLogic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for ContactLogic {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -295,6 +351,15 @@ impl OffOn {
             Self::Off => Some("off"),
             Self::On => Some("on"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for OffOn {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -347,6 +412,15 @@ impl InverseTimeOvercurrentCharacteristic {
     }
 }
 
+impl fmt::Display for InverseTimeOvercurrentCharacteristic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u8> for InverseTimeOvercurrentCharacteristic {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -390,6 +464,15 @@ impl PhaseShiftMonitoringPhases {
             Self::ThreePhase => Some("three_phase"),
             Self::SingleAndThreePhase => Some("single_and_three_phase"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for PhaseShiftMonitoringPhases {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -463,6 +546,15 @@ impl InputDelay {
     }
 }
 
+impl fmt::Display for InputDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for InputDelay {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -526,6 +618,15 @@ impl FaultClass {
             Self::FaultClass2 => Some("fault_class_2"),
             Self::FaultClass3 => Some("fault_class_3"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for FaultClass {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
         }
     }
 }
@@ -642,6 +743,15 @@ impl AnalogSource {
     }
 }
 
+impl fmt::Display for AnalogSource {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u16::from(*self).fmt(formatter),
+        }
+    }
+}
+
 impl From<u16> for AnalogSource {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -725,6 +835,15 @@ impl CurrentRange {
             Self::Ma4_20 => Some("ma_4_20"),
             Self::Ma0_20 => Some("ma_0_20"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for CurrentRange {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }
@@ -1078,6 +1197,15 @@ impl RelayEvent {
             Self::AcknowledgeKeyPressed => Some("acknowledge_key_pressed"),
             Self::CommonFault => Some("common_fault"),
             Self::Unknown(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for RelayEvent {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.name() {
+            Some(name) => formatter.pad(name),
+            None => u8::from(*self).fmt(formatter),
         }
     }
 }

@@ -110,12 +110,18 @@ impl PresentFaultClasses {
 
 impl runtime::Flags for PresentFaultClasses {
     const NAME: &'static str = "PresentFaultClasses";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("fault_class_3", 0x00C0),
-        runtime::Flag::new("fault_class_2", 0x0030),
-        runtime::Flag::new("fault_class_1", 0x000C),
-        runtime::Flag::new("fault_class_0", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("fault_class_3", 0x00C0, NAMES_0),
+            runtime::Flag::named("fault_class_2", 0x0030, NAMES_1),
+            runtime::Flag::named("fault_class_1", 0x000C, NAMES_2),
+            runtime::Flag::named("fault_class_0", 0x0003, NAMES_3),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -123,6 +129,12 @@ impl runtime::Flags for PresentFaultClasses {
 }
 
 impl fmt::Debug for PresentFaultClasses {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for PresentFaultClasses {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -266,13 +278,20 @@ impl ControlRegister2 {
 
 impl runtime::Flags for ControlRegister2 {
     const NAME: &'static str = "ControlRegister2";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("terminal_3_generator_breaker_enable", 0xC000),
-        runtime::Flag::new("terminal_5_generator_breaker_closed", 0x3000),
-        runtime::Flag::new("terminal_4_breaker_open", 0x00C0),
-        runtime::Flag::new("terminal_54_mains_parallel", 0x0030),
-        runtime::Flag::new("terminal_6_synchronisation_on", 0x000C),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("terminal_3_generator_breaker_enable", 0xC000, NAMES_0),
+            runtime::Flag::named("terminal_5_generator_breaker_closed", 0x3000, NAMES_1),
+            runtime::Flag::named("terminal_4_breaker_open", 0x00C0, NAMES_2),
+            runtime::Flag::named("terminal_54_mains_parallel", 0x0030, NAMES_3),
+            runtime::Flag::named("terminal_6_synchronisation_on", 0x000C, NAMES_4),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -280,6 +299,12 @@ impl runtime::Flags for ControlRegister2 {
 }
 
 impl fmt::Debug for ControlRegister2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for ControlRegister2 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -360,10 +385,14 @@ impl ControlRegister1 {
 
 impl runtime::Flags for ControlRegister1 {
     const NAME: &'static str = "ControlRegister1";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("acknowledge_f2_f3", 0x0C00),
-        runtime::Flag::new("acknowledge_f1", 0x0300),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("acknowledge_f2_f3", 0x0C00, NAMES_0),
+            runtime::Flag::named("acknowledge_f1", 0x0300, NAMES_1),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -371,6 +400,12 @@ impl runtime::Flags for ControlRegister1 {
 }
 
 impl fmt::Debug for ControlRegister1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for ControlRegister1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -532,6 +567,12 @@ impl runtime::Flags for InternalFaults8 {
 }
 
 impl fmt::Debug for InternalFaults8 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults8 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -736,6 +777,12 @@ impl fmt::Debug for InternalFaults6 {
     }
 }
 
+impl fmt::Display for InternalFaults6 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for InternalFaults6 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -916,15 +963,24 @@ impl InternalFaults1 {
 
 impl runtime::Flags for InternalFaults1 {
     const NAME: &'static str = "InternalFaults1";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("generator_overfrequency_1", 0xC000),
-        runtime::Flag::new("generator_underfrequency_1", 0x3000),
-        runtime::Flag::new("generator_overvoltage_1", 0x0C00),
-        runtime::Flag::new("generator_undervoltage_1", 0x0300),
-        runtime::Flag::new("battery_undervoltage", 0x0030),
-        runtime::Flag::new("overload", 0x000C),
-        runtime::Flag::new("reverse_power", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("generator_overfrequency_1", 0xC000, NAMES_0),
+            runtime::Flag::named("generator_underfrequency_1", 0x3000, NAMES_1),
+            runtime::Flag::named("generator_overvoltage_1", 0x0C00, NAMES_2),
+            runtime::Flag::named("generator_undervoltage_1", 0x0300, NAMES_3),
+            runtime::Flag::named("battery_undervoltage", 0x0030, NAMES_4),
+            runtime::Flag::named("overload", 0x000C, NAMES_5),
+            runtime::Flag::named("reverse_power", 0x0003, NAMES_6),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -932,6 +988,12 @@ impl runtime::Flags for InternalFaults1 {
 }
 
 impl fmt::Debug for InternalFaults1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1117,15 +1179,24 @@ impl InternalFaults2 {
 
 impl runtime::Flags for InternalFaults2 {
     const NAME: &'static str = "InternalFaults2";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("mains_overfrequency", 0xC000),
-        runtime::Flag::new("mains_underfrequency", 0x3000),
-        runtime::Flag::new("mains_overvoltage", 0x0C00),
-        runtime::Flag::new("mains_undervoltage", 0x0300),
-        runtime::Flag::new("interface_x1_x5_fault", 0x00C0),
-        runtime::Flag::new("frequency_gradient_fault", 0x000C),
-        runtime::Flag::new("phase_shift", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("mains_overfrequency", 0xC000, NAMES_0),
+            runtime::Flag::named("mains_underfrequency", 0x3000, NAMES_1),
+            runtime::Flag::named("mains_overvoltage", 0x0C00, NAMES_2),
+            runtime::Flag::named("mains_undervoltage", 0x0300, NAMES_3),
+            runtime::Flag::named("interface_x1_x5_fault", 0x00C0, NAMES_4),
+            runtime::Flag::named("frequency_gradient_fault", 0x000C, NAMES_5),
+            runtime::Flag::named("phase_shift", 0x0003, NAMES_6),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -1133,6 +1204,12 @@ impl runtime::Flags for InternalFaults2 {
 }
 
 impl fmt::Debug for InternalFaults2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults2 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1276,13 +1353,20 @@ impl InternalFaults3 {
 
 impl runtime::Flags for InternalFaults3 {
     const NAME: &'static str = "InternalFaults3";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("generator_overcurrent_stage_1", 0xC000),
-        runtime::Flag::new("unbalanced_load", 0x0300),
-        runtime::Flag::new("generator_overcurrent_stage_2", 0x00C0),
-        runtime::Flag::new("interface_y1_y5_fault", 0x0030),
-        runtime::Flag::new("maintenance_call", 0x000C),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("generator_overcurrent_stage_1", 0xC000, NAMES_0),
+            runtime::Flag::named("unbalanced_load", 0x0300, NAMES_1),
+            runtime::Flag::named("generator_overcurrent_stage_2", 0x00C0, NAMES_2),
+            runtime::Flag::named("interface_y1_y5_fault", 0x0030, NAMES_3),
+            runtime::Flag::named("maintenance_call", 0x000C, NAMES_4),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -1290,6 +1374,12 @@ impl runtime::Flags for InternalFaults3 {
 }
 
 impl fmt::Debug for InternalFaults3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1496,16 +1586,26 @@ impl InternalFaults4 {
 
 impl runtime::Flags for InternalFaults4 {
     const NAME: &'static str = "InternalFaults4";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("analog_input_1_stage_1", 0xC000),
-        runtime::Flag::new("analog_input_1_stage_2", 0x3000),
-        runtime::Flag::new("analog_input_2_stage_1", 0x0C00),
-        runtime::Flag::new("analog_input_2_stage_2", 0x0300),
-        runtime::Flag::new("analog_input_3_stage_1", 0x00C0),
-        runtime::Flag::new("analog_input_3_stage_2", 0x0030),
-        runtime::Flag::new("analog_input_4_stage_1", 0x000C),
-        runtime::Flag::new("analog_input_4_stage_2", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_7: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("analog_input_1_stage_1", 0xC000, NAMES_0),
+            runtime::Flag::named("analog_input_1_stage_2", 0x3000, NAMES_1),
+            runtime::Flag::named("analog_input_2_stage_1", 0x0C00, NAMES_2),
+            runtime::Flag::named("analog_input_2_stage_2", 0x0300, NAMES_3),
+            runtime::Flag::named("analog_input_3_stage_1", 0x00C0, NAMES_4),
+            runtime::Flag::named("analog_input_3_stage_2", 0x0030, NAMES_5),
+            runtime::Flag::named("analog_input_4_stage_1", 0x000C, NAMES_6),
+            runtime::Flag::named("analog_input_4_stage_2", 0x0003, NAMES_7),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -1513,6 +1613,12 @@ impl runtime::Flags for InternalFaults4 {
 }
 
 impl fmt::Debug for InternalFaults4 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults4 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1719,16 +1825,26 @@ impl InternalFaults5 {
 
 impl runtime::Flags for InternalFaults5 {
     const NAME: &'static str = "InternalFaults5";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("analog_input_5_stage_1", 0xC000),
-        runtime::Flag::new("analog_input_5_stage_2", 0x3000),
-        runtime::Flag::new("analog_input_6_stage_1", 0x0C00),
-        runtime::Flag::new("analog_input_6_stage_2", 0x0300),
-        runtime::Flag::new("analog_input_7_stage_1", 0x00C0),
-        runtime::Flag::new("analog_input_7_stage_2", 0x0030),
-        runtime::Flag::new("analog_input_8_stage_1", 0x000C),
-        runtime::Flag::new("analog_input_8_stage_2", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_7: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("analog_input_5_stage_1", 0xC000, NAMES_0),
+            runtime::Flag::named("analog_input_5_stage_2", 0x3000, NAMES_1),
+            runtime::Flag::named("analog_input_6_stage_1", 0x0C00, NAMES_2),
+            runtime::Flag::named("analog_input_6_stage_2", 0x0300, NAMES_3),
+            runtime::Flag::named("analog_input_7_stage_1", 0x00C0, NAMES_4),
+            runtime::Flag::named("analog_input_7_stage_2", 0x0030, NAMES_5),
+            runtime::Flag::named("analog_input_8_stage_1", 0x000C, NAMES_6),
+            runtime::Flag::named("analog_input_8_stage_2", 0x0003, NAMES_7),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -1736,6 +1852,12 @@ impl runtime::Flags for InternalFaults5 {
 }
 
 impl fmt::Debug for InternalFaults5 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults5 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -1942,16 +2064,26 @@ impl DigitalInputFaults1To8 {
 
 impl runtime::Flags for DigitalInputFaults1To8 {
     const NAME: &'static str = "DigitalInputFaults1To8";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("digital_input_1", 0xC000),
-        runtime::Flag::new("digital_input_2", 0x3000),
-        runtime::Flag::new("digital_input_3", 0x0C00),
-        runtime::Flag::new("digital_input_4", 0x0300),
-        runtime::Flag::new("digital_input_5", 0x00C0),
-        runtime::Flag::new("digital_input_6", 0x0030),
-        runtime::Flag::new("digital_input_7", 0x000C),
-        runtime::Flag::new("digital_input_8", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_7: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("digital_input_1", 0xC000, NAMES_0),
+            runtime::Flag::named("digital_input_2", 0x3000, NAMES_1),
+            runtime::Flag::named("digital_input_3", 0x0C00, NAMES_2),
+            runtime::Flag::named("digital_input_4", 0x0300, NAMES_3),
+            runtime::Flag::named("digital_input_5", 0x00C0, NAMES_4),
+            runtime::Flag::named("digital_input_6", 0x0030, NAMES_5),
+            runtime::Flag::named("digital_input_7", 0x000C, NAMES_6),
+            runtime::Flag::named("digital_input_8", 0x0003, NAMES_7),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -1959,6 +2091,12 @@ impl runtime::Flags for DigitalInputFaults1To8 {
 }
 
 impl fmt::Debug for DigitalInputFaults1To8 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DigitalInputFaults1To8 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2165,16 +2303,26 @@ impl DigitalInputFaults9To16 {
 
 impl runtime::Flags for DigitalInputFaults9To16 {
     const NAME: &'static str = "DigitalInputFaults9To16";
-    const FLAGS: &'static [runtime::Flag] = &[
-        runtime::Flag::new("digital_input_9", 0xC000),
-        runtime::Flag::new("digital_input_10", 0x3000),
-        runtime::Flag::new("digital_input_11", 0x0C00),
-        runtime::Flag::new("digital_input_12", 0x0300),
-        runtime::Flag::new("digital_input_13", 0x00C0),
-        runtime::Flag::new("digital_input_14", 0x0030),
-        runtime::Flag::new("digital_input_15", 0x000C),
-        runtime::Flag::new("digital_input_16", 0x0003),
-    ];
+    const FLAGS: &'static [runtime::Flag] = {
+        const NAMES_0: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_1: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_2: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_3: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_4: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_5: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_6: runtime::Names = &[(0, "inactive"), (3, "active")];
+        const NAMES_7: runtime::Names = &[(0, "inactive"), (3, "active")];
+        &[
+            runtime::Flag::named("digital_input_9", 0xC000, NAMES_0),
+            runtime::Flag::named("digital_input_10", 0x3000, NAMES_1),
+            runtime::Flag::named("digital_input_11", 0x0C00, NAMES_2),
+            runtime::Flag::named("digital_input_12", 0x0300, NAMES_3),
+            runtime::Flag::named("digital_input_13", 0x00C0, NAMES_4),
+            runtime::Flag::named("digital_input_14", 0x0030, NAMES_5),
+            runtime::Flag::named("digital_input_15", 0x000C, NAMES_6),
+            runtime::Flag::named("digital_input_16", 0x0003, NAMES_7),
+        ]
+    };
 
     fn bits(self) -> u64 {
         u64::from(self.0)
@@ -2182,6 +2330,12 @@ impl runtime::Flags for DigitalInputFaults9To16 {
 }
 
 impl fmt::Debug for DigitalInputFaults9To16 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DigitalInputFaults9To16 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2267,6 +2421,12 @@ impl runtime::Flags for InternalFaults7 {
 }
 
 impl fmt::Debug for InternalFaults7 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for InternalFaults7 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2395,6 +2555,12 @@ impl fmt::Debug for DigitalInputs1To4Logic {
     }
 }
 
+impl fmt::Display for DigitalInputs1To4Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for DigitalInputs1To4Logic {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -2513,6 +2679,12 @@ impl runtime::Flags for DigitalInputs1To4EngineDelay {
 }
 
 impl fmt::Debug for DigitalInputs1To4EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DigitalInputs1To4EngineDelay {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2641,6 +2813,12 @@ impl fmt::Debug for DigitalInputs5To8Logic {
     }
 }
 
+impl fmt::Display for DigitalInputs5To8Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for DigitalInputs5To8Logic {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -2759,6 +2937,12 @@ impl runtime::Flags for DigitalInputs5To8EngineDelay {
 }
 
 impl fmt::Debug for DigitalInputs5To8EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for DigitalInputs5To8EngineDelay {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -2887,6 +3071,12 @@ impl fmt::Debug for DigitalInputs9To12Logic {
     }
 }
 
+impl fmt::Display for DigitalInputs9To12Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for DigitalInputs9To12Logic {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3010,6 +3200,12 @@ impl fmt::Debug for DigitalInputs9To12EngineDelay {
     }
 }
 
+impl fmt::Display for DigitalInputs9To12EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for DigitalInputs9To12EngineDelay {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3109,6 +3305,12 @@ impl runtime::Flags for Relay1Logic1 {
 }
 
 impl fmt::Debug for Relay1Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay1Logic1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -3218,6 +3420,12 @@ impl fmt::Debug for Relay1Logic2 {
     }
 }
 
+impl fmt::Display for Relay1Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay1Logic2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3317,6 +3525,12 @@ impl runtime::Flags for Relay1Logic3 {
 }
 
 impl fmt::Debug for Relay1Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay1Logic3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -3426,6 +3640,12 @@ impl fmt::Debug for Relay2Logic1 {
     }
 }
 
+impl fmt::Display for Relay2Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay2Logic1 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3525,6 +3745,12 @@ impl runtime::Flags for Relay2Logic2 {
 }
 
 impl fmt::Debug for Relay2Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay2Logic2 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -3634,6 +3860,12 @@ impl fmt::Debug for Relay2Logic3 {
     }
 }
 
+impl fmt::Display for Relay2Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay2Logic3 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3733,6 +3965,12 @@ impl runtime::Flags for Relay3Logic1 {
 }
 
 impl fmt::Debug for Relay3Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay3Logic1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -3842,6 +4080,12 @@ impl fmt::Debug for Relay3Logic2 {
     }
 }
 
+impl fmt::Display for Relay3Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay3Logic2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -3941,6 +4185,12 @@ impl runtime::Flags for Relay3Logic3 {
 }
 
 impl fmt::Debug for Relay3Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay3Logic3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -4050,6 +4300,12 @@ impl fmt::Debug for Relay4Logic1 {
     }
 }
 
+impl fmt::Display for Relay4Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay4Logic1 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -4149,6 +4405,12 @@ impl runtime::Flags for Relay4Logic2 {
 }
 
 impl fmt::Debug for Relay4Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay4Logic2 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -4258,6 +4520,12 @@ impl fmt::Debug for Relay4Logic3 {
     }
 }
 
+impl fmt::Display for Relay4Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay4Logic3 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -4357,6 +4625,12 @@ impl runtime::Flags for Relay5Logic1 {
 }
 
 impl fmt::Debug for Relay5Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay5Logic1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -4466,6 +4740,12 @@ impl fmt::Debug for Relay5Logic2 {
     }
 }
 
+impl fmt::Display for Relay5Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay5Logic2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -4565,6 +4845,12 @@ impl runtime::Flags for Relay5Logic3 {
 }
 
 impl fmt::Debug for Relay5Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay5Logic3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -4674,6 +4960,12 @@ impl fmt::Debug for Relay6Logic1 {
     }
 }
 
+impl fmt::Display for Relay6Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay6Logic1 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -4773,6 +5065,12 @@ impl runtime::Flags for Relay6Logic2 {
 }
 
 impl fmt::Debug for Relay6Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay6Logic2 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -4882,6 +5180,12 @@ impl fmt::Debug for Relay6Logic3 {
     }
 }
 
+impl fmt::Display for Relay6Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay6Logic3 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -4981,6 +5285,12 @@ impl runtime::Flags for Relay7Logic1 {
 }
 
 impl fmt::Debug for Relay7Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay7Logic1 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }
@@ -5090,6 +5400,12 @@ impl fmt::Debug for Relay7Logic2 {
     }
 }
 
+impl fmt::Display for Relay7Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
 impl Default for Relay7Logic2 {
     fn default() -> Self {
         Self::ALL_FALSE
@@ -5189,6 +5505,12 @@ impl runtime::Flags for Relay7Logic3 {
 }
 
 impl fmt::Debug for Relay7Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl fmt::Display for Relay7Logic3 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         runtime::show(*self, formatter)
     }

@@ -9,9 +9,11 @@
 //! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
+//! Many points are called as types of Rust are, so import their module and not all of them:
+//!
 //! ```
-//! use woodward_mpu2s::runtime::can::Frame;
-//! use woodward_mpu2s::{points, Client, ClientError, Transport, PROFILE};
+//! use woodward_mpu2s::{points as p, telegrams, with, Client, ClientError, Frame, PROFILE, Receiver,
+//!     Transport};
 //!
 //! struct Line; // your port
 //!
@@ -31,9 +33,41 @@
 //!     }
 //! }
 //!
+//! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.read::<p::GeneratorFrequencySetpoint>()?;
+//!     println!("it is {value:?}");
+//!     client.write::<p::GeneratorFrequencySetpoint>(55.0)?;
+//!     // What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.
+//!     let with = with::GeneratorVoltageSetpoint100v { generator_voltage_factor: 1 };
+//!     client.write_with::<p::GeneratorVoltageSetpoint100v>(1.0, with)?;
+//!     Ok(())
+//! }
+//!
 //! let mut client = Client::new(Line, &PROFILE, 0);
-//! let found = client.read::<points::PasswordLevel2>();
-//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
+//!
+//! // What the device sends unasked, frame by frame, is heard by a receiver of the telegram.
+//! fn hear(client: &mut Client<Line, Receiver<telegrams::Visualisation>>) -> Result<(), ClientError<std::io::Error>> {
+//!     let value = client.receive::<p::GeneratorFrequency>()?; // waits for its next frame
+//!     println!("it is {value:?}");
+//!     let heard = client.listener(); // what came so far
+//!     let with = with::GeneratorActivePower { generator_power_exponent: heard.raw::<p::GeneratorPowerExponent>()? };
+//!     println!("it is {:?}", heard.value_with::<p::GeneratorActivePower>(with)?);
+//!     Ok(())
+//! }
+//!
+//! let mut client = client.listening(Receiver::new(0));
+//! assert!(matches!(hear(&mut client), Err(ClientError::Transport(..)))); // nothing came
+//! ```
+//!
+//! Without a client a [`Receiver`] takes the frames itself:
+//!
+//! ```
+//! use woodward_mpu2s::{telegrams, Frame, Receiver};
+//!
+//! let mut receiver = Receiver::<telegrams::Visualisation>::new(0);
+//! let is_of_the_telegram = receiver.take(&Frame::new(0, &[0; 8]));
+//! assert!(!is_of_the_telegram); // else `receiver.value::<points::...>()` tells what came
 //! ```
 
 #![no_std]
@@ -45,8 +79,9 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
+pub use fieldscribe_runtime::can::Transport;
 pub use fieldscribe_runtime::can::{AsyncClient, AsyncTransport, Client, ClientError};
-pub use fieldscribe_runtime::can::{LocalClient, LocalTransport, Transport};
+pub use fieldscribe_runtime::can::{Frame, Listener, LocalClient, LocalTransport, Receiver};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
@@ -269,6 +304,3 @@ pub mod telegrams {
         const EMPTY: Self::Slots = [can::Slot::EMPTY; 23];
     }
 }
-
-/// Exception codes.
-pub mod exceptions {}

@@ -125,7 +125,7 @@ point! {
     const NR: u32 = 3;
     unit "W";
     => value_or_error f64 as ruled(|with: with::GeneratorActivePower|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_power_exponent, 0, 5)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_power_exponent", with.generator_power_exponent, 0, 5)?));
     read { count i64; with with::GeneratorActivePower; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -182,7 +182,7 @@ point! {
     decimals 4;
     => value_or_error f64 as ruled(|with: with::PresentActivePowerSetpoint|
         runtime::Rule::new(2800, 1).over(with.active_power_setpoint_factor)
-            ?.over_ten_to(runtime::arithmetic::exponent(with.generator_power_exponent, 0, 5)?));
+            ?.over_ten_to(runtime::arithmetic::exponent("generator_power_exponent", with.generator_power_exponent, 0, 5)?));
     read { count i64; with with::PresentActivePowerSetpoint; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -217,7 +217,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::BusbarVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.busbar_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("busbar_voltage_exponent", with.busbar_voltage_exponent, -4, 4)?));
     read { count i64; with with::BusbarVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -236,7 +236,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -330,7 +330,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2L3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL2L3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -349,7 +349,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3L1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL3L1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -368,7 +368,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL1N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -387,7 +387,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL2N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -406,7 +406,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL3N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -425,7 +425,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1L2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_voltage_exponent", with.generator_voltage_exponent, -4, 4)?));
     read { count i64; with with::GeneratorVoltageL1L2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -444,7 +444,7 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -463,7 +463,7 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL2|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL2; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -482,7 +482,7 @@ point! {
     unit "A";
     decimals 3;
     => value_or_error f64 as ruled(|with: with::GeneratorCurrentL3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("generator_current_exponent", with.generator_current_exponent, -3, 3)?));
     read { count i64; with with::GeneratorCurrentL3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -615,7 +615,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL2L3|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL2L3; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -634,7 +634,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL3L1|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL3L1; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -653,7 +653,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL1N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL1N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -672,7 +672,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL2N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL2N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }
@@ -691,7 +691,7 @@ point! {
     unit "V";
     decimals 4;
     => value_or_error f64 as ruled(|with: with::MainsVoltageL3N|
-        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent("mains_voltage_exponent", with.mains_voltage_exponent, -4, 4)?));
     read { count i64; with with::MainsVoltageL3N; }
     impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
 }

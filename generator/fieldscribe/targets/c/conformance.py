@@ -26,7 +26,7 @@ class SuiteView:
     adapters: tuple[AdapterView, ...]
     statuses: tuple[tuple[str, str], ...]
     family: str
-    groups: tuple[tuple[str, str, str], ...]
+    groups: tuple[tuple[str, str], ...]
     codes: tuple[tuple[str, str, str], ...]
     names: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
@@ -49,11 +49,7 @@ def conformance_view(
         extra.setdefault(function, []).append(case)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
-    groups = (
-        (group, f"{scope.prefix}_{group}_blocks", f"{scope.upper}_{upper(group)}_BLOCKS_COUNT")
-        for group, blocks in device.blocks.items()
-        if blocks
-    )
+    groups = ((group, f"{scope.prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks)
     return SuiteView(
         structs=tuple(struct for point in points for struct in structs_of(point, scope)),
         adapters=tuple(adapter_of(point, views[point.item], scope, extra) for point in points),

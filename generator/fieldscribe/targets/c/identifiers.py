@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _OWN = Owner("target", "what the header needs")
 
 _TYPES = ("status", "real")
-_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST")
+_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST", "DESCRIPTION")
 _HEADERS = frozenset(
     {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}

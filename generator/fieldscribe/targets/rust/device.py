@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
+from fieldscribe.targets.rust.example import example_lines, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
@@ -20,7 +21,7 @@ from fieldscribe.text import line, rust_code, rust_string
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+    from fieldscribe.targets.rust.subjects import CrateScope
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -50,6 +51,8 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     words = tuple(flags_views(scope))
     enums = tuple(enum_views(device, scope))
     structs = tuple(arguments_views(scope))
+    of_family, example = in_rust(device.family), example_lines(device, scope)
+    heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
         "points": points,
@@ -61,7 +64,11 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
-        "example": next((subject.name for subject in scope.subjects if _is_plainly_read(subject)), ""),
+        "example": example,
+        "heard": heard,
+        "received": received,
+        "example_uses": example_uses(device.id, (*example, heard, *received), of_family.names),
+        "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
         "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
         "uses_flags": bool(words),
@@ -75,11 +82,5 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
         "family": device.family,
-        **in_rust(device.family).context(device),
+        **of_family.context(device),
     }
-
-
-def _is_plainly_read(subject: CratePoint) -> bool:
-    """Whether reading the point needs no other point."""
-    point = subject.point
-    return point.readable and point.telegram is None and subject.factors_type == "()"

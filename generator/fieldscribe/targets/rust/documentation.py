@@ -112,7 +112,7 @@ def _resolution(point: Point) -> Iterator[str]:
         return
     resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
     if resolution and resolution != count:
-        yield f"steps of {rust_code(resolution)}"
+        yield f"steps of {rust_code(resolution)}{' (for information, not checked)' if point.steps else ''}"
     elif scale and not resolution:
         yield f"value {rust_code(scale)}"
     if count:

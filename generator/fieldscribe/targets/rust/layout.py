@@ -9,6 +9,7 @@ if TYPE_CHECKING:
 
 _WIDTH = 100
 _ARRAY_WIDTH = 60
+_CALL_WIDTH = 60
 _STRUCT_WIDTH = 18
 _FREE_WIDTH = 104
 
@@ -62,17 +63,27 @@ def comparison(indent: int, left: str, right: str) -> Lines:
 
 def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
     """`left = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
+    lines = called(indent, items)
+    if len(lines) == 1:
+        return binding(indent, left, lines[0])
+    return f"{left} = {lines[0]}", *lines[1:-1], f"{lines[-1]};"
+
+
+def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
+    """The same list as an expression."""
     flat = [f"{name}({', '.join(arguments)})" for name, arguments in items]
     joined = ", ".join(flat)
     if len(joined) <= _ARRAY_WIDTH:
-        return binding(indent, left, f"&[{joined}]")
-    lines = [f"{left} = &["]
+        return (f"&[{joined}]",)
+    lines = ["&["]
     for line, (name, arguments) in zip(flat, items, strict=True):
-        if indent + 4 + len(line) + 1 <= _WIDTH:
+        if indent + 4 + len(line) + 1 <= _WIDTH and len(line) - len(name) - 2 <= _CALL_WIDTH:
             lines.append(f"    {line},")
+        elif len(items) == 1:
+            return f"&[{name}(", *(f"    {one}," for one in arguments), ")]"
         else:
-            lines += [f"    {name}(", *(f"        {argument}," for argument in arguments), "    ),"]
-    return (*lines, "];")
+            lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
+    return (*lines, "]")
 
 
 def fields_of(indent: int, type_: str, names: Lines) -> Lines:

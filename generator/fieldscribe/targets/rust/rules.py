@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.layout import chained, filled
 from fieldscribe.targets.rust.literals import integer, value_name
+from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -94,7 +95,7 @@ def _step(operand: Operand, *, limit: bool) -> str:
         return f".{'over' if operand.over else times}_f32({raw})"
     if operand.exponents is not None:
         low, high = operand.exponents
-        raw = f"runtime::arithmetic::exponent({raw}, {integer(low)}, {integer(high)})?"
+        raw = f"runtime::arithmetic::exponent({rust_string(operand.point)}, {raw}, {integer(low)}, {integer(high)})?"
     if (operand.slope, operand.intercept) != (1, 0):
         raw = f"runtime::arithmetic::line({raw}, {integer(operand.slope)}, {integer(operand.intercept)})?"
     return f".{'over' if operand.over else times}{'_ten_to' if operand.ten_to else ''}({raw})"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -85,14 +85,30 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
                 flags=flags,
                 shown=(
                     *binding(4, "const NAME: &'static str", rust_string(subject.name)),
-                    *calls(4, "const FLAGS: &'static [runtime::Flag]", [_shown(flag) for flag in flags]),
+                    *_table(point.flags, flags),
                 ),
             )
 
 
-def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
-    """The call that prints a flag."""
-    return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
+def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
+    """The constant that says how flags are shown, with the names of their numbers."""
+    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
+        if view.values:
+            names += _names(f"NAMES_{place}", flag)
+            shown.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
+        else:
+            made = "new" if view.active or not view.single else "active_low"
+            shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
+    if not names:
+        return calls(4, left, shown)
+    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+
+
+def _names(constant: str, flag: Flag) -> tuple[str, ...]:
+    """The constant of the numbers of a flag that have names."""
+    rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
+    return calls(8, f"const {constant}: runtime::Names", rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:

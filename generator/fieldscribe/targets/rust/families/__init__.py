@@ -48,6 +48,11 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
+def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+    """For families whose devices send nothing unasked."""
+    return "", ()
+
+
 @dataclass(frozen=True, slots=True)
 class OfFamily:
     """What the part `targets.rust` of a family offers as `IN_RUST`.
@@ -55,7 +60,8 @@ class OfFamily:
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
     traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to
     read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
-    for the codes of refusals.
+    for the codes of refusals. The first page of a crate imports these `names`; `heard` is the telegram to which it
+    listens, as a type, and the lines that use points of it.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -65,6 +71,8 @@ class OfFamily:
     tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
+    names: tuple[str, ...] = ()
+    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:

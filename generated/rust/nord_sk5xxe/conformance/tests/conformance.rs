@@ -263,7 +263,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
 
 fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
-    let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
+    let default = format!("{folder}/../../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
     runner::main(&default, device, run, frames::check)
 }
