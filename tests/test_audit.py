@@ -421,6 +421,11 @@ def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pyt
         (r"$1000011111\_00001_{\text{bin}}$", [{Fraction(0b100001111100001)}]),
         ("4..20mA", [{Fraction(4)}, {Fraction(20), Fraction(0x20)}]),
         ("Kapitel 4.2.10", [{Fraction(4), Fraction(2), Fraction(10)}]),
+        ("Bits 101", [{Fraction(101), Fraction(0b101)}]),
+        ("Bits 11", [{Fraction(11), Fraction(0x11), Fraction(0b11)}]),
+        ("Bits 102", [{Fraction(102)}]),
+        ("von 1 bis 0", [{Fraction(1)}, {Fraction(0)}]),
+        ("1.200,500", [{Fraction(1), Fraction(200), Fraction(500), Fraction(1200500)}]),
     ],
 )
 def test_numbers_of_a_line(text: str, readings: list[set[Fraction]]) -> None:

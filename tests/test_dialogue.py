@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -9,12 +10,13 @@ import pytest
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
+from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.modbus.requests import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
 from hypothesis import given
 from hypothesis import strategies as st
-from models import named, sample_device
+from models import changed, named, sample_device
 
 if TYPE_CHECKING:
     from fieldscribe.families.answers import Heard
@@ -91,6 +93,16 @@ def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     heard = hear(rtu("01 01 00 00 00 14"), reply)
     assert heard.kind == "reply"
     assert said(heard)[0].startswith("run_command = on (raw 1)")
+
+
+def test_how_points_of_one_and_of_several_words_are_read() -> None:
+    by_name = {one.item: one for one in DEVICE.points}
+    assert read_text(DEVICE, by_name["running"]).startswith("function 01h, 1 bit")
+    assert read_text(DEVICE, by_name["base_frequency"]).startswith("function 03h, 1 word")
+    wide = next(one for one in DEVICE.points if len(one.addresses) == 2 and one.readable)
+    assert re.match(r"function 0[34]h, 2 words\b", read_text(DEVICE, wide))
+    assert read_text(DEVICE, changed(by_name["running"], access="w")) == ""
+    assert read_text(DEVICE, replace(by_name["running"], places=())) == ""
 
 
 def test_coils_by_name_with_padding() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
@@ -249,6 +250,12 @@ def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: li
         assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
 
 
+def test_an_erratum_names_its_points() -> None:
+    several = replace(DEVICE.errata[0], points=("base_frequency", "ready"))
+    exported: Any = export_model(replace(DEVICE, errata=(several,)))
+    assert exported["errata"][0]["point"] == ["base_frequency", "ready"]
+
+
 def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     doubled = point("doubled", 1, scale=scaled("1/2", 0))
     constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
@@ -267,3 +274,7 @@ def test_computed_ends_as_expressions() -> None:
     assert bound_of(Limit(rule, (), -32768, 32767), True, limited) == "(a.raw * 2 - 1) * 5 / b.raw / 2 - 1 / 2"
     power = linear(3, 0, value_of("c", -1, ten_to=True))
     assert bound_of(Limit(power, (), -32768, 100), False, limited) == "min(100, 3 / 10 ** c.raw)"
+    moved = linear(1, "1/2", value_of("d", intercept=3), value_of("e", -1, intercept=-2, ten_to=True))
+    assert bound_of(Limit(moved, (), -32768, 32767), True, limited) == "(d.raw + 3) / 10 ** (e.raw - 2) + 1 / 2"
+    alone = linear("1/3", 4, value_of("f", -1, slope=5))
+    assert bound_of(Limit(alone, (), -32768, 32767), True, limited) == "1 / (f.raw * 5) / 3 + 4"

@@ -238,6 +238,9 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
         ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
         ("type: bool", "wrong-choice", "one bit of a word is `bits: 0`"),
+        ("default: $2a", "bad-number", "write 2Ah"),
+        ("default: 16#FF", "bad-number", "write 0xFF"),
+        ("default: 2a hex", "bad-number", "write 2Ah"),
     ],
 )
 def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: str) -> None:
@@ -301,6 +304,7 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("group: main", "group: main\nvendor: Maker", "this stands in the head of device.yaml"),
         ("group: main", "group: main\nwords: 3", "a count of words is `length: 3`"),
         ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
+        ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:

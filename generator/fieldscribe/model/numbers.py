@@ -65,10 +65,6 @@ class Special:
     hexadecimal: bool = False
     own: bool = True
 
-    def holds(self, raw: int) -> bool:
-        """Whether a raw number is this code."""
-        return self.low <= raw <= self.high
-
 
 @dataclass(frozen=True, slots=True)
 class Text:

@@ -43,7 +43,7 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
 
 def _high_first(point: Point) -> list[int]:
     """The places of the words among the addresses, that of the high word first."""
-    order = sorted(point.addresses) if point.addresses else []
+    order = sorted(point.addresses)
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 

@@ -35,11 +35,6 @@ def as_raw(point: Point, pattern: int) -> int:
     return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
 
 
-def hex64(value: float) -> str:
-    """The bits of a binary64 in 16 hex digits."""
-    return struct.pack(">d", value).hex()
-
-
 def bits64(value: float) -> int:
     """The bits of a binary64 as a number."""
     return int.from_bytes(struct.pack(">d", value), "big")
