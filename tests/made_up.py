@@ -31,17 +31,16 @@ enums:
   contact: {{0: normally_open, 1: normally_closed, 2: disabled}}
 formats:
   percent_tenth: {{range: 0..1000, scale: value = raw * 0.1, unit: "%"}}
-parts: [{parts}]
 """
 
 _GROUP = """\
-group:
-  name: group_{number}
-  title: {{en: Group {number}, de: Gruppe {number}}}
-  space: holding
-  access: rw
-  source: {{document: manual, section: "{number}"}}
-  numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+---
+group: group_{number}
+title: {{en: Group {number}, de: Gruppe {number}}}
+space: holding
+access: rw
+source: {{document: manual, section: "{number}"}}
+numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
 points:
 """
 
@@ -60,21 +59,22 @@ _KINDS = (
 """The facts of a point by its last digit."""
 
 
-def _point(index: int) -> str:
-    at = index * 3
-    facts = _KINDS[index % len(_KINDS)].format(at=at, limit=f"point_{index - 5}")
-    title = f"{{en: Point number {index}, de: Punkt Nummer {index}}}"
-    return f"- {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n"
+def description(count: int, name: str = "synthetic") -> str:
+    """The YAML of a device with so many points."""
+    lines = [_HEAD.format(name=name, count=count)]
+    for index in range(count):
+        if index % POINTS_PER_GROUP == 0:
+            lines.append(_GROUP.format(number=index // POINTS_PER_GROUP + 1))
+        at = index * 3
+        facts = _KINDS[index % len(_KINDS)].format(at=at, next=at + 1, limit=f"point_{index - 5}")
+        title = f"{{en: Point number {index}, de: Punkt Nummer {index}}}"
+        lines.append(f"- {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n")
+    return "".join(lines)
 
 
 def write_device(folder: Path, count: int) -> Path:
-    """A device folder with so many points, a file for each group; the path of its device.yaml is returned."""
+    """A device folder with its device.yaml, whose path is returned."""
     folder.mkdir(parents=True, exist_ok=True)
-    firsts = range(0, count, POINTS_PER_GROUP)
-    parts = [f"group_{number}.yaml" for number, _ in enumerate(firsts, 1)]
-    for number, (part, first) in enumerate(zip(parts, firsts, strict=True), 1):
-        points = map(_point, range(first, min(count, first + POINTS_PER_GROUP)))
-        (folder / part).write_text(_GROUP.format(number=number) + "".join(points), "utf-8")
     file = folder / "device.yaml"
-    file.write_text(_HEAD.format(name="synthetic", count=count, parts=", ".join(parts)), "utf-8")
+    file.write_text(description(count), "utf-8")
     return file

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from fractions import Fraction
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
@@ -54,7 +53,10 @@ documents:
   manual:
     {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
 bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
-group: {name: main, space: holding, source: {document: manual, section: Parameters}}
+---
+group: main
+space: holding
+source: {document: manual, section: Parameters}
 points:
 - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
 - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
@@ -64,13 +66,6 @@ points:
 """
 
 
-def write(folder: Path, device: str) -> None:
-    """Writes device.yaml, and what stands behind a line `# part NAME` as that part."""
-    first, *parts = re.split(r"^# part (.*)\n", device, flags=re.MULTILINE)
-    for name, text in zip(["device.yaml", *parts[::2]], [first, *parts[1::2]], strict=True):
-        (folder / name).write_text(text, encoding="utf-8")
-
-
 def audit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], manual: str = MANUAL, device: str = DEVICE
 ) -> tuple[int, dict[str, Any]]:
@@ -78,7 +73,7 @@ def audit(
     folder = tmp_path / "audited"
     folder.mkdir(exist_ok=True)
     digest = sha256(MANUAL.encode()).hexdigest()
-    write(folder, device.replace("SHA", digest))
+    (folder / "device.yaml").write_text(device.replace("SHA", digest), encoding="utf-8")
     path = tmp_path / "manual.txt"
     path.write_text(manual, encoding="utf-8")
     code = main(["audit", str(folder), "--manual", str(path), "--report", "json"])
@@ -143,9 +138,8 @@ The request 05 06 10 28 01 F4 0C 91 is printed with the checksum 0C 92.
 """  # fmt: skip
 
 LONG_DEVICE = (
-    DEVICE[: DEVICE.index("group:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
-    + """parts: [parameters.yaml]
-frames:
+    DEVICE[: DEVICE.index("---\n")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
+    + """frames:
 - {name: write_base_frequency, line: 28, direction: request, bytes: 05 06 10 28 01 F4 0C 92}
 errata:
 - id: checksum
@@ -155,15 +149,21 @@ errata:
   taken: {crc: 0C 91}
   why: So the bytes say.
   certainty: certain
-group: {name: coils, space: coil, source: {document: manual, section: Coils}, numbering: {modicon: wire + 1}}
+---
+group: coils
+space: coil
+source: {document: manual, section: Coils}
+numbering: {modicon: wire + 1}
 points:
 """
     + "".join(
         f"- {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
         for number in range(20)
     )
-    + """# part parameters.yaml
-group: {name: parameters, space: holding, source: {document: manual, section: Parameters}}
+    + """---
+group: parameters
+space: holding
+source: {document: manual, section: Parameters}
 points:
 - {code: P601, name: factor, at: ~, range: 0..9, line: 32}
 - {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
@@ -278,9 +278,11 @@ bus:
     11: {name: unused_11, line: 9}
     12: {name: unused_12, line: 9}
 telegrams:
-- {name: task, direction: request, words: 2}
-parts: [words.yaml]
-group: {name: parameters, space: parameter, source: {document: manual, section: Words}}
+- {name: task, direction: request, length: 2}
+---
+group: parameters
+space: parameter
+source: {document: manual, section: Words}
 points:
 - code: P0700
   name: source
@@ -306,14 +308,13 @@ errata:
   taken: {refusals: [7]}
   why: The response list has it.
   certainty: likely
-# part words.yaml
-group:
-  name: words
-  space: telegram
-  telegram: task
-  access: w
-  numbering: {pzd: wire + 1}
-  source: {document: manual, section: Words}
+---
+group: words
+space: telegram
+telegram: task
+access: w
+numbering: {pzd: wire + 1}
+source: {document: manual, section: Words}
 points:
 - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
 - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
@@ -337,7 +338,8 @@ def test_uss_manuals_are_read_as_they_write(
     folder = tmp_path / "audited"
     folder.mkdir()
     manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
-    write(folder, USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()))
+    text = USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest())
+    (folder / "device.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "manual.txt").write_text(manual, "utf-8")
     main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
     assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing

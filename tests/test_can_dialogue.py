@@ -466,23 +466,20 @@ messages:
 - {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
 - {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
 - {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}
-telegrams: [{name: cells, direction: cyclic, words: 6, message: cells}]
-parts: [limits.yaml]
-group:
-  name: cells
-  space: telegram
-  telegram: cells
-  source: {document: manual, section: "1"}
-  addressing: number + index - 1
+telegrams: [{name: cells, direction: cyclic, length: 6, message: cells}]
+---
+group: cells
+space: telegram
+telegram: cells
+source: {document: manual, section: "1"}
+addressing: number + index - 1
 points: [{name: cell, at: 0, indices: 6}]
-"""
-LIMITS = """\
-group:
-  name: limits
-  space: parameter
-  access: r
-  source: {document: manual, section: "2"}
-  addressing: 100h * number + index
+---
+group: limits
+space: parameter
+access: r
+source: {document: manual, section: "2"}
+addressing: 100h * number + index
 points: [{name: limit, at: 1, indices: 2}]
 """
 
@@ -491,7 +488,6 @@ def test_elements_of_an_array_are_found_by_address_where_no_index_travels(tmp_pa
     """The index beside the address is of uss alone: by a rule it is in the address."""
     file = tmp_path / "device.yaml"
     file.write_text(CELLS, encoding="utf-8")
-    (tmp_path / "limits.yaml").write_text(LIMITS, encoding="utf-8")
     device = load_device(file, Report())
     assert device is not None
     first, second, told = decode(

@@ -43,13 +43,12 @@ bus:
   functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}
 """
 MAIN = """\
-group:
-  name: main
-  title: {en: Main}
-  space: holding
-  access: rw
-  source: {document: manual, section: "1"}
-  numbering: {modicon: wire + 1}
+group: main
+title: {en: Main}
+space: holding
+access: rw
+source: {document: manual, section: "1"}
+numbering: {modicon: wire + 1}
 points:
 - {code: P1, name: speed, title: {en: "TITLE"}, at: 10h, range: 0..4000, scale: value = raw * 0.1, unit: Hz}
 - {code: P2, name: ratio, title: {en: Ratio}, at: 12h, range: 1..500}
@@ -153,11 +152,11 @@ def test_check(run: Callable[..., Result], small: Path) -> None:
     (small / "main.yaml").write_text(MAIN.replace("at: 12h", "at: 10h"), "utf-8")
     wrong = run("check")
     assert wrong.code == 1
-    assert " --> descriptions/small_drive/main.yaml:10:" in wrong.out
+    assert " --> descriptions/small_drive/main.yaml:9:" in wrong.out
     assert "^" in wrong.out
     assert "1 error in 1 file" in wrong.out
     data = json.loads(run("check", "--format", "json").out)
-    assert data["findings"][0]["line"] == 10
+    assert data["findings"][0]["line"] == 9
     assert run("explain", "small_drive", "P1").code == 1
     assert json.loads(run("explain", "small_drive", "P1", "--format", "json").out)["findings"]
 

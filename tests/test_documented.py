@@ -26,9 +26,12 @@ title: Made up
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
-- {name: energy, at: 10, untyped: "48-bit counter, the high word first", words: 3}
+- {name: energy, at: 10, untyped: "48-bit counter, the high word first", length: 3}
 - {name: open_size, at: 20, type: ~, unit: W}
 - {name: open_scale, at: 21, scale: ~, type: u32}
 - {name: nowhere, at: ~}

@@ -45,7 +45,10 @@ bus:
   functions: {{03h: read, 06h: write, 10h: write_many}}
 commands:
 - {{name: {command}, space: holding, at: 9000, function: 06h, value: 1, section: "2"}}
-group: {{name: {group}, space: holding, source: {{document: manual, section: "1"}}}}
+---
+group: {group}
+space: holding
+source: {{document: manual, section: "1"}}
 points:
 """
 

@@ -110,7 +110,10 @@ documents: {manual: {title: Manual, language: en}}
 variants:
   model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: mode, at: 0, enum: {0: off, 1: slow, 2: fast}}
 - {name: level, at: 1, range: 0..100, scale: value = raw * 0.1, unit: V}

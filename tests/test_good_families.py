@@ -32,10 +32,10 @@ title: Drive
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: read, 06h: write, 10h: write_many}}
-group:
-  name: a
-  space: holding
-  source: {document: manual, section: "1"}
+---
+group: a
+space: holding
+source: {document: manual, section: "1"}
 """
 
 
@@ -65,7 +65,7 @@ def made(tmp_path: Path, rows: str) -> Device:
     return device
 
 
-NORD = """  addressing: number * 64 + (index - 1) * sets + (set - 1)
+NORD = """addressing: number * 64 + (index - 1) * sets + (set - 1)
 points:
 - {name: alone, at: 601}
 - {name: by_set, title: {en: Ramp, de: Rampe}, at: 102, sets: 4, was: [ramp]}
@@ -118,7 +118,7 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
 
 def test_a_rule_is_about_each_number_under_at(tmp_path: Path) -> None:
     """Also in records, in texts whose words run down, and in sets that have rows of their own."""
-    rows = """  addressing: 1000h + number + (index - 1)
+    rows = """addressing: 1000h + number + (index - 1)
 points:
 - {name: label, at: 7..4, type: text, characters: 8}
 - {name: trip, record: log, at: 10h}
@@ -168,7 +168,7 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "points:\n- {name: a, at: 77h, type: f32, word_order: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
     assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 
@@ -412,7 +412,7 @@ def test_points_are_found(device: str, what: str, items: list[str]) -> None:
 
 def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
     """Whether it is yes or no, or the name of a command."""
-    rows = """  keeps: yes
+    rows = """keeps: yes
 points:
 - {name: by_command, at: 1, keep_with: enter}
 - {name: by_itself, at: 2}
@@ -420,5 +420,5 @@ commands:
 - {name: enter, at: 25, function: 06h, value: any}
 """
     assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
-    rows = rows.replace("  keeps: yes", "  keep_with: enter").replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    rows = rows.replace("keeps: yes", "keep_with: enter", 1).replace("at: 1, keep_with: enter", "at: 1, keeps: no")
     assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]

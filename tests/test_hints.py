@@ -27,7 +27,10 @@ bus:
   framings: [rtu]
   units: 1..247
   functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: mode, at: 900, range: 0..5}
 """
@@ -75,7 +78,7 @@ WRITTEN = [
     ("type: U16", "type: u16"),
     ("type: uint32_be", "type: u32"),
     ("keeps: true", "keeps: yes"),
-    ("word_order: little endian, type: u32", "word_order: low first"),
+    ("words: little endian, type: u32", "words: low first"),
     ("changes: constant", "changes: never"),
     ("steps: 10", "steps: {0: 10}"),
     ("bits: 15:8", "bits: 15..8"),
@@ -185,7 +188,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("scale: [{if: mode == 0, then: value = raw}]", "unknown-key", "did you mean `when`?"),
         ("no_value: [7FFFh]", "unknown-key", "`special: {7FFFh: {name: not_available, no_value: yes}}`"),
         ("size: 2", "unknown-key", "the `type` says how wide a number is"),
-        ("byte_order: little", "unknown-key", "`word_order: low first`"),
+        ("byte_order: little", "unknown-key", "`words: low first`"),
         ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),
         ("divisor: 10", "unknown-key", "`scale: value = raw / 10`"),
         ("offset: -40", "unknown-key", "what is added to a number stands in its rule"),
@@ -285,28 +288,23 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("units: 1..247", "units: 1-247", "write 1..247"),
         ("units: 1..247", "units: [1, 247]", "write `units: 1..247`"),
         ("units: 1..247", "units: 1..247\n  gaps: {holding: [100-200]}", "write 100..200"),
-        ("units: 1..247", "units: 1..247\n  word_order: little", "write `word_order: low first`"),
+        ("units: 1..247", "units: 1..247\n  words: little", "write `words: low first`"),
         ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
         ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
         ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),
-        ("group: {name: main", "group: {names: main", "did you mean `name`?"),
+        ("group: main", "name: main", "did you mean `group`?"),
         ('source: {document: manual, section: "1"}', "source: page 5", 'section: "page 5"}`'),
         ("space: holding", "space: HR", "write `space: holding`"),
-        ("space: holding", "space: holding, numbering: {modicon: +1}", "write a formula: wire + 1"),
+        ("space: holding", "space: holding\nnumbering: {modicon: +1}", "write a formula: wire + 1"),
         ("group:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroup:", "write `bytes: 01 03 00`"),
         ("group:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroup:", "write `bytes: 01 03`"),
-        ("points:", "groups: [{group: a, space: holding}]\npoints:", "a file holds one group: `group: {name: …"),
-        (
-            "group: {name: main,",
-            "access: rw\ngroup: {name: main,",
-            "a group says this of its points: `group: {…, access: …}`",
-        ),
-        (
-            'group: {name: main, space: holding, source: {document: manual, section: "1"}}',
-            "group: main",
-            "write `group: {name: main, space: …, source: …}`",
-        ),
-        ("group:", "variants: {size: {title: Size, values: [a, 2]}}\ngroup:", "write `values: {a: {}, 2: {}}`"),
+        ("---", "groups: [{group: a, space: holding}]\n---", "a group is a part: `group: …`, `space: …` and `points"),
+        ("---", "access: rw\n---", "below a line `---` or in a file under `parts`"),
+        ("group: main", "group: {name: main}", "write `group: main` and its other keys below"),
+        ("group: main", "group: main\nvendor: Maker", "this stands in the head of device.yaml"),
+        ("group: main", "group: main\nwords: 3", "a count of words is `length: 3`"),
+        ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
+        ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:

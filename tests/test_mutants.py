@@ -158,7 +158,9 @@ def test_conditions_around_a_line() -> None:
 
 
 DEVICE = """\
-group: {name: main, title: {en: Main}, access: rw}
+group: main
+title: {en: Main}
+access: rw
 enums:
   mode: {0: {name: stop, en: Stop}, 3: {name: run}}
 points:

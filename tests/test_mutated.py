@@ -57,7 +57,7 @@ def aliased(seed: int) -> dict[str, str]:
     chance = random.Random(seed)
     files: dict[str, Any] = WHOLES[seed % len(WHOLES)]
     name = chance.choice(sorted(files))
-    start = files[name]
+    (start,) = files[name]
     paths = [path for path in nodes(start) if isinstance(_at(start, path), dict | list)]
     places = sorted(range(len(paths)), key=lambda _: chance.random())[:2]
     first, second = (paths[place] for place in sorted(places))

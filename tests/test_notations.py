@@ -32,7 +32,10 @@ title: Drive
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 """
 
@@ -61,9 +64,7 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
     """As texts in quotes, so that YAML leaves them alone."""
     files = {}
     for path in sorted(folder.glob("*.yaml")):
-        root = load(SourceFile(path.name, path.read_text("utf-8")), Report())
-        assert root is not None
-        files[path.name] = noted(root, notation)
+        files[path.name] = noted(load(SourceFile(path.name, path.read_text("utf-8")), Report()), notation)
     write_files(tmp_path / "device", as_texts(files))
     assert loaded(tmp_path / "device") == loaded(folder)
 
@@ -74,8 +75,8 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
         ("type: text, characters: 1h", "1 is out of bounds: at least 2"),
         ("digits: {count: 0Ah, enum: {0: a}}", "10 is out of bounds: 1 to 5"),
         ("flags: {0: {name: a, active: 2h}}", "2 is none of 0, 1"),
-        ("untyped: wide, words: FFh", "255 is out of bounds: 1 to 125"),
-        ("untyped: wide, words: some", "the text `some` stands where a whole number belongs"),
+        ("untyped: wide, length: FFh", "255 is out of bounds: 1 to 125"),
+        ("untyped: wide, length: some", "the text `some` stands where a whole number belongs"),
         ("line: 0b", "the text `0b` stands where a whole number belongs"),
         ("lines: {range: 20h..10h}", "lines `20h..10h` run downwards"),
     ],

@@ -27,8 +27,10 @@ family: modbus
 documents: {manual: {title: Manual, language: en}}
 variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
-parts: [other.yaml]
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: actual, at: 9, access: r}
 - {name: highest, at: 10, range: 0..400}
@@ -36,9 +38,10 @@ points:
 - {name: output, at: 12, access: r}
 - {name: newer, at: 14, access: r, since: firmware 2}
 - {name: trend, at: 15, access: r, when: model == pro and highest == 1}
-"""
-OTHER = """\
-group: {name: other, space: holding, source: {document: manual, section: "2"}}
+---
+group: other
+space: holding
+source: {document: manual, section: "2"}
 points:
 - {name: last, at: 13, access: r}
 - {name: final, at: 16, access: r}
@@ -60,7 +63,6 @@ class Basic(Slave):
 def tempco(tmp_path_factory: pytest.TempPathFactory) -> Device:
     file = tmp_path_factory.mktemp("tempco") / "device.yaml"
     file.write_text(TEMPCO, "utf-8")
-    (file.parent / "other.yaml").write_text(OTHER, "utf-8")
     report = Report()
     device = load_device(file, report)
     assert device is not None, report.findings

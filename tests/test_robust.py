@@ -43,9 +43,9 @@ HOSTILE = (
 
 
 def whole(folder: str) -> dict[str, Any]:
-    """The files of a device by name, as plain values that can be changed."""
+    """The documents of a device's files by name, as plain values that can be changed."""
     texts = {path.name: path.read_text("utf-8") for path in sorted((DEVICES / folder).glob("*.yaml"))}
-    return {name: _typed(yaml.load(text, Loader=yaml.BaseLoader)) for name, text in texts.items()}
+    return {name: _typed(list(yaml.load_all(text, Loader=yaml.BaseLoader))) for name, text in texts.items()}
 
 
 def _typed(value: Any, key: str = "") -> Any:
@@ -61,7 +61,7 @@ def _typed(value: Any, key: str = "") -> Any:
 
 _NUMBERS = {"fieldscribe", "line", "max", "bytes", "broadcast", "wears", "choices", "decimals", "active"} | {
     *("1", "10000"),  # the steps
-    *("words", "characters", "count", "index", "set", "pkw", "bitrate", "identifier_bits", "error", "bit"),
+    *("length", "characters", "count", "index", "set", "pkw", "bitrate", "identifier_bits", "error", "bit"),
 }
 
 
@@ -93,8 +93,11 @@ def write_files(folder: Path, texts: dict[str, str]) -> Path:
 
 
 def as_texts(files: dict[str, Any]) -> dict[str, str]:
-    """The text of each file."""
-    return {name: as_yaml(value) for name, value in files.items()}
+    """The text of each file: its documents."""
+    return {
+        name: "\n---\n".join(map(as_yaml, value)) if isinstance(value, list) else as_yaml(value)
+        for name, value in files.items()
+    }
 
 
 def as_yaml(value: Any) -> str:
@@ -179,7 +182,7 @@ CAREFUL = settings(
 )
 
 
-@pytest.mark.parametrize("device", WHOLES, ids=lambda one: one["device.yaml"]["device"])
+@pytest.mark.parametrize("device", WHOLES, ids=lambda one: one["device.yaml"][0]["device"])
 def test_the_whole_device_is_fine(tmp_path: Path, device: dict[str, Any]) -> None:
     """What the mutations start from has no errors."""
     assert load_files(tmp_path / "device", device).findings == ()
@@ -246,7 +249,7 @@ _FREE = {
 } | {*("quantity", "x-note", "title", "note", "timing")}
 
 
-@pytest.mark.parametrize("start", WHOLES, ids=lambda one: one["device.yaml"]["device"])
+@pytest.mark.parametrize("start", WHOLES, ids=lambda one: one["device.yaml"][0]["device"])
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any]) -> None:
     """Any text in every free-text field compiles, and no target stumbles over it."""
@@ -281,7 +284,7 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
 def test_rows_cannot_explode(tmp_path: Path) -> None:
     """A thousand rows of four thousand points each end in a finding."""
     rows = ",\n".join(f"{{name: a{row}, at: 1, sets: 64, indices: 64}}" for row in range(1000))
-    group = "group: {name: a, space: holding, addressing: number, source: {document: manual, section: x}}"
+    group = "group: a\nspace: holding\naddressing: number\nsource: {document: manual, section: x}"
     texts = {**as_texts(SINK), "words.yaml": f"{group}\npoints: [{rows}]"}
     started = time.process_time()
     report = Report()
@@ -327,7 +330,7 @@ def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
     """Thousands of points that each need the next one end in findings or a device."""
     head = (DEVICES / "kitchen_sink" / "device.yaml").read_text("utf-8").partition("variants:")[0]
     bus = "bus: {framings: [rtu], units: 1..9, functions: {03h: read}}\n"
-    group = 'group: {name: main, space: holding, source: {document: manual, section: "1"}}\npoints:\n'
+    group = '---\ngroup: main\nspace: holding\nsource: {document: manual, section: "1"}\npoints:\n'
     for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):
         points = [f"- {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
         started = time.process_time()

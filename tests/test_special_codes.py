@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import shutil
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -404,15 +403,14 @@ def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() ->
 
 def test_a_code_within_an_inherited_band_takes_the_band_away_and_names_the_rest(tmp_path: Path) -> None:
     """All patterns of NaN are one code of the type, and one of them means something else at one point."""
-    folder = shutil.copytree(KITCHENS / "kitchen_codes", tmp_path / "kitchen_codes")
-    text = (folder / "settings.yaml").read_text(encoding="utf-8")
+    text = (KITCHENS / "kitchen_codes" / "device.yaml").read_text(encoding="utf-8")
     mended = text.replace(
         "special: {7FC00000h: {name: released, writable: yes}}",
         "special: {7FC00000h: released, 7FC00001h..7FC000FFh: ~, 7FC00080h: other, 7FC00081h..7FC000FFh: fault}",
     )
     assert mended != text
-    (folder / "settings.yaml").write_text(mended, encoding="utf-8")
-    found = load_device(folder / "device.yaml", Report())
+    (tmp_path / "device.yaml").write_text(mended, encoding="utf-8")
+    found = load_device(tmp_path / "device.yaml", Report())
     assert found is not None
     codes = {one.name: (one.low, one.high) for one in named(found, "setpoint").specials}
     assert codes["other"] == (0x7FC00080, 0x7FC00080)

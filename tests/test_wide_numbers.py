@@ -70,7 +70,10 @@ title: Test device
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
-group: {name: main, space: holding, source: {document: manual, section: "1"}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
 points:
 - {name: a, at: 0, scale: value = raw / 123456789012345678901234567}
 - {name: first, at: 1, type: u32}

@@ -24,13 +24,12 @@ bus:
     10h: {{name: write_registers, max: 123}}
 """
 
-GROUP = """group:
-  name: group_{number}
-  title: {{en: Group {number}, de: Gruppe {number}}}
-  space: holding
-  access: rw
-  source: {{document: manual, section: "{number}"}}
-  numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+GROUP = """group: group_{number}
+title: {{en: Group {number}, de: Gruppe {number}}}
+space: holding
+access: rw
+source: {{document: manual, section: "{number}"}}
+numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
 points:
 """
 
@@ -73,12 +72,11 @@ bus:
     03h: {name: read_holding_registers, max: 32}
     10h: {name: write_registers, max: 32}
 """
-FRAME_POINTS = """group:
-  name: status
-  title: {en: Status}
-  space: holding
-  access: rw
-  source: {document: manual, section: "1"}
+FRAME_POINTS = """group: status
+title: {en: Status}
+space: holding
+access: rw
+source: {document: manual, section: "1"}
 points:
 - {name: out_freq, title: {en: Output frequency}, at: 0, type: s16, scale: raw = value * 256, unit: Hz, line: 1}
 - {name: out_volt, title: {en: Output voltage}, at: 1, type: u16, scale: raw = value * 50, unit: V, line: 2}

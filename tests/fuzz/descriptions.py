@@ -82,6 +82,7 @@ WORDS = (
         "{",
         "- ",
         "#",
+        "---",
     ),
     *HOSTILE,
 )
@@ -125,11 +126,17 @@ def _of_structure(random: Random) -> dict[str, str]:
             device = changed(device, random.choice(PATHS[place]), random.choice(VALUES))
         except (KeyError, IndexError, TypeError, ValueError, AttributeError):
             continue  # an earlier change took the place away
-    header = device.get("device.yaml")
-    if random.random() < 0.3 and isinstance(header, dict) and isinstance(header.get("parts"), list):
-        some = random.sample(header["parts"], min(len(header["parts"]), random.randint(1, 4)))
-        device = {**device, "device.yaml": {**header, "parts": some}}
+    documents = device.get("device.yaml")
+    if random.random() < 0.3 and isinstance(documents, list) and isinstance(documents[0], dict):
+        device = _of_one_file(random, device, documents[0])
     return as_texts(json.loads(json.dumps(device)))
+
+
+def _of_one_file(random: Random, device: dict[str, Any], header: dict[str, Any]) -> dict[str, Any]:
+    """The same device as documents of one file, some of its parts alone."""
+    head = {key: value for key, value in header.items() if key != "parts"}
+    parts = [part for name, documents in device.items() if name != "device.yaml" for part in documents]
+    return {"device.yaml": [head, *random.sample(parts, min(len(parts), random.randint(1, 4)))]}
 
 
 def _of_text(random: Random, text: str) -> str:

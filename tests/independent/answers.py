@@ -82,7 +82,7 @@ class Point:
     def _order(self) -> str:
         words = self.device.words
         shared = words.get(self.type, "high first") if isinstance(words, dict) else words
-        return str(self.row.get("word_order", shared))
+        return str(self.row.get("words", shared))
 
     @cached_property
     def references(self) -> dict[str, int]:

@@ -37,26 +37,26 @@ class Description:
 
 def read(folder: Path) -> Description:
     """A description: its parts in order, as plain texts; nothing is checked."""
-    device = _load(folder / "device.yaml")
-    parts = [device, *(_load(folder / part) for part in device.get("parts", ()))]
+    device, *below = _load(folder / "device.yaml")
+    parts = [device, *below, *(document for part in device.get("parts", ()) for document in _load(folder / part))]
     found = Description(device["family"])
     for part in parts:
-        found.words = part.get("bus", {}).get("word_order", found.words)
+        found.words = part.get("bus", {}).get("words", found.words)
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
-    for part in parts:
-        group = part.get("group", {})
+    for group in parts:
         around = [(one.get("special", {}), one.get("types", {})) for one in (device, group)]
-        for row in part.get("points", ()):
+        for row in group.get("points", ()):
             shared = {key: group[key] for key in _INHERITED if key in group} | {"around": around}
             for one in _written_out(found, shared | row):
                 found.points[one["item"]] = one
     return found
 
 
-def _load(path: Path) -> Row:
-    loaded = yaml.load(path.read_text("utf-8"), Loader=yaml.BaseLoader)  # texts, lists and maps only
-    return loaded if isinstance(loaded, dict) else {}
+def _load(path: Path) -> list[Row]:
+    """The documents of a file: texts, lists and maps only."""
+    loaded = yaml.load_all(path.read_text("utf-8"), Loader=yaml.BaseLoader)
+    return [one for one in loaded if isinstance(one, dict)]
 
 
 def _written_out(description: Description, row: Row) -> Iterator[Row]:

@@ -17,7 +17,7 @@ def claims_of_entry(kind: str, entry: Map) -> Iterator[Claim]:
     """The numbers of a command, a message or a telegram."""
     citing = Citing(f"{kind} {entry['name']}", entry.get("line"), entry.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
-    for key in ("at", *identifiers, "value", "words", "wears"):
+    for key in ("at", *identifiers, "value", "length", "wears"):
         for number in numbers_in(entry.get(key)):
             yield from citing.numbers(key, str(number), (number,))
     layout = entry.get("layout")

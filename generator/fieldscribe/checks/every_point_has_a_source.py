@@ -69,5 +69,5 @@ def _report_group(subject: Subject, lack: _Lacks) -> None:
     what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {lack.file}"
     if lack.file is None:
         what, hint = "section and no page", "add `source: {document: …, section: …}` to the group"
-    message = f"no point of the group `{group['name']}` cites a {what.replace(' and no', ' or a')}"
-    subject.report.error("missing-source", message, group.span("name"), hint)
+    message = f"no point of the group `{group['group']}` cites a {what.replace(' and no', ' or a')}"
+    subject.report.error("missing-source", message, group.span("group"), hint)

@@ -42,8 +42,8 @@ class _EnumFound(NamedTuple):
 def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
     """The names of groups, points and enums as the description gives them, with their namespace."""
     for group in groups(subject.scope):
-        name = str(group["name"])
-        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("name"))
+        name = str(group["group"])
+        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
     for resolved in subject.resolved:
         yield from _names_of_point(subject, resolved)
     for enum in _enums(subject):
@@ -138,7 +138,7 @@ class Owners:
             listed = scope.listed(_LISTED[owner.kind])
             return next(raw.span("name") for raw in listed if raw["name"] == owner.name)
         if owner.kind == "group":
-            return next(raw.span("name") for raw in groups(scope) if raw["name"] == owner.name)
+            return next(raw.span("group") for raw in groups(scope) if raw["group"] == owner.name)
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None

@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_OF_ALL = frozenset(
-    {"units", "exceptions", "timing", "serial", "note", "source", "line", "word_order", "gaps", "broadcast"}
-)
+_OF_ALL = frozenset({"units", "exceptions", "timing", "serial", "note", "source", "line", "words", "gaps", "broadcast"})
 
 
 @dataclass(frozen=True, slots=True)

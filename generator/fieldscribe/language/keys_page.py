@@ -34,6 +34,8 @@ def keys_markdown() -> str:
 def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
     """The keys of a mapping; of mappings without a table of their own also what is inside."""
     for name, key in keys_of(place).items():
+        if place not in key.places:
+            continue  # of a table of its own
         needed = " **Required.**" if place in key.required else ""
         yield f"`{prefix}{name}`", _type(key.shape), _meaning(key.shape) + needed, _example(key.shape)
         if len(key.places) <= _FEW or not _leads_to_a_table(key.shape):

@@ -53,7 +53,7 @@ def _word_hint(key: str, value: Any) -> str | None:
     found = known.get(spelled) or ((bare if bare in TYPE_WORDS else known.get(bare)) if key == "type" else None)
     if found is None:
         return None
-    order = "" if key != "type" or spelled in known else "; the order of words goes under `word_order`"
+    order = "" if key != "type" or spelled in known else "; the order of words goes under `words`"
     return f"write `{key}: {found}`{order}{ALSO.get(found, '') if key == 'type' else ''}"
 
 
@@ -65,7 +65,7 @@ def _type(_: str, value: Any) -> str | None:
     if word in TYPE_WORDS:
         return f"write `type: {word}`"
     if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or re.search("(^|[^a])bcd", word):
-        words = '`untyped: "48-bit counter"` with `words: 3`'
+        words = '`untyped: "48-bit counter"` with `length: 3`'
         return f"no type here is like this: leave `type` out and say it in words, as {words}"
     return None
 
@@ -279,9 +279,8 @@ def _bytes(key: str, value: Any) -> str | None:
 
 
 def _words(_: str, value: Any) -> str | None:
-    """Their order, where their count belongs."""
-    order = _word_hint("word_order", value)
-    return f"write `word_order: {value}`" if value in ("high first", "low first") else order
+    """Their count, where their order belongs."""
+    return f"a count of words is `length: {value}`" if type(value) is int else None
 
 
 def _keeps(_: str, value: Any) -> str | None:
@@ -292,8 +291,9 @@ def _keeps(_: str, value: Any) -> str | None:
 
 
 def _group(_: str, value: Any) -> str | None:
-    """Its name alone."""
-    return f"write `group: {{name: {value}, space: …, source: …}}`" if isinstance(value, str) and value else None
+    """Its keys under it."""
+    name = value.get("name") if isinstance(value, Map) else None
+    return f"write `group: {name}` and its other keys below, at the top" if isinstance(name, str) else None
 
 
 def _values(_: str, value: Any) -> str | None:

@@ -37,9 +37,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     | dict.fromkeys(("r/w", "readwrite", "read-write", "read_write", "read/write", "wr", "w/r"), "rw")
     | dict.fromkeys(("wo", "write", "writeonly", "write-only", "write_only", "w/o"), "w")
     | dict.fromkeys(("-", "no", "n/a", "false", "reserved"), "none"),
-    "word_order": dict.fromkeys(
-        ("big", "be", "big endian", "abcd", "high", "msw first", "hi lo", "normal"), "high first"
-    )
+    "words": dict.fromkeys(("big", "be", "big endian", "abcd", "high", "msw first", "hi lo", "normal"), "high first")
     | dict.fromkeys(
         ("little", "le", "little endian", "cdab", "low", "lsw first", "lo hi", "swap", "swapped"), "low first"
     ),

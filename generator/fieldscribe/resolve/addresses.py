@@ -44,7 +44,7 @@ class Places:
         self.report = scope.report
         self.telegrams = telegrams
         bus = scope.bus
-        self.order = None if bus is None else bus.get("word_order")
+        self.order = None if bus is None else bus.get("words")
         self._numberings = Numberings(scope.report)
         self._wrong_rules: set[int] = set()
 
@@ -63,7 +63,7 @@ class Places:
                 return None
         if type_name != "text":
             self._too_scattered(draft, found)
-        order = "high first" if type_name == "text" else draft.get("word_order") or self._order(type_name)
+        order = "high first" if type_name == "text" else draft.get("words") or self._order(type_name)
         purpose = "write" if self.access(draft, space) == "w" else "read"
         return Place(purpose, space, found[::-1] if order == "low first" else found, None)
 
@@ -110,7 +110,7 @@ class Places:
         if first is None:
             return None
         alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
-        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("words", 1))
+        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
         return tuple(range(first, first + (1 if alone else words)))
 
     def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
@@ -250,7 +250,7 @@ class Places:
         """A finding for a word that its space or telegram does not have."""
         if space == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
-            hint = "`at` counts the words of the whole telegram from 0; correct it, or `words` of the telegram"
+            hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
         elif single:
             message = f"the address {address} lies outside 0..{last}"
             hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"

@@ -67,7 +67,7 @@ def _with_errata(subject: Subject, point: Point) -> Point:
 
 def _groups(scope: Scope) -> Iterator[Group]:
     for raw in groups(scope):
-        name = str(raw["name"])
+        name = str(raw["group"])
         yield Group(name, titles(raw.get("title"), humanised(name)), titles(raw.get("note")), source_of(scope, raw))
 
 

@@ -127,10 +127,10 @@ class Draft:
 
 
 def groups(scope: Scope) -> Iterator[Map]:
-    """What each file says under `group` for the points beside it."""
-    for file in scope.files:
-        if "group" in file:
-            yield file["group"]
+    """The documents that are a group: what their points share, and these."""
+    for document in scope.files:
+        if "group" in document and "space" in document:
+            yield document
 
 
 def humanised(name: str) -> str:

@@ -9,7 +9,7 @@ from fieldscribe.language.keys.places import FORMAT, POINT, USE
 from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
-from fieldscribe.resolve.drafts import Draft, humanised
+from fieldscribe.resolve.drafts import Draft, groups, humanised
 from fieldscribe.resolve.elements import Element, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, titles
 
@@ -31,9 +31,9 @@ _OF_RECORDS = inherited(USE)
 def expand(scope: Scope) -> list[Draft]:
     """All points of all groups, in the order of the text; a finding when rows stand for more than anybody needs."""
     found: list[Draft] = []
-    for file in scope.files:
-        for point in file.get("points", ()) if "group" in file else ():
-            found.extend(_point(scope, file["group"], point))
+    for group in groups(scope):
+        for point in group.get("points", ()):
+            found.extend(_point(scope, group, point))
             if len(found) > MOST_POINTS:
                 message = f"the rows up to here stand for more than {MOST_POINTS} points"
                 hint = "look at the sets, indices and records"

@@ -103,7 +103,7 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
         name=draft.name,
         variant=draft.variant,
         code=draft.code,
-        group=str(draft.group["name"]),
+        group=str(draft.group["group"]),
         space=word.space,
         places=() if place is None else (place,),
         references=places.references(draft, None if place is None else _first(place, word)),
@@ -206,9 +206,9 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif draft.untyped is None and "words" in draft.own and not draft.failed & {"type", "untyped"}:
-        hint = "its type says how many words it takes: leave `words` out"
-        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("words"), hint)
+    elif draft.untyped is None and "length" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `length` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("length"), hint)
     return draft.untyped
 
 

@@ -213,7 +213,7 @@ def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None)
     unsettled = (draft.layer("type") is not None and draft.get("type") is None) or draft.get("untyped") is not None
     if bits is not None or kind == "bit" or unsettled or draft.failed & {"type", "bits"}:
         return
-    for holder, label in ((draft.group, str(draft.group["name"])), (scope.header, kind)):
+    for holder, label in ((draft.group, str(draft.group["group"])), (scope.header, kind)):
         of_type = holder.get("types", {}).get(kind, {}).get("special")
         if of_type:
             yield _Level(label, of_type)

@@ -194,7 +194,7 @@ def _sums_fit(scope: Scope, raw: Map, found: dict[int, Role]) -> bool:
     carried = [role for role in found.values() if role.kind not in ("constant", "xor")]
     twice = next((role.kind for role in carried if carried.count(role) > 1), None)
     if twice is not None:
-        message = f"`{'words' if twice == 'word' else twice}` stands in two places"
+        message = f"`{'telegram' if twice == 'word' else twice}` stands in two places"
         scope.report.error("duplicate-name", message, raw.span("layout"), "write its bytes as one interval")
         return False
     return True

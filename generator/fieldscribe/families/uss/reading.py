@@ -55,9 +55,9 @@ class UssReading(Reading):
         _known_way(scope, raw, before)
         bus = scope.bus
         ends = None if bus is None or "pzd" not in bus else interval(str(bus["pzd"]), bus.span("pzd"), Report())
-        if ends is not None and raw["words"] > ends[1]:
-            text = f"`{raw['name']}` has {raw['words']} words, the process data at most {ends[1]}"
-            scope.report.error("too-many-items", text, raw.span("words"), "correct `words`, or `pzd` under `bus`")
+        if ends is not None and raw["length"] > ends[1]:
+            text = f"`{raw['name']}` has {raw['length']} words, the process data at most {ends[1]}"
+            scope.report.error("too-many-items", text, raw.span("length"), "correct `length`, or `pzd` under `bus`")
 
 
 def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:

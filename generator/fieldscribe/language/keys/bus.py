@@ -45,7 +45,7 @@ KEYS = (
         CODES,
     ),
     Key(
-        "word_order",
+        "words",
         BUS,
         "The order of words in values of more than one word, for all types or by type.",
         ["high first", {"f32": "low first"}],

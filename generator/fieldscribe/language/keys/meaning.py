@@ -43,14 +43,14 @@ KEYS = (
         Text(80),
     ),
     Key(
-        "words",
+        "length",
         FACTS,
         "How many words a point has that is `untyped`, or whose type is not settled; 1 unless said.",
         [3],
         Whole(1, 125),
     ),
     Key(
-        "word_order",
+        "words",
         _GROUPED,
         "The order of the words of a value of more than one word.",
         ["low first"],

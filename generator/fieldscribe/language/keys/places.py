@@ -10,8 +10,9 @@ _PRIVATE = {forms.PRIVATE: ANYTHING}
 
 DEVICE = Place(
     "device_file",
-    "device.yaml",
-    "The first file of a description, device.yaml: what the device is, and what its parts are.",
+    "The head of device.yaml",
+    "What device.yaml starts with: what the device is, and which files its parts are. Parts may also follow below, "
+    "each after a line `---`.",
     [
         {
             "fieldscribe": 1,
@@ -26,29 +27,32 @@ DEVICE = Place(
     ],
     more=_PRIVATE,
 )
-PART = Place(
-    "part_file",
-    "A part",
-    "A file that device.yaml lists under `parts`: one group, or shared facts.",
-    [
-        {"group": {"name": "standard_a", "space": "holding"}, "points": []},
-        {"enums": {"contact": {"0": "open", "1": "closed"}}},
-    ],
-    more=_PRIVATE,
-)
 GROUP = Place(
     "group",
-    "A group, under `group`",
-    "What the points of a file share: a file holds one group at most, with its `points` beside it.",
+    "A group, in a part",
+    "What the points of a part share, with its `points`: a part holds one group at most.",
     [
         {
-            "name": "standard_a",
+            "group": "standard_a",
             "space": "holding",
             "access": "rw",
             "source": {"document": "manual", "section": "Gruppe A"},
+            "points": [],
         }
     ],
     more=_PRIVATE,
+)
+PART = Place(
+    "part_file",
+    "A part",
+    "A document of a file that device.yaml lists under `parts`, or of device.yaml itself below `---`: one group (the "
+    "keys of the next table), shared facts, or both.",
+    [
+        {"group": "standard_a", "space": "holding", "points": []},
+        {"enums": {"contact": {"0": "open", "1": "closed"}}},
+    ],
+    more=_PRIVATE,
+    may_be=GROUP,
 )
 POINT = Place(
     "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
@@ -214,7 +218,7 @@ TELEGRAM = Place(
     "telegram",
     "A telegram",
     "A layout of words that is sent again and again.",
-    [{"name": "visualisation", "direction": "cyclic", "words": 69, "message": "visualisation"}],
+    [{"name": "visualisation", "direction": "cyclic", "length": 69, "message": "visualisation"}],
     more=_PRIVATE,
 )
 MESSAGE = Place(
