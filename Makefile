@@ -46,7 +46,7 @@ fuzz:               ## throw mutated descriptions, frames and words at everythin
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
 
-mutants:            ## change one thing at a time, say what nothing notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions)
+mutants:            ## change one thing at a time, say what nothing notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions|generator ROOM=resolve)
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests nice $(PYTHON) -m mutants
 

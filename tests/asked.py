@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from fieldscribe.conversation.options import Options
+from fieldscribe.asked import Options
 
 _SHARED = ("framing", "unit", "request", "index")
 

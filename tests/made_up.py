@@ -31,22 +31,22 @@ enums:
   contact: {{0: normally_open, 1: normally_closed, 2: disabled}}
 formats:
   percent_tenth: {{range: 0..1000, scale: value = raw * 0.1, unit: "%"}}
-groups:
 """
 
 _GROUP = """\
-- group: group_{number}
-  title: {{en: Group {number}, de: Gruppe {number}}}
-  space: holding
-  access: rw
-  source: {{document: manual, section: "{number}"}}
-  numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
-  points:
+---
+group: group_{number}
+title: {{en: Group {number}, de: Gruppe {number}}}
+space: holding
+access: rw
+source: {{document: manual, section: "{number}"}}
+numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+points:
 """
 
 _KINDS = (
     "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50, printed: {{wire: {at:04X}h, resolution: 0.1 Hz}}",
-    "format: percent_tenth, default: 12.5",
+    "format: percent_tenth, default_in_units: 12.5",
     "enum: contact, default: 1",
     "type: u32, range: 0..999999, scale: value = raw * 0.01, unit: s",
     "enum: {{0: stopped, 1: running, 2: tripped}}",
@@ -68,7 +68,7 @@ def description(count: int, name: str = "synthetic") -> str:
         at = index * 3
         facts = _KINDS[index % len(_KINDS)].format(at=at, next=at + 1, limit=f"point_{index - 5}")
         title = f"{{en: Point number {index}, de: Punkt Nummer {index}}}"
-        lines.append(f"  - {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n")
+        lines.append(f"- {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n")
     return "".join(lines)
 
 

@@ -124,6 +124,7 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
         unit=NUMBER,
         allowed=Allowed((), False, ()),
         default=None,
+        default_raw=None,
         steps=(),
         record=None,
         set=None,
@@ -173,6 +174,7 @@ def plain_points() -> tuple[Point, ...]:
             decimals=1,
             set=1,
             default=Fraction(50),
+            default_raw=500,
             was=("main_frequency",),
             errata=("a020_wire",),
             keeps="enter",
@@ -281,7 +283,17 @@ def sample_bus() -> Bus:
 
 
 ERRATA = (
-    Erratum("a020_wire", ("base_frequency",), "", SOURCE, "wire 4137", "wire 4136", "Hex is right.", "certain"),
+    Erratum(
+        "a020_wire",
+        ("base_frequency",),
+        "",
+        SOURCE,
+        "wire 4137",
+        "wire 4136",
+        "Hex is right.",
+        "certain",
+        (("wire", "4137"),),
+    ),
     Erratum("f001_address", ("setpoint_display",), "", SOURCE, "No address.", "at: ~", "An empty cell.", "unknown"),
     Erratum("write_crc", (), "frame:write_base", SOURCE, "crc A8 54", "crc 0C 91", "The CRC of the bytes.", "certain"),
 )

@@ -26,14 +26,14 @@ title: Made up
 family: modbus
 documents: {{manual: {{title: Manual, language: en}}}}
 bus: {{framings: [rtu], units: 1..247, functions: {{03h: read_registers, 06h: write_register}}}}
-groups:
-- group: main
-  space: holding
-  source: {{document: manual, section: "1"}}
-  points:
-  - {{name: speed, at: 7}}
-  - {{name: {second}, at: 8}}
-  - {{name: {third}, at: 9}}
+---
+group: main
+space: holding
+source: {{document: manual, section: "1"}}
+points:
+- {{name: speed, at: 7}}
+- {{name: {second}, at: 8}}
+- {{name: {third}, at: 9}}
 """
 
 
@@ -102,7 +102,7 @@ def test_its_names_are_checked(compiler: Compiler) -> None:
     assert (
         "the point `acceleration_time` and the point `acceleration_limit` would both be `ACCELERA` in the panel" in said
     )
-    assert "device.yaml:17:12" in said
+    assert "device.yaml:17:10" in said
     assert "the point `acceleration_time` stands here" in said
     compiler.describe(second="alarm")
     said = " ".join(compiler.run("check", ".").stdout.split())

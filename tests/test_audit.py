@@ -53,16 +53,16 @@ documents:
   manual:
     {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
 bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: Parameters}
-  points:
-  - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
-  - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
-  - {name: second_source, at: 1003h, line: 9}
-  - {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
-  - {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
+---
+group: main
+space: holding
+source: {document: manual, section: Parameters}
+points:
+- {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
+- {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
+- {name: second_source, at: 1003h, line: 9}
+- {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
+- {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
 """
 
 
@@ -138,7 +138,7 @@ The request 05 06 10 28 01 F4 0C 91 is printed with the checksum 0C 92.
 """  # fmt: skip
 
 LONG_DEVICE = (
-    DEVICE[: DEVICE.index("groups:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
+    DEVICE[: DEVICE.index("---\n")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
     + """frames:
 - {name: write_base_frequency, line: 28, direction: request, bytes: 05 06 10 28 01 F4 0C 92}
 errata:
@@ -149,23 +149,24 @@ errata:
   taken: {crc: 0C 91}
   why: So the bytes say.
   certainty: certain
-groups:
-- group: coils
-  space: coil
-  source: {document: manual, section: Coils}
-  numbering: {modicon: wire + 1}
-  points:
+---
+group: coils
+space: coil
+source: {document: manual, section: Coils}
+numbering: {modicon: wire + 1}
+points:
 """
     + "".join(
-        f"  - {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
+        f"- {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
         for number in range(20)
     )
-    + """- group: parameters
-  space: holding
-  source: {document: manual, section: Parameters}
-  points:
-  - {code: P601, name: factor, at: ~, range: 0..9, line: 32}
-  - {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
+    + """---
+group: parameters
+space: holding
+source: {document: manual, section: Parameters}
+points:
+- {code: P601, name: factor, at: ~, range: 0..9, line: 32}
+- {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
 """
 )
 
@@ -277,30 +278,21 @@ bus:
     11: {name: unused_11, line: 9}
     12: {name: unused_12, line: 9}
 telegrams:
-- {name: task, direction: request, words: 2}
-groups:
-- group: parameters
-  space: parameter
-  source: {document: manual, section: Words}
-  points:
-  - code: P0700
-    name: source
-    at: 700
-    type: u32
-    access: r
-    flags: {31..16: parameter, 15..0: bit}
-    line: 11
-    lines: {flags: 6..6}
-  - {code: r0021, name: frequency, at: 21, access: r, line: 11}
-- group: words
-  space: telegram
-  telegram: task
-  access: w
-  numbering: {pzd: wire + 1}
-  source: {document: manual, section: Words}
-  points:
-  - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
-  - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
+- {name: task, direction: request, length: 2}
+---
+group: parameters
+space: parameter
+source: {document: manual, section: Words}
+points:
+- code: P0700
+  name: source
+  at: 700
+  type: u32
+  access: r
+  flags: {31..16: parameter, 15..0: bit}
+  line: 11
+  lines: {flags: 6..6}
+- {code: r0021, name: frequency, at: 21, access: r, line: 11}
 errata:
 - id: letter
   point: frequency
@@ -316,6 +308,16 @@ errata:
   taken: {refusals: [7]}
   why: The response list has it.
   certainty: likely
+---
+group: words
+space: telegram
+telegram: task
+access: w
+numbering: {pzd: wire + 1}
+source: {document: manual, section: Words}
+points:
+- {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
+- {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
 """
 
 
@@ -336,7 +338,8 @@ def test_uss_manuals_are_read_as_they_write(
     folder = tmp_path / "audited"
     folder.mkdir()
     manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
-    (folder / "device.yaml").write_text(USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()), "utf-8")
+    text = USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest())
+    (folder / "device.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "manual.txt").write_text(manual, "utf-8")
     main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
     assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing
@@ -418,6 +421,11 @@ def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pyt
         (r"$1000011111\_00001_{\text{bin}}$", [{Fraction(0b100001111100001)}]),
         ("4..20mA", [{Fraction(4)}, {Fraction(20), Fraction(0x20)}]),
         ("Kapitel 4.2.10", [{Fraction(4), Fraction(2), Fraction(10)}]),
+        ("Bits 101", [{Fraction(101), Fraction(0b101)}]),
+        ("Bits 11", [{Fraction(11), Fraction(0x11), Fraction(0b11)}]),
+        ("Bits 102", [{Fraction(102)}]),
+        ("von 1 bis 0", [{Fraction(1)}, {Fraction(0)}]),
+        ("1.200,500", [{Fraction(1), Fraction(200), Fraction(500), Fraction(1200500)}]),
     ],
 )
 def test_numbers_of_a_line(text: str, readings: list[set[Fraction]]) -> None:
@@ -452,10 +460,10 @@ Highbyte: source, Bit 7 to Bit 3 are always zero, Bit 0 = 0 => off, Bit 0 = 1 =>
 16 characters: ID 90 and ID 91, ID 92, ID 93, ID 94, ID 95, ID 96, ID 97
 """
 MORE_POINTS = """\
-  - {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
-  - {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
-  - {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
-  - {name: fault_text, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
+- {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
+- {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
+- {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
+- {name: fault_text, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
 enums:
   delay:
     0: {name: ms_100, quantity: 100 ms}
@@ -506,11 +514,11 @@ Pin\t1\tshield
 Pin\t2\tplus
 """
 SPLIT_POINTS = """\
-  - {code: P601, name: p601, at: 601, type: ~, section: "4.3", line: 27}
-  - {code: P103, name: p103, at: 103, type: ~, line: 27}
-  - {code: "P740[2]", name: p740_2, at: ~, type: ~, line: 27}
-  - {name: rule, at: 38, line: 28, printed: {wire: "0b100110"}}
-  - {name: later, at: 0009h, line: 32}
+- {code: P601, name: p601, at: 601, type: ~, section: "4.3", line: 27}
+- {code: P103, name: p103, at: 103, type: ~, line: 27}
+- {code: "P740[2]", name: p740_2, at: ~, type: ~, line: 27}
+- {name: rule, at: 38, line: 28, printed: {wire: "0b100110"}}
+- {name: later, at: 0009h, line: 32}
 looked_through:
 - {lines: 35..38, why: Wiring.}
 """

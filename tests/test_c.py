@@ -367,6 +367,7 @@ int main(void)
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
         request.values = written;
+        request.first = written[0];
         request.given = 1U;
         for (at = 0; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);
@@ -385,7 +386,8 @@ int main(void)
                 exact[length - 1U] = (uint8_t)(crc >> 8);
             }
         }
-        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 999U, length) > 300U) {
+        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 300U, length) >
+            300U - length) { /* whatever they say of their length, no more than fit */
             return 2;
         }
         if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&

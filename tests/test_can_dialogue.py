@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING
 import pytest
 from asked import asked
 from devices_by_family import at, can_frame, coded, shipped
+from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.options import Options, refuse_foreign
+from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.others import explain_others
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.samples import sample_raw
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can.conversation import decode, frames_for
-from fieldscribe.families.can.conversation.listener import CanListener
-from fieldscribe.families.can.conversation.notation import Pasted, read_frames
-from fieldscribe.families.can.conversation.recognition import recognise
 from fieldscribe.families.can.frames import CanFrame, parse
+from fieldscribe.families.can.notation import Pasted, read_frames
+from fieldscribe.families.can.recognition import recognise
+from fieldscribe.families.can.speech import CanSpeech
 from fieldscribe.model import Role
 from fieldscribe.pipeline import load_device
+from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from models import kitchen_sink, named
@@ -32,7 +32,7 @@ from models import kitchen_sink, named
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")
@@ -284,7 +284,7 @@ _HEADS = st.sampled_from([b"", b"\xdd", b"\xff\x01", b"\xee\x01", b"\xdd\x0e", b
 
 @given(st.lists(st.tuples(_IDS, _HEADS, st.binary(max_size=12)), min_size=1, max_size=8))
 def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
-    listening = CanListener(DEVICE, {})
+    listening = Listener(DEVICE, {}, CanSpeech(DEVICE))
     for number, head, rest in frames:
         for data in (head + rest, (head + rest)[:8]):
             heard = listening.hear(Pasted(CanFrame(number, data)))
@@ -465,21 +465,22 @@ bus: {units: 1..9}
 messages:
 - {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
 - {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
-- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: words}}
-telegrams: [{name: cells, direction: cyclic, words: 6, message: cells}]
-groups:
-- group: cells
-  space: telegram
-  telegram: cells
-  source: {document: manual, section: "1"}
-  addressing: number + index - 1
-  points: [{name: cell, at: {number: 0, indices: 6}}]
-- group: limits
-  space: parameter
-  access: r
-  source: {document: manual, section: "2"}
-  addressing: 100h * number + index
-  points: [{name: limit, at: {number: 1, indices: 2}}]
+- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}
+telegrams: [{name: cells, direction: cyclic, length: 6, message: cells}]
+---
+group: cells
+space: telegram
+telegram: cells
+source: {document: manual, section: "1"}
+addressing: number + index - 1
+points: [{name: cell, at: 0, indices: 6}]
+---
+group: limits
+space: parameter
+access: r
+source: {document: manual, section: "2"}
+addressing: 100h * number + index
+points: [{name: limit, at: 1, indices: 2}]
 """
 
 

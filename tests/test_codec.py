@@ -12,12 +12,13 @@ import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
-from fieldscribe.conversation.hexadecimal import HexError, parse_hex
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.conversation.refusals import RefusedError, amount
-from fieldscribe.conversation.selection import UnclearError, choose_point, choose_variants
+from fieldscribe.conversation.refusals import amount
+from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings, read_value
+from fieldscribe.hexadecimal import HexError, parse_hex
 from fieldscribe.model import Special
 from hypothesis import given
 from hypothesis import strategies as st

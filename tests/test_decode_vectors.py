@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 import pytest
 from asked import asked as chosen
 from devices_by_family import shipped
-from fieldscribe.families.can.conversation import decode as decode_can
+from fieldscribe.conversation.listener import decode
 from fieldscribe.families.modbus import requests as modbus
-from fieldscribe.families.modbus.conversation import decode as decode_modbus
 from fieldscribe.families.modbus.functions import profile_of
 from fieldscribe.families.uss import telegrams as uss
-from fieldscribe.families.uss.conversation import decode as decode_uss
 from fieldscribe.targets.vectors.collection import collect
 from models import made
 from vector_file import File
@@ -20,7 +18,7 @@ from vector_file import File
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
     from fieldscribe.model import Device
     from vector_file import Vector
 
@@ -47,7 +45,7 @@ def test_replies_of_modbus(device: Device) -> None:
         )
         _, sent = modbus.build(profile_of(device.bus), one["framing"], request)
         options = chosen(framing=one["framing"], request=sent.hex())
-        holds(one, decode_modbus(device, {}, [one["bytes"].hex()], options)[-1], one["status"] in ("ok", "exception"))
+        holds(one, decode(device, {}, [one["bytes"].hex()], options)[-1], one["status"] in ("ok", "exception"))
         judged.add(one["status"])
     assert {"ok", "exception", "bad_crc", "wrong_unit", "wrong_function", "echo_mismatch", "short_frame"} <= judged
 
@@ -57,7 +55,7 @@ def test_messages_of_a_makers_protocol(device: Device) -> None:
     """A frame is the message of the unit that was asked for, or it is damaged, or it is another's."""
     judged = set()
     for one in vectors(device, "can_parse"):
-        [heard] = decode_can(device, {}, [f"{one['id']:X}#{one['bytes'].hex()}"], chosen())
+        [heard] = decode(device, {}, [f"{one['id']:X}#{one['bytes'].hex()}"], chosen())
         if one["status"] in ("wrong_id", "wrong_unit") and not heard.faults:
             assert heard.kind == "other" or heard.unit != one["unit"], (one, heard)
         else:
@@ -80,7 +78,7 @@ def test_answers_of_uss(device: Device) -> None:
         if status != "ok":
             continue
         options = chosen(request=sent.hex(), pkw=link.pkw, pzd=link.pzd, single_first=link.single_first)
-        heard = decode_uss(device, {}, [one["bytes"].hex()], options)[-1]
+        heard = decode(device, {}, [one["bytes"].hex()], options)[-1]
         holds(one, heard, one["status"] in ("ok", "refused", "no_rights", "no_answer"))
         judged.add(one["status"])
     assert {"ok", "refused", "no_rights", "wrong_check", "wrong_response", "wrong_parameter", "wrong_unit"} <= judged

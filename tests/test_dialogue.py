@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.families.modbus.conversation.listener import ModbusListener
-from fieldscribe.families.modbus.conversation.words import raw_of, words_of, write_request
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.asked import RefusedError
+from fieldscribe.conversation.listener import Listener
+from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.sending import words_of, write_request
+from fieldscribe.families.modbus.speech import ModbusSpeech
 from hypothesis import given
 from hypothesis import strategies as st
-from models import named, sample_device
+from models import changed, named, sample_device
 
 if TYPE_CHECKING:
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 DEVICE = sample_device()
 
@@ -28,7 +32,7 @@ def rtu(text: str) -> bytes:
 
 def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> Heard:
     """The last of the frames, heard after the others."""
-    listening = ModbusListener(DEVICE, settings)
+    listening = Listener(DEVICE, settings, ModbusSpeech(DEVICE))
     if request is not None:
         listening.expect_reply_to(request)
     return [listening.hear(data) for data in frames][-1]
@@ -89,6 +93,16 @@ def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     heard = hear(rtu("01 01 00 00 00 14"), reply)
     assert heard.kind == "reply"
     assert said(heard)[0].startswith("run_command = on (raw 1)")
+
+
+def test_how_points_of_one_and_of_several_words_are_read() -> None:
+    by_name = {one.item: one for one in DEVICE.points}
+    assert read_text(DEVICE, by_name["running"]).startswith("function 01h, 1 bit")
+    assert read_text(DEVICE, by_name["base_frequency"]).startswith("function 03h, 1 word")
+    wide = next(one for one in DEVICE.points if len(one.addresses) == 2 and one.readable)
+    assert re.match(r"function 0[34]h, 2 words\b", read_text(DEVICE, wide))
+    assert read_text(DEVICE, changed(by_name["running"], access="w")) == ""
+    assert read_text(DEVICE, replace(by_name["running"], places=())) == ""
 
 
 def test_coils_by_name_with_padding() -> None:
@@ -184,11 +198,11 @@ def test_commands_and_loopback() -> None:
 
 def test_tcp_is_known_by_its_header() -> None:
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
-    heard = ModbusListener(rtu_only, {}).hear(bytes.fromhex("000700000006050310280001"))
+    heard = Listener(rtu_only, {}, ModbusSpeech(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.findings == ("the manual knows only RTU frames",)
-    wrong = ModbusListener(DEVICE, {}, "tcp").hear(bytes.fromhex("000700000009050310280001"))
+    wrong = Listener(DEVICE, {}, ModbusSpeech(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)
 
@@ -202,7 +216,7 @@ def test_pieces_are_no_frames(text: str) -> None:
 
 @given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
 def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
-    listening = ModbusListener(DEVICE, {}, framing)
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE, framing))
     if asked:
         listening.expect_reply_to(frames[0])
     for data in frames:
@@ -220,10 +234,10 @@ def test_any_request_and_reply_are_safe(address: int, function: int, rest: bytes
 def test_words() -> None:
     swapped = named(DEVICE, "swapped_count")
     assert words_of(swapped, 0x12345678, swapped.addresses) == (0x5678, 0x1234)
-    assert raw_of(swapped, swapped.addresses, {0x2000: 0x5678, 0x2001: 0x1234}) == 0x12345678
+    assert raw_of(swapped, (0x1234, 0x5678)) == 0x12345678
     factor = named(DEVICE, "power_factor")
     assert words_of(factor, -1, factor.addresses) == (0xFFFF,)
-    assert raw_of(factor, factor.addresses, {0x2002: 0xFFFF}) == -1
+    assert raw_of(factor, (0xFFFF,)) == -1
 
 
 def test_requests_to_write() -> None:

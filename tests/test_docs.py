@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 import pytest
-from fieldscribe.model import Device, Enum, Special
+from fieldscribe.model import Device, Enum, Place, Special
 from fieldscribe.render import render
 from fieldscribe.targets.docs import outputs
 from models import NUMBER, changed, entry, point, sample_device, titles
@@ -63,6 +63,12 @@ def test_every_table_is_well_formed() -> None:
         assert len(_cells(line)) == width, line
     assert lines[-1] == ""
     assert lines[-2] != ""
+
+
+def test_a_second_place_says_what_it_is_for() -> None:
+    places = (Place("read", "holding", (7,), None), Place("write", "holding", (0x20, 0x21), None))
+    made = changed(point("made", 7), places=places)
+    assert any("write: holding 0020h (32), 0021h (33)" in cell for cell in _row(_page(sample_device((made,))), "made"))
 
 
 def test_every_link_has_its_target() -> None:

@@ -26,16 +26,16 @@ title: Made up
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: energy, at: 10, untyped: "48-bit counter, the high word first", takes: 3}
-  - {name: open_size, at: 20, type: ~, unit: W}
-  - {name: open_scale, at: 21, scale: ~, type: u32}
-  - {name: nowhere, at: ~}
-  - {name: speed, at: 30, range: 0..10}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: energy, at: 10, untyped: "48-bit counter, the high word first", length: 3}
+- {name: open_size, at: 20, type: ~, unit: W}
+- {name: open_scale, at: 21, scale: ~, type: u32}
+- {name: nowhere, at: ~}
+- {name: speed, at: 30, range: 0..10}
 """
 
 

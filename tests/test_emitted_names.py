@@ -45,11 +45,11 @@ bus:
   functions: {{03h: read, 06h: write, 10h: write_many}}
 commands:
 - {{name: {command}, space: holding, at: 9000, function: 06h, value: 1, section: "2"}}
-groups:
-- group: {group}
-  space: holding
-  source: {{document: manual, section: "1"}}
-  points:
+---
+group: {group}
+space: holding
+source: {{document: manual, section: "1"}}
+points:
 """
 
 WORDS = (
@@ -105,7 +105,7 @@ def nasty(seed: int) -> str:
                 "bits: 3..0, range: 0..9",
             )
         )
-        lines.append(f"  - {{name: {point}, at: {at}, {facts}}}\n")
+        lines.append(f"- {{name: {point}, at: {at}, {facts}}}\n")
     return "".join(lines)
 
 

@@ -110,26 +110,26 @@ documents: {manual: {title: Manual, language: en}}
 variants:
   model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: mode, at: 0, enum: {0: off, 1: slow, 2: fast}}
-  - {name: level, at: 1, range: 0..100, scale: value = raw * 0.1, unit: V}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: mode, at: 0, enum: {0: off, 1: slow, 2: fast}}
+- {name: level, at: 1, range: 0..100, scale: value = raw * 0.1, unit: V}
 """
 
 APART = """\
-  - {name: a, at: 10, when: mode == off}
-  - {name: b, at: 10, when: "mode in (1, 2) and level < 5"}
-  - {name: c, at: 10, when: mode != off and not level < 5}
-  - {name: d, at: 11, when: model == 550}
-  - {name: e, at: 11, when: model == 550x}
-  - {name: f, at: 11, variants: {model=large: {range: 0..3}}}
-  - {name: g, at: 12, until: firmware 2.9}
-  - {name: h, at: 12, since: firmware 2.10}
-  - {name: i, at: 13, bits: 3..0, when: mode == 0}
-  - {name: j, at: 13, bits: 7..2, when: mode > 0}
+- {name: a, at: 10, when: mode == off}
+- {name: b, at: 10, when: "mode in (1, 2) and level < 5"}
+- {name: c, at: 10, when: mode != off and not level < 5}
+- {name: d, at: 11, when: model == 550}
+- {name: e, at: 11, when: model == 550x}
+- {name: f, at: 11, variants: {model=large: {range: 0..3}}}
+- {name: g, at: 12, until: firmware 2.9}
+- {name: h, at: 12, since: firmware 2.10}
+- {name: i, at: 13, bits: 3..0, when: mode == 0}
+- {name: j, at: 13, bits: 7..2, when: mode > 0}
 """
 
 
@@ -151,7 +151,7 @@ def test_points_apart_share_an_address(tmp_path: Path) -> None:
     ]
     assert wording.condition_text(points["b"].when) == "mode.raw in (1, 2) and level.raw < 50"
     exported: Any = export_model(device)
-    assert exported["format"] == 2
+    assert exported["format"] == 3
     assert {one["name"]: one["when"] for one in exported["points"] if one["name"] in "bd"} == {
         "b": {"any": [{"all": [{"of": "mode", "is": "in", "than": [1, 2]}, {"of": "level", "is": "<", "than": 50}]}]},
         "d": {"any": [{"all": [{"of": "model", "is": "==", "than": "550"}]}]},

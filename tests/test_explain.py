@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.lookup import find, near, number_of
+from fieldscribe.conversation.lookup import find, near
+from fieldscribe.hexadecimal import number_of
 from models import named, point, sample_device
 
 DEVICE = sample_device()
@@ -147,7 +148,9 @@ def test_as_documented_shows_what_is_printed() -> None:
 
 
 def test_several_printed_facts_in_one_erratum() -> None:
-    erratum = replace(DEVICE.errata[0], printed="modicon 4370; wire 4369; range in units 0.00..99900")
+    erratum = replace(
+        DEVICE.errata[0], facts=(("modicon", "4370"), ("wire", "4369"), ("range_in_units", "0.00..99900"))
+    )
     device = replace(DEVICE, errata=(erratum,))
     rows = dict(explain_point(device, named(device, "base_frequency"), as_documented=True).rows)
     assert rows["Modicon"].startswith("4370 (as printed")

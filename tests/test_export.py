@@ -15,14 +15,28 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
-from models import linear, named, point, sample_device, scaled, titles, value_of
+from models import linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
 POINT_KEYS = (
     *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
     *("places", "type", "words", "access", "bits", "variant", "when", "since", "until", "record", "set", "repeat"),
-    *("format", "unit", "default", "step", "special", "fixed", "changes", "together", "scale", "raw", "enum", "open"),
+    *(
+        "format",
+        "unit",
+        "display",
+        "default",
+        "step",
+        "special",
+        "fixed",
+        "changes",
+        "together",
+        "scale",
+        "raw",
+        "enum",
+        "open",
+    ),
     *("flags", "digits", "encoding", "persistence", "conditions", "title", "source", "errata", "generated"),
 )
 TOP_KEYS = (
@@ -96,6 +110,7 @@ def test_a_scaled_point() -> None:
         "repeat": None,
         "format": None,
         "unit": "Hz",
+        "display": None,
         "default": 500,
         "step": None,
         "special": [],
@@ -155,7 +170,7 @@ def test_no_value_and_a_span_of_special_codes() -> None:
         {"raw": [32768, 32768], "name": "no_value", "no_value": True, "writable": False},
         {"raw": [65280, 65535], "name": "error", "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 2
+    assert exported["format"] == 3
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 
@@ -235,6 +250,12 @@ def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: li
         assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
 
 
+def test_an_erratum_names_its_points() -> None:
+    several = replace(DEVICE.errata[0], points=("base_frequency", "ready"))
+    exported: Any = export_model(replace(DEVICE, errata=(several,)))
+    assert exported["errata"][0]["point"] == ["base_frequency", "ready"]
+
+
 def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     doubled = point("doubled", 1, scale=scaled("1/2", 0))
     constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
@@ -253,9 +274,7 @@ def test_computed_ends_as_expressions() -> None:
     assert bound_of(Limit(rule, (), -32768, 32767), True, limited) == "(a.raw * 2 - 1) * 5 / b.raw / 2 - 1 / 2"
     power = linear(3, 0, value_of("c", -1, ten_to=True))
     assert bound_of(Limit(power, (), -32768, 100), False, limited) == "min(100, 3 / 10 ** c.raw)"
-
-
-def test_a_default_between_two_raw_numbers_is_text() -> None:
-    odd = replace(named(DEVICE, "base_frequency"), default=Fraction(1, 20))
-    exported: Any = export_model(sample_device((odd,)))
-    assert exported["points"][0]["default"] == "0.5"
+    moved = linear(1, "1/2", value_of("d", intercept=3), value_of("e", -1, intercept=-2, ten_to=True))
+    assert bound_of(Limit(moved, (), -32768, 32767), True, limited) == "(d.raw + 3) / 10 ** (e.raw - 2) + 1 / 2"
+    alone = linear("1/3", 4, value_of("f", -1, slope=5))
+    assert bound_of(Limit(alone, (), -32768, 32767), True, limited) == "1 / (f.raw * 5) / 3 + 4"

@@ -102,6 +102,22 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_expression, "2 ^ 3", 2, "`^`", "10 ** n"),
     (parse_expression, "2 \u00d7 3", 2, "`\u00d7`", "write *"),
     (parse_expression, "2\u22123", 1, "`\u2212`", "keyboard"),
+    (parse_expression, "2 \u00b7 3", 2, "`\u00b7`", "write *"),
+    (parse_expression, "2 \u22c5 3", 2, "`\u22c5`", "write *"),
+    (parse_expression, "2 \u00f7 3", 2, "`\u00f7`", "write /"),
+    (parse_expression, "2 : 3", 2, "`:`", "write / to divide"),
+    (parse_expression, "2\u20133", 1, "`\u2013`", ".. for an interval"),
+    (parse_expression, "2 % 3", 2, "`%`", "a unit is not part of a formula"),
+    (parse_expression, "2 \u00b0", 2, "`\u00b0`", "a unit is not part of a formula"),
+    (parse_expression, "[1, 2]", 0, "`[`", "a list stands in parentheses"),
+    (parse_expression, '"a"', 0, '`"`', "names stand without quotes"),
+    (parse_expression, "a \u2264 1", 2, "`\u2264`", "write <="),
+    (parse_expression, "a \u2265 1", 2, "`\u2265`", "write >="),
+    (parse_expression, "a \u2260 1", 2, "`\u2260`", "write !="),
+    (parse_expression, "1 & 2", 2, "`&`", "write and"),
+    (parse_condition, "a == 1 & b == 1", 7, "`&`", "write `a == 1 and b == 1`"),
+    (parse_expression, "!a", 0, "`!`", "write not"),
+    (parse_range, "0~5", 1, "`~`", "low..high"),
     (parse_expression, "1.", 1, "`.`", "digits on both sides"),
     (parse_expression, "1\n+2", 1, "U+000A", "one line"),
     (parse_expression, "a\u202eb", 1, "U+202E", ""),
@@ -371,3 +387,9 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert (error.message + error.hint).isprintable()
     cut_off(text)
     assert perf_counter() - begun < 0.2
+
+
+def test_a_sign_that_only_divides_is_no_interval() -> None:
+    with pytest.raises(FormulaError) as caught:
+        parse_expression("2 \u00f7 3")
+    assert caught.value.hint == "write /"

@@ -16,6 +16,7 @@ from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
 from fieldscribe.pipeline import load_device
 from fieldscribe.plain import digest, for_code
+from fieldscribe.wording import default_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -31,10 +32,10 @@ title: Drive
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: read, 06h: write, 10h: write_many}}
-groups:
-- group: a
-  space: holding
-  source: {document: manual, section: "1"}
+---
+group: a
+space: holding
+source: {document: manual, section: "1"}
 """
 
 
@@ -54,7 +55,7 @@ def point(name: str, item: str) -> Point:
 
 
 def made(tmp_path: Path, rows: str) -> Device:
-    """A Modbus device with these rows in its one group; they are indented by two."""
+    """A Modbus device whose group ends with these lines, its points among them."""
     file = tmp_path / "device.yaml"
     file.write_text(MODBUS + rows, "utf-8")
     report = Report()
@@ -64,16 +65,15 @@ def made(tmp_path: Path, rows: str) -> Device:
     return device
 
 
-NORD = """  addressing: number * 64 + (index - 1) * sets + (set - 1)
-  points:
-  - {name: alone, at: {number: 601}}
-  - {name: by_set, title: {en: Ramp, de: Rampe}, at: {number: 102, sets: 4}, was: [ramp]}
-  - {name: by_index, at: {number: 607, indices: 2}, each: {2: {code: P607b, title: Second, default: 5}}}
-  - {name: by_both, at: {number: 543, sets: 4, indices: 3}, each: {2: {line: 5}, 4/2: {line: 7}}}
-  - {name: one_element, at: {number: 50, index: 3}}
-  - {name: one_set, at: {number: 103, sets: 4, set: 2, indices: 2}}
-  - {name: from_zero, at: {number: 7, indices: 1..2}}
-  - {name: plain, at: 3200}
+NORD = """addressing: number * 64 + (index - 1) * sets + (set - 1)
+points:
+- {name: alone, at: 601}
+- {name: by_set, title: {en: Ramp, de: Rampe}, at: 102, sets: 4, was: [ramp]}
+- {name: by_index, at: 607, indices: 2, each: {2: {code: P607b, title: Second, default: 5}}}
+- {name: by_both, at: 543, sets: 4, indices: 3, each: {2: {line: 5}, 4/2: {line: 7}}}
+- {name: one_element, at: 50, index: 3}
+- {name: one_set, at: 103, sets: 4, set: 2, indices: 2}
+- {name: from_zero, at: 7, indices: 1..2}
 """
 
 
@@ -91,7 +91,6 @@ NORD = """  addressing: number * 64 + (index - 1) * sets + (set - 1)
         ("one_element", 50 * 64 + 2, None, 3),
         ("one_set_index_2", 103 * 64 + 4 + 1, 2, 2),
         ("from_zero_index_1", 7 * 64, None, 1),
-        ("plain", 3200, None, None),
     ],
 )
 def test_addresses_by_rule(
@@ -105,7 +104,7 @@ def test_addresses_by_rule(
 def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
     """By index, by set and index; titles, codes and old names say which element it is."""
     points = {one.item: one for one in made(tmp_path, NORD).points}
-    assert len(points) == 1 + 4 + 2 + 12 + 1 + 2 + 2 + 1
+    assert len(points) == 1 + 4 + 2 + 12 + 1 + 2 + 2
     assert points["by_index_index_2"].code == "P607b"
     assert points["by_index_index_2"].title == {"en": "Second"}
     assert points["by_index_index_2"].default == 5
@@ -117,9 +116,59 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
     assert lines == [5, 5, 7]
 
 
+def test_a_rule_is_about_each_number_under_at(tmp_path: Path) -> None:
+    """Also in records, in texts whose words run down, and in sets that have rows of their own."""
+    rows = """addressing: 1000h + number + (index - 1)
+points:
+- {name: label, at: 7..4, type: text, characters: 8}
+- {name: trip, record: log, at: 10h}
+- {name: ramp, at: 20h, set: 2, sets: {1: {at: 30h}, 3: {at: 30h, index: 5}}}
+records: {log: {points: [{name: error, at: base + 2}]}}
+"""
+    found = {one.name: (one.addresses, one.set, one.index) for one in made(tmp_path, rows).points}
+    assert found == {
+        "label": ((0x1007, 0x1006, 0x1005, 0x1004), None, None),
+        "trip_error": ((0x1012,), None, None),
+        "ramp": ((0x1020,), 2, None),
+        "ramp_set_1": ((0x1030,), 1, None),
+        "ramp_set_3": ((0x1034,), 3, 5),
+    }
+
+
+def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
+    """Each follows from the other where no other point is needed; the nearer layer decides which of both is said."""
+    rows = """points:
+- {name: first, at: 1, scale: value = raw * 0.1, default: 0200h}
+- {name: in_units, at: 2, scale: value = raw * 0.1, default_in_units: 51.2}
+- {name: named, at: 3, scale: value = raw * 0.1, special: {7FFFh: idle}, default: idle}
+- {name: entry, at: 4, enum: {3: on}, default: "on"}
+- {name: moving_raw, at: 5, scale: value = raw * first.raw, default: 4}
+- {name: moving_value, at: 6, scale: value = raw * first.raw, default_in_units: 4}
+- {name: real, at: 7, type: f32, default_in_units: 0.5}
+- name: ramp
+  at: 9
+  scale: value = raw * 0.1
+  default: 5
+  sets: {2: {at: 10, default_in_units: 0.7}, 3: {at: 11}}
+"""
+    found = {one.name: (one.default, one.default_raw, default_text(one)) for one in made(tmp_path, rows).points}
+    assert found == {
+        "first": (Fraction("51.2"), 512, "51.2"),
+        "in_units": (Fraction("51.2"), 512, "51.2"),
+        "named": (Fraction("3276.7"), 0x7FFF, "idle"),
+        "entry": (3, 3, "3"),
+        "moving_raw": (None, 4, "raw 4"),
+        "moving_value": (4, None, "4"),
+        "real": (Fraction(1, 2), None, "0.5"),
+        "ramp": (Fraction(1, 2), 5, "0.5"),
+        "ramp_set_2": (Fraction("0.7"), 7, "0.7"),
+        "ramp_set_3": (Fraction(1, 2), 5, "0.5"),
+    }
+
+
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "  points:\n  - {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
     assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 
@@ -359,3 +408,17 @@ def test_points_are_found(device: str, what: str, items: list[str]) -> None:
     """By address, index and printed number."""
     found = dict.fromkeys(match.point.item for match in find(kitchen(device), what))
     assert list(found) == items
+
+
+def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
+    """Whether it is yes or no, or the name of a command."""
+    rows = """keeps: yes
+points:
+- {name: by_command, at: 1, keep_with: enter}
+- {name: by_itself, at: 2}
+commands:
+- {name: enter, at: 25, function: 06h, value: any}
+"""
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
+    rows = rows.replace("keeps: yes", "keep_with: enter", 1).replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]

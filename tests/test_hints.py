@@ -27,12 +27,12 @@ bus:
   framings: [rtu]
   units: 1..247
   functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: mode, at: 900, range: 0..5}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: mode, at: 900, range: 0..5}
 """
 _LINE = re.compile(r"`(([a-z_]+): .*?)`(?= |$|,|;|:)")
 
@@ -114,7 +114,7 @@ def findings(folder: Path, facts: str, *, number: int = 1) -> tuple[Diagnostic, 
     """What is found of a point with these facts."""
     space = ", space: coil" if "type: bit" in facts or "type: bool" in facts else ""
     file = folder / "device.yaml"
-    file.write_text(f"{HEAD}  - {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
+    file.write_text(f"{HEAD}- {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
     report = Report()
     load_device(file, report)
     return report.findings
@@ -203,6 +203,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("space: input_registers", "unknown-space", "write `space: input`"),
         ("format: int16", "unknown-format", "write `type: s16`"),
         ("unit: 10", "wrong-type", "a unit is a symbol such as `Hz`"),
+        ("default: 50.0, scale: value = raw * 0.1", "wrong-type", "`default_in_units: 50.0`"),
         ("default: auto, enum: {0: off, 1: on}", "bad-number", "write a number, or one of off, on"),
         ("enum: {0: off, 1-3: on}", "bad-number", "write a row for each number"),
         ("enum: {0: {name: off, title: Off}}", "unknown-key", "`{name: off, en: Off}`"),
@@ -223,15 +224,23 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("range: 0..FFFF", "unknown-point", "if a hexadecimal number is meant, write 0FFFFh"),
         ('range: ">= 0"', "bad-formula", "an interval has both ends"),
         ("range: 0.0..50.0", "bad-number", "write `range_in_units: 0.0..50.0`"),
-        ("keeps: eeprom", "unknown-command", "write `keeps: yes`"),
+        ("keeps: eeprom", "wrong-choice", "write `keeps: yes`"),
+        ("keeps: enter", "wrong-choice", "is named as `keep_with: enter`"),
         ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
-        ("sets: 4", "wrong-type", "has its address"),
+        ("sets: 4", "missing-key", "`sets: {2: {at: …}}`"),
         ("title: {english: X}", "unknown-key", "write `en`"),
-        ("keeps: choice", "wrong-choice", "write `keeps: yes`, `keeps: no`, or the command that stores"),
+        (
+            "keeps: choice",
+            "wrong-choice",
+            "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores",
+        ),
         ("type", "yaml-comma", "give it a value: `type: …`"),
         ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
         ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
         ("type: bool", "wrong-choice", "one bit of a word is `bits: 0`"),
+        ("default: $2a", "bad-number", "write 2Ah"),
+        ("default: 16#FF", "bad-number", "write 0xFF"),
+        ("default: 2a hex", "bad-number", "write 2Ah"),
     ],
 )
 def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: str) -> None:
@@ -248,7 +257,7 @@ def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: s
     ],
 )
 def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: {name}, at: 1}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: {name}, at: 1}}\n", "utf-8")
     report = Report()
     load_device(tmp_path / "device.yaml", report)
     assert report.findings[0].hint == hint
@@ -256,14 +265,14 @@ def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
 
 @pytest.mark.parametrize("at", ["1 - 2", "1..2", "[1, 2]"])
 def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: {at}, type: u32}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: {at}, type: u32}}\n", "utf-8")
     report = Report()
     load_device(tmp_path / "device.yaml", report)
     assert "write `at: 1`" in (report.findings[0].hint or "")
 
 
 def test_an_address_may_be_computed(tmp_path: Path) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: 1029h - 1}}\n", "utf-8")
+    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: 1029h - 1}}\n", "utf-8")
     report = Report()
     device = load_device(tmp_path / "device.yaml", report)
     assert device is not None
@@ -283,13 +292,19 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
         ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
         ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),
-        ("- group: main", "- name: main", "did you mean `group`?"),
+        ("group: main", "name: main", "did you mean `group`?"),
         ('source: {document: manual, section: "1"}', "source: page 5", 'section: "page 5"}`'),
         ("space: holding", "space: HR", "write `space: holding`"),
-        ("space: holding", "space: holding\n  numbering: {modicon: +1}", "write a formula: wire + 1"),
-        ("groups:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroups:", "write `bytes: 01 03 00`"),
-        ("groups:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroups:", "write `bytes: 01 03`"),
-        ("groups:", "points: [{name: x, at: 1}]\ngroups:", "points stand in a group"),
+        ("space: holding", "space: holding\nnumbering: {modicon: +1}", "write a formula: wire + 1"),
+        ("group:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroup:", "write `bytes: 01 03 00`"),
+        ("group:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroup:", "write `bytes: 01 03`"),
+        ("---", "groups: [{group: a, space: holding}]\n---", "a group is a part: `group: …`, `space: …` and `points"),
+        ("---", "access: rw\n---", "below a line `---` or in a file under `parts`"),
+        ("group: main", "group: {name: main}", "write `group: main` and its other keys below"),
+        ("group: main", "group: main\nvendor: Maker", "this stands in the head of device.yaml"),
+        ("group: main", "group: main\nwords: 3", "a count of words is `length: 3`"),
+        ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
+        ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
@@ -304,7 +319,7 @@ def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: 
 
 def test_a_number_for_people_is_no_address(tmp_path: Path) -> None:
     file = tmp_path / "device.yaml"
-    file.write_text(f"{HEAD}  - {{name: made, at: 4x0010}}\n", "utf-8")
+    file.write_text(f"{HEAD}- {{name: made, at: 4x0010}}\n", "utf-8")
     report = Report()
     load_device(file, report)
     assert "on the wire it is 9, in the space `holding`" in (report.findings[0].hint or "")
@@ -339,7 +354,7 @@ WIDE = [
 @pytest.mark.parametrize(("factor", "scale", "way_out"), WIDE)
 def test_a_scale_that_is_too_wide_names_a_way_that_works(factor: str, scale: str, way_out: str, tmp_path: Path) -> None:
     kind = "" if "type" in factor else ", type: u32"
-    said = f"  - {{name: k, at: 10, {factor}{kind}}}\n  - {{name: a, at: 0, type: u32, {scale}}}\n"
+    said = f"- {{name: k, at: 10, {factor}{kind}}}\n- {{name: a, at: 0, type: u32, {scale}}}\n"
     (one,) = found_in(said, tmp_path)
     assert "bits" in one.message
     assert one.hint is not None

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from itertools import islice
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from mutants.changes import Change, places_of
 from mutants.equivalents import FILE, entry, named
 from mutants.fact_changes import changes_of, siblings
 from mutants.facts import read
+from mutants.generator import entering
 from mutants.judges import KILLED, LEFT_OUT, SURVIVED, OfC, Verdict, conditions_around
+from mutants.noticing import FileOfTests, Witness
 from mutants.results import Results
+from mutants.rooms import PACKAGE, place_of, room_of, rooms
 from mutants.sources import Source, drawn, mutant_of, sources_of
 from mutants.table import MARKS, Table
 from toolchains import tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 C = """\
 /* 1 head */
@@ -223,3 +225,94 @@ def test_a_mutant_that_vectors_see_is_killed_and_one_that_they_do_not_survives(b
     }
     assert verdicts == {"4": KILLED, "3": SURVIVED, "(": LEFT_OUT}
     assert (tmp_path / "work/c/c/dev.h").read_text("utf-8") == source.text
+
+
+HOUSE = '''\
+"""Docs 1."""
+from functools import lru_cache
+Pair = tuple["Later", int]
+@lru_cache(maxsize=4)
+def larger(first: int, second: int = 2) -> int:
+    """More 3."""
+    assert first > 5
+    if first is None:
+        raise AssertionError("never 6")
+    names = [name for name in "a b" if name in ("x", f"{first}y") and second]
+    return max(first, second)
+if TYPE_CHECKING:
+    LATER = 7
+'''
+
+
+def test_the_compiler_changes_where_it_says_what_to_do() -> None:
+    found = {
+        what: {(HOUSE[one.start : one.end], one.after) for place in places for one in place}
+        for what, places in places_of("generator", HOUSE).items()
+    }
+    assert {before for before, _ in found["number"]} == {"2"}
+    assert found["return"] == {("max(first, second)", "None")}
+    assert found["function"] == {("max", "min")}
+    assert found["arguments"] == {("max(first, second)", "max(second, first)")}
+    assert found["comparison"] >= {("first is None", "first is not None")}
+    assert ("first is None", "not (first is None)") in found["condition"]
+    assert {after for _, after in found["part of a condition"]} == {"(name in ('x', f'{first}y'))", "(second)"}
+    assert {"statement", "named constant"}.isdisjoint(found)
+    assert not any("Later" in before for some in found.values() for before, _ in some)
+
+
+def test_every_module_lies_in_a_room_that_its_folder_names() -> None:
+    known = rooms()
+    assert sum(map(len, known.values())) == len(list(PACKAGE.rglob("*.py")))
+    assert room_of(("text.py",)) == "fieldscribe"
+    assert room_of(("cli", "check.py")) == "cli"
+    assert room_of(("targets", "__init__.py")) == "targets"
+    assert room_of(("targets", "c", "points.py")) == "targets/c"
+    assert room_of(("families", "can", "checks", "worked_frames.py")) == "families/can"
+    assert set(known) >= {"fieldscribe", "cli", "targets", "targets/c", "families/can"}
+
+
+def test_a_mutant_of_the_compiler_lies_in_a_function() -> None:
+    (source,) = (one for one in rooms()["fieldscribe"] if one.path.endswith("/text.py"))
+    inside = source.text.index("return", source.text.index("\ndef line("))
+    mutant = mutant_of(source, Change("return", inside, inside + 6, "yield"))
+    assert place_of(mutant) == "fieldscribe/text.py::line"
+    assert place_of(mutant_of(source, Change("number", 0, 3, "'''"))) == "fieldscribe/text.py::"
+
+
+def test_who_enters_a_function_judges_it() -> None:
+    first = Witness("first", 1.0, frozenset({"a.py::f", "a.py::"}))
+    second = Witness("second", 1.0, frozenset({"b.py::g"}))
+    file = FileOfTests(Path("test_x.py"), (first, second), first.enters | second.enters)
+    assert entering(file, "a.py::f") == [first]
+    assert entering(file, "a.py::g") == []
+    assert entering(file, "a.py::") == [first], "what runs at import is noticed by who enters the module"
+
+
+JUDGED = """\
+import sys
+from pathlib import Path
+from mutants.changes import Change
+from mutants.generator import GeneratorJudge
+from mutants.rooms import rooms
+from mutants.sources import mutant_of
+
+(source,) = (one for one in rooms()["fieldscribe"] if one.path.endswith("/{file}.py"))
+judge = GeneratorJudge(Path(sys.argv[1]), [], [Path("{test}")])
+for before, after in {changes}:
+    start = source.text.index(before)
+    print(judge.verdict(mutant_of(source, Change("x", start, start + len(before), after))).outcome)
+"""
+
+
+@pytest.mark.full(seconds=8)
+def test_a_mutant_of_the_compiler_is_judged_by_tests_that_enter_it(tmp_path: Path) -> None:
+    """In a process of its own, which must not have loaded the compiler."""
+    changes = [
+        ("return ", "return None and "),
+        ("import re", "import nothing_of_that_name"),
+        ("import re", "import re "),
+    ]
+    program = JUDGED.format(file="text", test=Path(__file__).parent / "test_text.py", changes=changes)
+    command = [sys.executable, "-c", program, str(tmp_path)]
+    done = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+    assert done.stdout.split("\n") == [KILLED, LEFT_OUT, SURVIVED, ""]

@@ -5,7 +5,6 @@ Seeded and bounded; `FIELDSCRIBE_MUTANTS=20000` asks for more of the same row.
 
 from __future__ import annotations
 
-import copy
 import os
 import random
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
-from test_robust import WHOLES, as_yaml, changed, nodes
+from test_robust import WHOLES, as_texts, as_yaml, changed, nodes, write_files
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,8 +35,8 @@ WRONG: tuple[Any, ...] = (
 """Values of every type that some key takes, and that most do not."""
 
 
-def mutant(seed: int) -> str:
-    """One device as text, with one to three places changed; in every second one a value of another place stands."""
+def mutant(seed: int) -> dict[str, str]:
+    """The texts of one device, with one to three places changed; in every second one the value of another stands."""
     chance = random.Random(seed)
     start = WHOLES[seed % len(WHOLES)]
     device = start
@@ -50,22 +49,24 @@ def mutant(seed: int) -> str:
             device = changed(device, path, ... if chance.random() < 0.1 else str(new) if quoted else new)
         except (KeyError, IndexError, TypeError, ValueError):
             continue  # an earlier change took the place away
-    return as_yaml(device)
+    return as_texts(device)
 
 
-def aliased(seed: int) -> str:
-    """One device as text in which a value stands at two places, the second time as an alias."""
+def aliased(seed: int) -> dict[str, str]:
+    """The texts of one device in which a value stands at two places of a file, the second time as an alias."""
     chance = random.Random(seed)
-    start: dict[str, Any] = copy.deepcopy(WHOLES[seed % len(WHOLES)])
+    files: dict[str, Any] = WHOLES[seed % len(WHOLES)]
+    name = chance.choice(sorted(files))
+    (start,) = files[name]
     paths = [path for path in nodes(start) if isinstance(_at(start, path), dict | list)]
     places = sorted(range(len(paths)), key=lambda _: chance.random())[:2]
     first, second = (paths[place] for place in sorted(places))
     if first == second[: len(first)]:
-        return as_yaml(start)
+        return as_texts(files)
     mark, other = "\x01first\x01", "\x01second\x01"
     text = as_yaml(changed(changed(start, second, other), first, mark))
     value = as_yaml(_at(start, first))
-    return text.replace(as_yaml(mark), f"&a {value}").replace(as_yaml(other), "*a ")
+    return {**as_texts(files), name: text.replace(as_yaml(mark), f"&a {value}").replace(as_yaml(other), "*a ")}
 
 
 def _at(value: Any, path: tuple[Any, ...]) -> Any:
@@ -74,12 +75,10 @@ def _at(value: Any, path: tuple[Any, ...]) -> Any:
     return value
 
 
-def _compiles(text: str, folder: Path) -> bool:
+def _compiles(texts: dict[str, str], folder: Path) -> bool:
     """Whether it passes `check`; then every target can do it."""
-    file = folder / "device.yaml"
-    file.write_text(text, "utf-8", errors="surrogatepass")
     report = Report()
-    device = load_device(file, report)
+    device = load_device(write_files(folder / "device", texts), report)
     assert (device is None) == report.has_errors
     for one in report.findings:
         assert one.message.isprintable()

@@ -24,16 +24,16 @@ documents: {manual: {title: The manual, language: en}}
 bus: {units: 1..4, strikes: 90, source: {section: Line}}
 frames:
   - {name: ring_low, bytes: 31 42, says: {low: 1}, line: 7}
-groups:
-  - group: tones
-    title: Tones
-    source: {section: Tones}
-    space: tone
-    access: w
-    type: u16
-    points:
-      - {name: high, at: 0, line: 3}
-      - {name: low, at: 1, range: 0..9, line: 4}
+---
+group: tones
+title: Tones
+source: {section: Tones}
+space: tone
+access: w
+type: u16
+points:
+  - {name: high, at: 0, line: 3}
+  - {name: low, at: 1, range: 0..9, line: 4}
 """
 
 

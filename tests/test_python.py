@@ -419,7 +419,7 @@ def test_old_names_warn(package: Any, drive: Any) -> None:
 
 def test_errata_are_ids_of_those_that_change_a_fact(tmp_path: Path) -> None:
     device = sample_device()
-    wire = replace(device.errata[0], facts=("wire",))
+    wire = replace(device.errata[0], facts=(("wire", "4137"),))
     points = (point("one", 1, errata=("a020_wire", "note")), point("two", 2, errata=("note",)))
     made = replace(sample_device(points), errata=(wire, replace(wire, id="note", facts=())), blocks={}, id="erred")
     text = (write_package(made, tmp_path) / "erred" / "points.py").read_text("utf-8")

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import wrong_bytes
 from c_device import kitchen
-from fieldscribe.conversation.options import Options
-from fieldscribe.families.can.conversation import decode
+from fieldscribe.asked import Options
+from fieldscribe.conversation.listener import decode
 from fieldscribe.families.can.frames import CanFrame, parse
 from python_families import AsyncCanUnit, CanUnit, can_device
 from python_package import error, imported, typed_findings, write_package
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
     from fieldscribe.model import Message
 
 

@@ -27,23 +27,24 @@ family: modbus
 documents: {manual: {title: Manual, language: en}}
 variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
 bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: actual, at: 9, access: r}
-  - {name: highest, at: 10, range: 0..400}
-  - {name: cascade, at: 11, range: 0 .. highest.raw, when: model == pro, special: {50: {name: off, en: "Off"}}}
-  - {name: output, at: 12, access: r}
-  - {name: newer, at: 14, access: r, since: firmware 2}
-  - {name: trend, at: 15, access: r, when: model == pro and highest == 1}
-- group: other
-  space: holding
-  source: {document: manual, section: "2"}
-  points:
-  - {name: last, at: 13, access: r}
-  - {name: final, at: 16, access: r}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: actual, at: 9, access: r}
+- {name: highest, at: 10, range: 0..400}
+- {name: cascade, at: 11, range: 0 .. highest.raw, when: model == pro, special: {50: {name: off, en: "Off"}}}
+- {name: output, at: 12, access: r}
+- {name: newer, at: 14, access: r, since: firmware 2}
+- {name: trend, at: 15, access: r, when: model == pro and highest == 1}
+---
+group: other
+space: holding
+source: {document: manual, section: "2"}
+points:
+- {name: last, at: 13, access: r}
+- {name: final, at: 16, access: r}
 """
 
 

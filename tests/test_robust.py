@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,24 +43,9 @@ HOSTILE = (
 
 
 def whole(folder: str) -> dict[str, Any]:
-    """A device of several files as one mapping, so that it can be changed as a whole."""
-    base = DEVICES / folder
-    loader = yaml.BaseLoader
-    header: dict[str, Any] = yaml.load((base / "device.yaml").read_text("utf-8"), Loader=loader)
-    header["groups"] = []
-    for name in header.pop("parts"):
-        part = yaml.load((base / name).read_text("utf-8"), Loader=loader)
-        group = {key: part.pop(key) for key in list(part) if key not in _COMMON}
-        if "group" in group:
-            header["groups"].append(group)
-        for key, value in part.items():
-            header.setdefault(key, type(value)())
-            header[key] = [*header[key], *value] if isinstance(value, list) else {**header[key], **value}
-    typed: dict[str, Any] = _typed(header)
-    return typed
-
-
-_COMMON = (*("units", "enums", "formats", "records", "bus", "messages", "telegrams", "commands", "frames", "errata"),)
+    """The documents of a device's files by name, as plain values that can be changed."""
+    texts = {path.name: path.read_text("utf-8") for path in sorted((DEVICES / folder).glob("*.yaml"))}
+    return {name: _typed(list(yaml.load_all(text, Loader=yaml.BaseLoader))) for name, text in texts.items()}
 
 
 def _typed(value: Any, key: str = "") -> Any:
@@ -75,7 +61,7 @@ def _typed(value: Any, key: str = "") -> Any:
 
 _NUMBERS = {"fieldscribe", "line", "max", "bytes", "broadcast", "wears", "choices", "decimals", "active"} | {
     *("1", "10000"),  # the steps
-    *("words", "characters", "count", "index", "set", "pkw", "bitrate", "identifier_bits", "error", "bit"),
+    *("length", "characters", "count", "index", "set", "pkw", "bitrate", "identifier_bits", "error", "bit"),
 }
 
 
@@ -87,6 +73,31 @@ def load_text(tmp_path: Path, text: str | bytes) -> Report:
     device = load_device(file, report)
     assert (device is None) == report.has_errors
     return report
+
+
+def load_files(tmp_path: Path, files: dict[str, Any]) -> Report:
+    """What the compiler finds in the values of some files."""
+    report = Report()
+    device = load_device(write_files(tmp_path, as_texts(files)), report)
+    assert (device is None) == report.has_errors
+    return report
+
+
+def write_files(folder: Path, texts: dict[str, str]) -> Path:
+    """Writes the files of a device, and no others; its device.yaml."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for name, text in texts.items():
+        (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
+    return folder / "device.yaml"
+
+
+def as_texts(files: dict[str, Any]) -> dict[str, str]:
+    """The text of each file: its documents."""
+    return {
+        name: "\n---\n".join(map(as_yaml, value)) if isinstance(value, list) else as_yaml(value)
+        for name, value in files.items()
+    }
 
 
 def as_yaml(value: Any) -> str:
@@ -171,10 +182,10 @@ CAREFUL = settings(
 )
 
 
-@pytest.mark.parametrize("device", WHOLES, ids=lambda one: one["device"])
-def test_the_whole_device_in_one_file_is_fine(tmp_path: Path, device: dict[str, Any]) -> None:
+@pytest.mark.parametrize("device", WHOLES, ids=lambda one: one["device.yaml"][0]["device"])
+def test_the_whole_device_is_fine(tmp_path: Path, device: dict[str, Any]) -> None:
     """What the mutations start from has no errors."""
-    assert load_text(tmp_path, as_yaml(device)).findings == ()
+    assert load_files(tmp_path / "device", device).findings == ()
 
 
 @CAREFUL
@@ -187,7 +198,7 @@ def test_wrong_values_anywhere(tmp_path: Path, changes: list[tuple[tuple[Any, tu
             device = changed(device, path, wrong)
         except (KeyError, IndexError, TypeError, ValueError):
             continue  # an earlier change took the place away
-    for one in load_text(tmp_path, as_yaml(device)).findings:
+    for one in load_files(tmp_path / "device", device).findings:
         assert one.message.isprintable()
         assert one.hint
 
@@ -238,7 +249,7 @@ _FREE = {
 } | {*("quantity", "x-note", "title", "note", "timing")}
 
 
-@pytest.mark.parametrize("start", WHOLES, ids=lambda one: one["device"])
+@pytest.mark.parametrize("start", WHOLES, ids=lambda one: one["device.yaml"][0]["device"])
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any]) -> None:
     """Any text in every free-text field compiles, and no target stumbles over it."""
@@ -257,10 +268,8 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
             short = text[:limit] + (str(paths.index(path)) if path[-1] == "code" else "")
             device = changed(device, path, short)
     device = json.loads(json.dumps(device).replace('"S01"', '"speed"'))
-    file = tmp_path / "device.yaml"
-    file.write_text(as_yaml(device), "utf-8")
     report = Report()
-    loaded = load_device(file, report)
+    loaded = load_device(write_files(tmp_path / "device", as_texts(device)), report)
     assert report.findings == ()
     assert loaded is not None
     for _, name, made in outputs(loaded, TARGETS):
@@ -274,12 +283,13 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
 @pytest.mark.full(seconds=25)
 def test_rows_cannot_explode(tmp_path: Path) -> None:
     """A thousand rows of four thousand points each end in a finding."""
-    rows = ",\n".join(f"{{name: a{row}, at: {{number: 1, sets: 64, indices: 64}}}}" for row in range(1000))
-    group = f"{{group: a, space: holding, addressing: number, source: {{document: m, section: x}}, points: [{rows}]}}"
-    device = {**SINK, "groups": []}
-    text = as_yaml(device).replace('"groups": []', f'"groups": [{group}]')
+    rows = ",\n".join(f"{{name: a{row}, at: 1, sets: 64, indices: 64}}" for row in range(1000))
+    group = "group: a\nspace: holding\naddressing: number\nsource: {document: manual, section: x}"
+    texts = {**as_texts(SINK), "words.yaml": f"{group}\npoints: [{rows}]"}
     started = time.process_time()
-    rules = {one.rule for one in load_text(tmp_path, text).findings}
+    report = Report()
+    load_device(write_files(tmp_path / "device", texts), report)
+    rules = {one.rule for one in report.findings}
     assert "too-many-items" in rules
     assert time.process_time() - started < 60
 
@@ -320,9 +330,9 @@ def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
     """Thousands of points that each need the next one end in findings or a device."""
     head = (DEVICES / "kitchen_sink" / "device.yaml").read_text("utf-8").partition("variants:")[0]
     bus = "bus: {framings: [rtu], units: 1..9, functions: {03h: read}}\n"
-    group = 'groups:\n- group: main\n  space: holding\n  source: {document: manual, section: "1"}\n  points:\n'
+    group = '---\ngroup: main\nspace: holding\nsource: {document: manual, section: "1"}\npoints:\n'
     for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):
-        points = [f"  - {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
+        points = [f"- {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
         started = time.process_time()
         load_text(tmp_path, head + bus + group + "".join(points))
         assert time.process_time() - started < 10

@@ -19,7 +19,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import left_out, wrapped
+from fieldscribe.targets.rust.documentation import left_out, point_doc, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint
 
 ROOT = Path(__file__).resolve().parents[1]
-SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
+SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
 PROGRAMS = Path(__file__).resolve().parent / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
 MODELS: dict[str, Callable[[], Device]] = {
@@ -91,7 +91,8 @@ def write_workspace(out: Path) -> None:
     for device in SHIPPED:
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
         shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
-    members = json.dumps([*RUNTIMES, *MODELS, *SHIPPED])
+    devices = [*MODELS, *SHIPPED]
+    members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
     (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
 
 
@@ -103,7 +104,7 @@ def bring_up_to_date(kept: Path, made: Path) -> None:
         if not place.is_file() or place.read_bytes() != text:
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(text)
-    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/tests/*.rs")):
+    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/**/tests/*.rs")):
         if place.relative_to(kept) not in texts:
             place.unlink()
 
@@ -238,12 +239,56 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     assert max(versions) <= 85
 
 
+def test_a_device_needs_the_runtime_alone(tmp_path: Path) -> None:
+    """A workspace takes the device and the runtime; the vectors stay in a crate of their own."""
+    write_crate(sample_device(), tmp_path / "made")
+    for name in ("sample_drive", "fieldscribe_runtime"):
+        shutil.copytree(tmp_path / "made/rust" / name, tmp_path / name)
+    (tmp_path / "Cargo.toml").write_text('[workspace]\nresolver = "2"\nmembers = ["sample_drive"]\n', encoding="utf-8")
+    done = cargo(tmp_path, "metadata", "--format-version=1")
+    assert done.returncode == 0, done.stderr
+    assert "fieldscribe_conformance" not in done.stdout
+
+
+def test_what_a_device_has_not_makes_no_module() -> None:
+    device = sample_device()
+    assert "pub mod exceptions {" in sources(device)["lib.rs"]
+    without = replace(device, bus=replace(device.bus, exceptions=()), commands=(), blocks={})
+    assert re.findall(r"pub mod (\w+) ?\{", sources(without)["lib.rs"]) == []
+
+
+def test_numbers_of_several_bits_are_shown_by_name() -> None:
+    switch = Flag(0, 2, "switch", titles("Switch"), 1, (entry(0, "off"), entry(3, "on")))
+    text = sources(sample_device((point("status", 0, flags=(switch,)),)))["flags.rs"]
+    assert 'const NAMES_0: runtime::Names = &[(0, "off"), (3, "on")];' in text
+    assert 'runtime::Flag::named("switch", 0x0003, NAMES_0)' in text
+
+
+def test_a_step_is_information() -> None:
+    points = [one for one in kitchen_sink().points if one.generated]
+    docs = {one.item: " ".join(point_doc(one, ())) for one in points}
+    stepped = {one.item for one in points if one.steps}
+    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split())}
+    assert stepped
+
+
+@pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
+def test_the_first_page_runs(workspace: Path, device: str) -> None:
+    """What it shows compiles; nothing answers it."""
+    done = cargo(workspace, "test", "--quiet", "--package", device, "--doc")
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (workspace / device / "src/lib.rs").read_text("utf-8")
+    shown = {"kitchen_sink": (".write::<", ".write_with::<", "Reading::Special", ".read_block(", ".command(")}
+    assert all(one in page for one in shown.get(device, (".read::<",)))
+    assert (".receive::<" in page) is (device == "kitchen_can")
+
+
 LONG = pytest.mark.full(seconds=6)
 
 
 @pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
 def test_conforms(workspace: Path, device: str) -> None:
-    done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", f"{device}_conformance", "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
     counts = counts_of((workspace.parent / "vectors" / f"{device}.txt").read_text("utf-8"), "rust")
     passed = dict(re.findall(r"^(\w+) (\d+) passed, 0 failed$", done.stdout, re.MULTILINE))
@@ -257,7 +302,7 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
     assert changed != text
     (tmp_path / "wrong.txt").write_text(changed, encoding="utf-8")
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
 
@@ -268,7 +313,7 @@ def test_vectors_of_another_description_are_refused(
     text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
     (tmp_path / "other.txt").write_text(text.replace("\t1.2.0\t", "\t1.2.1\t", 1), encoding="utf-8")
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "other.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert "is of another description" in done.stderr
 
@@ -277,7 +322,7 @@ def test_vectors_that_are_not_there_say_what_to_set(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "none.txt"))
-    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
     assert done.returncode != 0
     assert "set FIELDSCRIBE_VECTORS to the absolute path of sample_drive.txt" in done.stderr
     assert "panicked" not in done.stderr
@@ -329,11 +374,13 @@ def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: py
 @pytest.mark.parametrize("name", FAILS)
 def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> None:
     source = PROGRAMS / "fails" / f"{name}.rs"
-    expected = source.read_text("utf-8").splitlines()[0].removeprefix("// error: ")
+    text = source.read_text("utf-8")
+    expected = text.splitlines()[0].removeprefix("// error: ")
     out = shutil.copytree(libraries, tmp_path / "out")
-    done = rustc(source, out, "--emit=metadata", "--error-format=short")
+    done = rustc(source, out, "--emit=metadata")
     assert done.returncode != 0
     assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
+    assert all(said in done.stderr for said in re.findall("^// says: (.*)$", text, re.MULTILINE)), done.stderr
 
 
 @pytest.mark.parametrize(

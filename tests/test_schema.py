@@ -120,25 +120,25 @@ def test_both_readings_agree(file: Path) -> None:
     """On every description, every test device and every bad case that is YAML at all."""
     report = Report()
     source = read_source(file, report)
-    root = load(source, report) if source is not None else None
-    if root is not None and not report.has_errors:
-        agree(root)
+    for root in load(source, report) if source is not None else ():
+        if root is not None and not report.has_errors:
+            agree(root)
 
 
 def test_descriptions_are_valid() -> None:
     """The real devices and the test devices have the right shape."""
     for file in FILES:
         if "bad" not in file.parts:
-            root = load(SourceFile(file.name, file.read_text("utf-8")), Report())
-            assert root is not None
-            assert agree(root), file
+            for root in load(SourceFile(file.name, file.read_text("utf-8")), Report()):
+                assert root is not None
+                assert agree(root), file
 
 
 @pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.full) for seed in range(2, 13))])
 def test_both_readings_agree_on_mutations(seed: int) -> None:
     """Wrong values at random places of the devices that use everything."""
     dice = random.Random(seed)
-    places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str)]
+    places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str) if len(path) > 2]
     wrongs = [
         None,
         True,
@@ -161,7 +161,7 @@ def test_both_readings_agree_on_mutations(seed: int) -> None:
     for _ in range(100):
         start, path = dice.choice(places)
         device = changed(start, path, dice.choice(wrongs))
-        root = load(SourceFile("mutated.yaml", as_yaml(device)), Report())
+        (root,) = load(SourceFile("mutated.yaml", as_yaml(device[path[0]][path[1]])), Report())
         assert root is not None
         valid += agree(root)
     assert 2 < valid < 85

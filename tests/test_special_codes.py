@@ -200,7 +200,7 @@ def test_a_real_drive_is_switched_off_by_name(capsys: Any) -> None:
 def test_export_lists_codes() -> None:
     exported: Any = json.loads(json.dumps(export_model(device())))
     points = {one["name"]: one for one in exported["points"]}
-    assert exported["format"] == 2
+    assert exported["format"] == 3
     assert points["temperature"]["special"] == [
         {"raw": [-32768, -32768], "name": "not_available", "no_value": True, "writable": False},
         {"raw": [32766, 32766], "name": "out_of_order", "no_value": False, "writable": False},

@@ -9,18 +9,19 @@ import pytest
 from asked import asked
 from devices_by_family import coded, shipped, uss_bytes
 from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.options import Options, refuse_foreign
+from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.others import explain_others
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.samples import sample_raw
-from fieldscribe.conversation.selection import UnclearError, choose_point, choose_variants
+from fieldscribe.conversation.requests import frames_for
+from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
-from fieldscribe.families.uss.conversation import decode, frames_for
-from fieldscribe.families.uss.conversation.listener import UssListener
+from fieldscribe.families.uss.speech import UssSpeech
 from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
+from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from models import sample_device
@@ -28,7 +29,7 @@ from models import sample_device
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 DEVICE = shipped("siemens_mm4")
 SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])
@@ -254,11 +255,11 @@ def test_links_that_the_device_does_not_know(options: Options, why: str) -> None
     st.sampled_from([None, "request", "response"]),
 )
 def test_any_bytes_are_safe(frames: list[bytes], framing: str, words: int, direction: str | None) -> None:
-    listening = UssListener(DEVICE, {}, Link(words, 2), framing)
+    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, Link(words, 2), framing, direction))
     for data in frames:
         even = data[: len(data) & ~1]
         for whole in (data, telegram(1, [int.from_bytes(even[at : at + 2], "big") for at in range(0, len(even), 2)])):
-            heard = listening.hear(whole, direction)
+            heard = listening.hear(whole)
             assert heard.summary
             assert heard.as_data()
 
@@ -279,7 +280,7 @@ def test_answers_without_faults_are_those_of_the_reference(
     part = (code << 12 | number, place, value >> 16, value & 0xFFFF)[: link.sent]
     answer = telegram(1, (*part, 0, 0))
     status = parse(DEVICE.bus, link, asked, answer).status
-    listening = UssListener(DEVICE, {}, link)
+    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, link))
     listening.hear(telegram(1, (*(0x143A, 0, 0, 0)[: link.sent], 0, 0)))
     heard = listening.hear(answer)
     assert (heard.kind in ("reply", "exception")) == (status in ("ok", "refused", "no_rights", "no_answer"))

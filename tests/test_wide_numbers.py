@@ -70,19 +70,19 @@ title: Test device
 family: modbus
 documents: {manual: {title: Manual, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
-groups:
-- group: main
-  space: holding
-  source: {document: manual, section: "1"}
-  points:
-  - {name: a, at: 0, scale: value = raw / 123456789012345678901234567}
-  - {name: first, at: 1, type: u32}
-  - {name: second, at: 3, type: u32}
-  - {name: b, at: 5, type: u64, scale: value = raw * first * second}
-  - {name: exponent, at: 9, type: s16, range: -9..9}
-  - {name: c, at: 10, type: u64, access: r, scale: value = raw * first * 10 ** exponent}
-  - {name: d, at: 14, type: s64, scale: value = raw / first}
-  - {name: e, at: 18, type: u64, access: w, scale: value = raw * 10 ** exponent}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: a, at: 0, scale: value = raw / 123456789012345678901234567}
+- {name: first, at: 1, type: u32}
+- {name: second, at: 3, type: u32}
+- {name: b, at: 5, type: u64, scale: value = raw * first * second}
+- {name: exponent, at: 9, type: s16, range: -9..9}
+- {name: c, at: 10, type: u64, access: r, scale: value = raw * first * 10 ** exponent}
+- {name: d, at: 14, type: s64, scale: value = raw / first}
+- {name: e, at: 18, type: u64, access: w, scale: value = raw * 10 ** exponent}
 """
 
 
@@ -128,7 +128,7 @@ SURVIVORS = """
 )
 def test_every_raw_number_survives_its_value(scale: str, top: int, bottom: int, offset: int, tmp_path: Path) -> None:
     """What encodes values finds each raw number again, in the steps of all languages; without, it might not."""
-    head = BEYOND[: BEYOND.index("  - {name: a")]
+    head = BEYOND[: BEYOND.index("- {name: a")]
     for exponent, encodes in ((50, True), (53, False)):
         most = (1 << exponent) - 20000
         file = tmp_path / f"{exponent}.yaml"

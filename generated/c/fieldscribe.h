@@ -8,9 +8,11 @@
  * says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames that the program uses.
  *
  * ..._encode holds a value against the limits of the point. fieldscribe_put_u16 and its like do not: they put any raw
- * number into words that has no more bits than the point, so take what ..._encode gave, or ask ..._check. Words come
- * with how many there are, and too few are refused. Families say how a point is found among others: in a block
- * (fieldscribe_modbus_words_in), a telegram (fieldscribe_can_received), process data (fieldscribe_uss_words_heard).
+ * number into words that has no more bits than the point, so take what ..._encode gave, or ask ..._check. The macro of
+ * a special code is such a raw number as it stands. `in steps of` in a comment is what the device makes of values:
+ * nothing here holds them to it. Words come with how many there are, and too few are refused. Families say how a point
+ * is found among others: in a block (fieldscribe_modbus_words_in), a telegram (fieldscribe_can_received), process data
+ * (fieldscribe_uss_words_heard).
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
@@ -1468,7 +1470,7 @@ typedef struct fieldscribe_text {
 
 /*
  * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
- * stored, when one of both has fewer words than the text: `count` and `room` say how many.
+ * stored, when one of both is not there or has fewer words than the text: `count` and `room` say how many.
  */
 FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
@@ -1494,7 +1496,7 @@ extern "C" {
 static bool fieldscribe_layout_fits(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, fieldscribe_type type)
 {
-    return (layout->type == (uint8_t)type) && (words != NULL) && (count >= layout->words);
+    return (layout != NULL) && (words != NULL) && (layout->type == (uint8_t)type) && (count >= layout->words);
 }
 
 /* Where a word stands; `significance` counts from the low word. */
@@ -1733,7 +1735,7 @@ bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room)
 {
     size_t at;
-    if ((count < text->words) || (room < text->words)) {
+    if ((words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
         return false;
     }
     for (at = 0U; at < text->words; ++at) {
@@ -1746,7 +1748,7 @@ bool fieldscribe_put_text(
     const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room)
 {
     size_t at;
-    if ((count < text->words) || (room < text->words)) {
+    if ((words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
         return false;
     }
     for (at = 0U; at < text->words; ++at) {

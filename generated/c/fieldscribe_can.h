@@ -9,16 +9,18 @@
  *
  *     const fieldscribe_can_rw *const point = &woodward_mpu2s_password_level_2_frame;
  *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
+ *     discard();      (frames that have come in: a late answer would be taken for this one)
  *     send(&frame);
  *     (frames come; each is offered, and one with another status than OK is none of this answer)
  *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, &word);
  *     fits = fieldscribe_take_u16(point->layout, &word, 1U, &raw);
  *
- * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(point->layout, raw, &word, 1U)
- * puts any that fits into the word, then fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame). A point
- * that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back. Where
- * answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is, and fieldscribe_can_id which
- * identifier a filter has to let through.
+ * Writing one: ..._encode says whether the number may be written, and the macro of a special code is such a raw number
+ * as it stands; fieldscribe_put_u16(point->layout, raw, &word, 1U) puts any that fits into the word, then
+ * fieldscribe_can_write(&dialogue, unit, &point->write, word, &frame); fieldscribe_can_write_answer is OK for the frame
+ * with which the device took it. A point that only some bits of a word are has `update` for `write`: read its word
+ * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
+ * long one is, and fieldscribe_can_id which identifier a filter has to let through.
  */
 #include "fieldscribe.h"
 
@@ -549,7 +551,7 @@ fieldscribe_can_receiver fieldscribe_can_listen(
     const size_t frames = fieldscribe_can_slots(telegram);
     fieldscribe_can_receiver receiver;
     size_t at;
-    receiver.slot_count = (count < frames) ? 0U : frames;
+    receiver.slot_count = ((slots == NULL) || (count < frames)) ? 0U : frames;
     for (at = 0U; at < receiver.slot_count; ++at) {
         slots[at] = silent;
     }
@@ -641,7 +643,7 @@ fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *
     const uint8_t low_place = (uint8_t)(what->low % per_frame);
     const fieldscribe_can_slot *const high = fieldscribe_can_heard_slot(receiver, what->high);
     const fieldscribe_can_slot *const low = fieldscribe_can_heard_slot(receiver, what->low);
-    if (count < needed) {
+    if ((words == NULL) || (count < needed)) {
         return FIELDSCRIBE_CAN_BUFFER_TOO_SMALL;
     }
     if ((high == NULL) || (low == NULL)) {
@@ -661,7 +663,8 @@ fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *
 fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_text_heard *what, uint16_t *words, size_t count)
 {
-    fieldscribe_can_status status = (count < what->words) ? FIELDSCRIBE_CAN_BUFFER_TOO_SMALL : FIELDSCRIBE_CAN_OK;
+    fieldscribe_can_status status =
+        ((words == NULL) || (count < what->words)) ? FIELDSCRIBE_CAN_BUFFER_TOO_SMALL : FIELDSCRIBE_CAN_OK;
     size_t at;
     for (at = 0U; (at < what->words) && (status == FIELDSCRIBE_CAN_OK); ++at) {
         status = fieldscribe_can_word(receiver, what->positions[at], &words[at]);

@@ -71,10 +71,11 @@ class Place:
     """A mapping: the keys of the table that say they stand here, and keys of some forms (`more`).
 
     A place with a `name` is a definition of the schema, one with a `heading` a table of KEYS.md. `before` and `after`
-    are what may stand there in its stead.
+    are what may stand there in its stead. The keys of `may_be` stand here, too: with
+    all that it requires, or none.
     """
 
-    __slots__ = ("heading", "least", "more", "name", "required", "shape")
+    __slots__ = ("heading", "least", "may_be", "more", "name", "required", "shape")
 
     def __init__(  # noqa: PLR0913  # the words of an entry, by name where they are used
         self,
@@ -88,8 +89,9 @@ class Place:
         more: Mapping[Form, Shape] | None = None,
         least: int = 0,
         required: tuple[str, ...] = (),
+        may_be: Place | None = None,
     ) -> None:
-        self.name, self.heading = name, heading
+        self.name, self.heading, self.may_be = name, heading, may_be
         self.more, self.least, self.required = more or {}, least, required
         self.shape = Shape(meaning, examples, *before, self, *after)
 

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.files import Files
     from fieldscribe.model import Device
     from fieldscribe.reading import Inputs
+    from fieldscribe.resolve.subject import Subject
     from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"
@@ -130,7 +130,6 @@ def _of_target(made: Target, device: Device) -> Iterator[tuple[str, str]]:
 
 def _checked(files: Files, report: Report) -> Subject | None:
     from fieldscribe.checks import run_checks
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.bus import bus_of
     from fieldscribe.resolve.commands import commands_of
     from fieldscribe.resolve.errata import errata_of
@@ -140,6 +139,7 @@ def _checked(files: Files, report: Report) -> Subject | None:
     from fieldscribe.resolve.names import index_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
+    from fieldscribe.resolve.subject import Subject
     from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)

@@ -38,6 +38,14 @@ def place(package: Package, vector: Vector) -> bool:
     )
 
 
+def display(package: Package, vector: Vector) -> bool:
+    """With how many decimals people see values, which the point and its help say."""
+    point, decimals = package.point(vector), vector["decimals"]
+    said = f"with {decimals} decimal{'' if decimals == 1 else 's'}"
+    guided = f"\nShown: {said}, by {point.facts.item}.text(value).\n" in point._guide()
+    return bool(point.facts.display == decimals and repr(point).endswith(f", shown {said}>") and guided)
+
+
 def fixed(package: Package, vector: Vector) -> bool:
     """The bits that are always written as a constant."""
     return bool(package.point(vector).facts.fixed == (vector["mask"], vector["bits"]))
@@ -130,6 +138,7 @@ def code(package: Package, vector: Vector) -> bool:
 CHECKS: Mapping[str, Check] = {
     "address": address,
     "place": place,
+    "display": display,
     "fixed": fixed,
     "facts": facts,
     "alias": alias,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, Any
 
 from conformance.package import pattern, raws_of
 
@@ -51,11 +52,31 @@ def check(package: Package, vector: Vector) -> bool:
     return bool(status == vector["status"])
 
 
+def told(package: Package, vector: Vector) -> bool:
+    """What people see of a raw number, and of its value as far as that is one of the point."""
+    point, raw, raws = package.point(vector), vector["raw"], raws_of(vector)
+    expected = vector["text"] if vector["status"] == "ok" else f"raw {raw}"
+    if point.told(raw, raws) != expected:
+        return False
+    if vector["status"] != "ok" or not isinstance(point, package.runtime.points.Decoding):
+        return True
+    status, text = package.outcome(point.text, point.decode(raw, raws), raws)
+    return bool(text == expected if status == "ok" else _is_only_decoded(package, point, raw))
+
+
+def _is_only_decoded(package: Package, point: Any, raw: int) -> bool:
+    """Whether a value is one that no point takes: of more than 53 bits, or no finite number."""
+    if any(point.wire is one for one in (package.runtime.F32, package.runtime.F64)):
+        return not math.isfinite(point.decode(raw))
+    return not getattr(point._form, "encodes", True)
+
+
 CHECKS: Mapping[str, Check] = {
     "decode": decode,
     "encode": encode,
     "decode_count": decode_count,
     "encode_count": encode_count,
     "check": check,
+    "told": told,
 }
 """The checks of this theme by the kind of vector."""

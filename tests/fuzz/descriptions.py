@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import resource
-import shutil
 import signal
 import tempfile
 import time
@@ -19,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
-from test_robust import BAD, DEVICES, HOSTILE, WHOLES, as_yaml, changed, nodes
+from test_robust import BAD, DEVICES, HOSTILE, WHOLES, as_texts, changed, nodes, write_files
 
 from fuzz.languages import Result
 
@@ -83,6 +82,7 @@ WORDS = (
         "{",
         "- ",
         "#",
+        "---",
     ),
     *HOSTILE,
 )
@@ -109,7 +109,7 @@ def mutant(seed: int, index: int) -> dict[str, str]:
     random = Random(f"{seed}/{index}")
     kind = random.random()
     if kind < 0.2:
-        return {"device.yaml": _of_structure(random)}
+        return _of_structure(random)
     if kind < 0.7:
         return {"device.yaml": _of_text(random, random.choice(SMALL))}
     files = random.choice(FOLDERS)
@@ -117,8 +117,8 @@ def mutant(seed: int, index: int) -> dict[str, str]:
     return {**files, name: _of_text(random, files[name])}
 
 
-def _of_structure(random: Random) -> str:
-    """A made device, now and then with some of its groups alone, with other values at a few places."""
+def _of_structure(random: Random) -> dict[str, str]:
+    """A made device, now and then with some of its parts alone, with other values at a few places."""
     place = random.randrange(len(WHOLES))
     device: dict[str, Any] = WHOLES[place]
     for _ in range(random.randint(1, 3)):
@@ -126,9 +126,17 @@ def _of_structure(random: Random) -> str:
             device = changed(device, random.choice(PATHS[place]), random.choice(VALUES))
         except (KeyError, IndexError, TypeError, ValueError, AttributeError):
             continue  # an earlier change took the place away
-    if random.random() < 0.3 and isinstance(device.get("groups"), list):
-        device = {**device, "groups": random.sample(device["groups"], min(len(device["groups"]), random.randint(1, 2)))}
-    return as_yaml(json.loads(json.dumps(device)))
+    documents = device.get("device.yaml")
+    if random.random() < 0.3 and isinstance(documents, list) and isinstance(documents[0], dict):
+        device = _of_one_file(random, device, documents[0])
+    return as_texts(json.loads(json.dumps(device)))
+
+
+def _of_one_file(random: Random, device: dict[str, Any], header: dict[str, Any]) -> dict[str, Any]:
+    """The same device as documents of one file, some of its parts alone."""
+    head = {key: value for key, value in header.items() if key != "parts"}
+    parts = [part for name, documents in device.items() if name != "device.yaml" for part in documents]
+    return {"device.yaml": [head, *random.sample(parts, min(len(parts), random.randint(1, 4)))]}
 
 
 def _of_text(random: Random, text: str) -> str:
@@ -199,15 +207,6 @@ def _bounded() -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
-def write(files: dict[str, str], folder: Path) -> Path:
-    """Writes the files of a mutant, and no others; returns its device file."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    for name, text in files.items():
-        (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
-    return folder / "device.yaml"
-
-
 def trial(file: Path, *, compiled: bool) -> str | None:
     """What is wrong with how the compiler takes a description; none if nothing is."""
     try:
@@ -235,7 +234,7 @@ def _part(job: tuple[int, int, int]) -> list[tuple[int, str]]:
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
         for index in range(first, behind):
-            file = write(mutant(seed, index), Path(folder) / "device")
+            file = write_files(Path(folder) / "device", mutant(seed, index))
             failed = trial(file, compiled=index % COMPILED == 0)
             if failed is not None:
                 wrong.append((index, failed))
@@ -251,6 +250,6 @@ def fuzz_descriptions(count: int, seed: int, keep: Path) -> Result:
         wrong = [one for part in pool.imap_unordered(_part, jobs) for one in part]
     findings = []
     for index, failed in sorted(wrong):
-        file = write(mutant(seed, index), keep / f"mutant_{seed}_{index}")
+        file = write_files(keep / f"mutant_{seed}_{index}", mutant(seed, index))
         findings.append(f"mutant {index} of seed {seed}, kept as {file}:\n{failed[-1500:]}")
     return Result("descriptions, mutated", count, tuple(findings), time.perf_counter() - started)

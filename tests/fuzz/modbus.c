@@ -41,9 +41,12 @@ int main(void)
         }
         request.values = request.function <= 0x04U ? NULL : written;
         request.given = request.function <= 0x04U ? 0U : request.count;
-        request.kind = request.function > 0x04U ? &fieldscribe_modbus_written
-            : fieldscribe_modbus_reads_bits(request.function) ? &fieldscribe_modbus_bits
-                                                              : &fieldscribe_modbus_words;
+        request.first = request.given > 0U ? written[0] : 0U;
+        request.put =
+            request.function > 0x04U ? &fieldscribe_modbus_put_writing : &fieldscribe_modbus_put_reading;
+        request.take = request.function > 0x04U ? &fieldscribe_modbus_take_echo
+            : fieldscribe_modbus_reads_bits(request.function) ? &fieldscribe_modbus_take_bits
+                                                              : &fieldscribe_modbus_take_words;
         values = exactly(2U * (size_t)request.count);
         reply.values = values;
         reply.room = request.count;

@@ -19,6 +19,7 @@ Row = dict[str, Any]
 """Facts by the language's keys, all texts."""
 
 NOTHING = ("", "~", "null")
+_CHOICES = {"set": "sets", "index": "indices"}
 _INHERITED = ("space", "access", "type", "telegram", "numbering", "addressing")
 
 
@@ -36,14 +37,14 @@ class Description:
 
 def read(folder: Path) -> Description:
     """A description: its parts in order, as plain texts; nothing is checked."""
-    device = _load(folder / "device.yaml")
-    parts = [device, *(_load(folder / part) for part in device.get("parts", ()))]
+    device, *below = _load(folder / "device.yaml")
+    parts = [device, *below, *(document for part in device.get("parts", ()) for document in _load(folder / part))]
     found = Description(device["family"])
     for part in parts:
         found.words = part.get("bus", {}).get("words", found.words)
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
-    for group in (group for part in parts for group in (part, *part.get("groups", ()))):
+    for group in parts:
         around = [(one.get("special", {}), one.get("types", {})) for one in (device, group)]
         for row in group.get("points", ()):
             shared = {key: group[key] for key in _INHERITED if key in group} | {"around": around}
@@ -52,9 +53,10 @@ def read(folder: Path) -> Description:
     return found
 
 
-def _load(path: Path) -> Row:
-    loaded = yaml.load(path.read_text("utf-8"), Loader=yaml.BaseLoader)  # texts, lists and maps only
-    return loaded if isinstance(loaded, dict) else {}
+def _load(path: Path) -> list[Row]:
+    """The documents of a file: texts, lists and maps only."""
+    loaded = yaml.load_all(path.read_text("utf-8"), Loader=yaml.BaseLoader)
+    return [one for one in loaded if isinstance(one, dict)]
 
 
 def _written_out(description: Description, row: Row) -> Iterator[Row]:
@@ -65,8 +67,7 @@ def _written_out(description: Description, row: Row) -> Iterator[Row]:
         yield from _members(description, row)
         return
     for one in _sets(row):
-        for element in _elements(one):
-            yield from _variants(element)
+        yield from _places(one)
 
 
 def _members(description: Description, row: Row) -> Iterator[Row]:
@@ -75,38 +76,44 @@ def _members(description: Description, row: Row) -> Iterator[Row]:
         shared = description.formats.get(member.get("format", ""), {})
         at = "~" if row["at"] in NOTHING else str(_whole(member["at"], {"base": number(row["at"])}))
         own = row.get("members", {}).get(member["name"], {}) | {"name": f"{row['name']}_{member['name']}", "at": at}
-        yield from _variants(kept | shared | member | own | {"format_special": shared.get("special", {})})
+        yield from _places(kept | shared | member | own | {"format_special": shared.get("special", {})})
 
 
 def _sets(row: Row) -> Iterator[Row]:
-    yield {key: value for key, value in row.items() if key != "sets"}
-    for which, own in row.get("sets", {}).items():
-        kept = {key: value for key, value in row.items() if key not in ("sets", "was", "code")}
+    """The point in its own set, and in those that have rows of their own."""
+    if not isinstance(row.get("sets"), dict):
+        yield row
+        return
+    yield {key: value for key, value in row.items() if key not in ("sets", "set")}
+    for which, own in row["sets"].items():
+        kept = {key: value for key, value in row.items() if key not in ("sets", "was", "code", *_CHOICES)}
         yield kept | own | {"name": f"{row['name']}_set_{which}"}
 
 
-def _elements(row: Row) -> Iterator[Row]:
-    """One row for each parameter set and array index that `at` names."""
-    at = row.get("at")
-    if not isinstance(at, dict):
-        yield row
-        return
-    for chosen in _choices(at):
-        repeated = [key for key, many in (("set", "sets"), ("index", "indices")) if many in at and key not in at]
-        suffix = "".join(f"_{key}_{chosen[key]}" for key in repeated)
-        own = _own_of(row.get("each", {}), chosen, by="index" if "index" in repeated else "set")
-        yield row | own | {"name": row["name"] + suffix, "at": _at_rule(row, at, chosen), "element": chosen}
+def _places(row: Row) -> Iterator[Row]:
+    """One row for each parameter set, array index and variant."""
+    for which, own in row.get("variants", {"": {}}).items():
+        whole = {key: value for key, value in row.items() if key != "variants"} | own
+        ending = f"_{which.partition('=')[2].lower()}" if which else ""
+        for chosen in _choices(whole):
+            repeated = [key for key, many in _CHOICES.items() if many in whole and key not in whole]
+            name = whole["name"] + "".join(f"_{key}_{chosen[key]}" for key in repeated)
+            each = _own_of(whole.get("each", {}), chosen, by="index" if "index" in repeated else "set")
+            at = {"at": _by_rule(whole, chosen)} if "at" in whole else {}
+            yield whole | each | own | at | {"name": name, "item": name + ending}
 
 
-def _choices(at: Row) -> Iterator[dict[str, int]]:
-    sets = range(1, number(at["sets"]) + 1) if "sets" in at and "set" not in at else [number(at.get("set", "1"))]
-    if "indices" in at and "index" not in at:
-        low, _, high = at["indices"].partition("..")
-        indices = range(number(low), number(high) + 1) if high else range(1, number(low) + 1)
-    else:
-        indices = range(number(at.get("index", "1")), number(at.get("index", "1")) + 1)
-    for index, which in itertools.product(indices, sets):
+def _choices(row: Row) -> Iterator[dict[str, int]]:
+    for index, which in itertools.product(_counted(row, "index"), _counted(row, "set")):
         yield {"set": which, "index": index}
+
+
+def _counted(row: Row, which: str) -> list[int]:
+    """The sets, or the indices, that a row stands for: one alone, a count from 1, or an interval."""
+    if which in row or _CHOICES[which] not in row:
+        return [number(row.get(which, "1"))]
+    low, _, high = row[_CHOICES[which]].partition("..")
+    return list(range(number(low), number(high) + 1) if high else range(1, number(low) + 1))
 
 
 def _own_of(each: Row, chosen: Mapping[str, int], by: str) -> Row:
@@ -117,24 +124,16 @@ def _own_of(each: Row, chosen: Mapping[str, int], by: str) -> Row:
     return own
 
 
-def _at_rule(row: Row, at: Row, chosen: Mapping[str, int]) -> str:
-    if "addressing" not in row:
-        return str(at["number"])
-    names = {"number": number(at["number"]), "sets": number(at.get("sets", "1")), **chosen}
-    names["indices"] = number(at["indices"]) if is_number(at.get("indices", "")) else 1
-    return str(_whole(row["addressing"], names))
+def _by_rule(row: Row, chosen: Mapping[str, int]) -> str:
+    """The address that the group's rule gives, for both ends of a text."""
+    if "addressing" not in row or row["at"] in NOTHING:
+        return str(row["at"])
+    counts = {many: number(row[many]) if is_number(row.get(many, "")) else 1 for many in _CHOICES.values()}
+    names = [{**counts, **chosen, "number": number(end)} for end in row["at"].split("..")]
+    return "..".join(str(_whole(row["addressing"], one)) for one in names)
 
 
 def _whole(text: str, names: Mapping[str, int]) -> int:
     exact = evaluate(text, lambda name, _: Fraction(names[name]))
     assert exact.denominator == 1
     return int(exact)
-
-
-def _variants(row: Row) -> Iterator[Row]:
-    if "variants" not in row:
-        yield row | {"item": row["name"]}
-    for which, own in row.get("variants", {}).items():
-        whole = {key: value for key, value in row.items() if key != "variants"} | own
-        for element in _elements(whole):
-            yield element | {"item": f"{element['name']}_{which.partition('=')[2].lower()}"}

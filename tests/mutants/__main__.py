@@ -1,4 +1,4 @@
-"""`make mutants`: SEED, COUNT (a language) and ONLY are taken from the environment."""
+"""`make mutants`: SEED, COUNT (a language or a room), ONLY and ROOM are taken from the environment."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ import shutil
 import subprocess
 import sys
 import time
+from functools import cache, partial
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mutants.equivalents import entry, named
-from mutants.judges import JUDGES, LEFT_OUT, ROOT
+from mutants.judges import JUDGES, LEFT_OUT, ROOT, SURVIVED
 from mutants.results import Results
+from mutants.rooms import drawn_in, rooms
 from mutants.sources import drawn
 from mutants.table import MARKS, Table
 
@@ -25,13 +27,15 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 CACHE = ROOT / ".cache/mutants"
+OF_A_LANGUAGE, OF_A_ROOM = 300, 100
+"""How many mutants are judged if COUNT does not say."""
 PROGRESS = 10.0
 """Seconds between two lines that say how far it is."""
 
 
 def main() -> int:
     """Measure what was asked for; 1 if a mark is missed."""
-    seed, count = os.environ.get("SEED") or "1", int(os.environ.get("COUNT") or 300)
+    seed, count = os.environ.get("SEED") or "1", int(os.environ.get("COUNT") or 0)
     wanted = (os.environ.get("ONLY") or " ".join(MARKS)).replace(",", " ").split()
     if unknown := set(wanted) - set(MARKS):
         print(f"there is no {', '.join(sorted(unknown))}: ONLY takes {', '.join(MARKS)}", file=sys.stderr)
@@ -39,9 +43,17 @@ def main() -> int:
     if "descriptions" in wanted and not Path(os.environ.get("FIELDSCRIBE_MANUALS", "?")).is_dir():
         print("the descriptions need FIELDSCRIBE_MANUALS, the folder of the manuals' texts", file=sys.stderr)
         return 2
+    chosen = (os.environ.get("ROOM") or " ".join(rooms())).replace(",", " ").split()
+    if unknown := set(chosen) - set(rooms()):
+        print(f"there is no room {', '.join(sorted(unknown))}: ROOM takes {', '.join(rooms())}", file=sys.stderr)
+        return 2
     tables = []
     for one in wanted:
-        tables.append(_descriptions(seed, count) if one == "descriptions" else _code(one, seed, count))
+        if one == "generator":
+            tables.append(_generator(chosen, seed, count or OF_A_ROOM))
+        else:
+            measured = _descriptions if one == "descriptions" else partial(_code, one)
+            tables.append(measured(seed, count or OF_A_LANGUAGE))
         print("", *tables[-1].survivor_lines(), "", *tables[-1].lines(), "", sep="\n", flush=True)
     for table in tables if len(tables) > 1 else ():
         print(*table.lines(), "", sep="\n")
@@ -75,6 +87,43 @@ def _descriptions(seed: str, count: int) -> Table:
     parts = [ROOT / "descriptions", ROOT / "generator/fieldscribe", *judge.readings, HERE / "descriptions.py"]
     results = Results(CACHE / f"descriptions-{seed}-{_digest([*parts, judge.manuals])}.jsonl")
     return _measure(Table("descriptions"), drawn_facts(judge.folder, seed), results, count, judge.verdict)
+
+
+def _generator(chosen: list[str], seed: str, count: int) -> Table:
+    """The mutants of the compiler, the rooms in turn: so many of each room that has them.
+
+    A kill is kept as long as what is compiled is the same, a survivor only until a test changes.
+    """
+    from mutants.generator import GeneratorJudge
+    from mutants.noticing import devices
+
+    inputs = [ROOT / part for part in ("generator/fieldscribe", "templates", "descriptions", "tests/devices")]
+    tests = _digest([*sorted(ROOT.glob("tests/*.py")), ROOT / "tests/bad", HERE / "generator.py"])
+    results = Results(CACHE / f"generator-{seed}-{_digest(inputs)}.jsonl")
+    files = sorted(ROOT.glob("tests/test_*.py"))
+    table, judge = Table("generator"), cache(lambda: GeneratorJudge(CACHE / "generator", devices(), files))
+    draws = {room: drawn_in(room, rooms()[room], seed) for room in chosen}
+
+    def judged(mutant: Mutant) -> Verdict:
+        known = results.get(mutant.key) or results.get(f"{mutant.key} {tests}")
+        if known is None:
+            known = judge().verdict(mutant)
+            results.put(f"{mutant.key} {tests}" if known.outcome == SURVIVED else mutant.key, known)
+        return known
+
+    equivalent, told = named(), time.monotonic()
+    while draws:
+        for room, draw in list(draws.items()):
+            mutant = next(draw, None) if table.judged_of(room) < count else None
+            if mutant is None:
+                del draws[room]
+                continue
+            table.add(mutant, judged(mutant), equivalent=entry("generator", mutant) in equivalent)
+        if time.monotonic() - told > PROGRESS:
+            told = time.monotonic()
+            survived = len(table.survivors)
+            print(f"generator: {table.judged} in {len(table.counts)} rooms, {survived} survived", flush=True)
+    return table
 
 
 def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: int, judged: _Judged) -> Table:

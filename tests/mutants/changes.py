@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from mutants.rewriting import rewritten, unjudged
 from mutants.statements import dropped
-from mutants.tokens import Token, tokens_of
+from mutants.tokens import Token, for_people, line_starts, tokens_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -46,6 +47,22 @@ _ENDS_A_VALUE = re.compile(r"[\w)\]\"']$")
 
 def places_of(language: str, text: str) -> Places:
     """Everything that can be changed in a source."""
+    return _of_generator(text) if language == "generator" else _of_tokens(language, text)
+
+
+def _of_generator(text: str) -> Places:
+    """As Python, and what more can be changed where the compiler itself is judged, but for what cannot happen."""
+    found, hidden = _of_tokens("python", text), [*for_people(text, line_starts(text)), *unjudged(text)]
+    for what, start, end, after in rewritten(text):
+        found.setdefault(what, []).append([Change(what, start, end, after)])
+    judged = {
+        what: [place for place in places if not any(low <= place[0].start < high for low, high in hidden)]
+        for what, places in found.items()
+    }
+    return {what: places for what, places in judged.items() if places}
+
+
+def _of_tokens(language: str, text: str) -> Places:
     tokens = tokens_of(language, text)
     found: Places = {}
     for change in (

@@ -14,7 +14,10 @@ Edits = tuple[tuple[int, int, str], ...]
 
 TYPES = ("bit", "u8", "s8", "u16", "s16", "u32", "s32", "f32", "u64")
 ACCESS = ("r", "w", "rw")
-NUMBERS = ("at", "range", "scale", "bits", "default", "values", "code", "step", "active", "fixed", "special")
+NUMBERS = (
+    *("at", "range", "scale", "bits", "default", "default_in_units", "values", "code", "step", "active", "fixed"),
+    "special",
+)
 TRUTH = {"yes": "no", "no": "yes", "true": "false", "false": "true"}
 _NUMBER = re.compile(r"(?<![\w.])(0x[0-9A-Fa-f]+|[0-9][0-9A-Fa-f]*h\b|\d+\.\d+|\d+)(?![\w])")
 _OPERATOR = re.compile(r" ([-+*/]) ")

@@ -61,11 +61,11 @@ Shared = dict[tuple[str, str], tuple[Fact, ...]]
 def read(folder: Path) -> Description:
     """All points of a device's folder."""
     texts = {f"{folder.name}/{path.name}": path.read_text("utf-8") for path in sorted(folder.glob("*.yaml"))}
-    roots = {path: yaml.compose(text, Loader=yaml.SafeLoader) for path, text in texts.items()}
+    roots = [(path, root) for path, text in texts.items() for root in yaml.compose_all(text, Loader=yaml.SafeLoader)]
     shared: Shared = {}
-    for path, root in roots.items():
+    for path, root in roots:
         shared |= _shared(path, root)
-    points = tuple(point for path, root in roots.items() for point in _points(path, root, {}, shared))
+    points = tuple(point for path, root in roots for point in _points(path, root, {}, shared))
     return Description(folder.name, texts, points)
 
 

@@ -218,7 +218,8 @@ class OfRust(Judge):
 
     def prepare(self) -> None:
         """One workspace of all crates."""
-        crates = sorted(path.parent.name for path in self.work.glob("rust/*/Cargo.toml"))
+        root = self.work / "rust"
+        crates = sorted(str(path.parent.relative_to(root)) for path in root.glob("*/**/Cargo.toml"))
         members = ", ".join(f'"{crate}"' for crate in crates)
         (self.work / "rust/Cargo.toml").write_text(WORKSPACE.format(members=members), encoding="utf-8")
         self.target = self.work.parent / "target"
@@ -240,7 +241,7 @@ class OfRust(Judge):
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Compile the test and run it."""
         del build
-        said = self.cargo("test", "--no-run", "--test", "conformance", "--package", device)
+        said = self.cargo("test", "--no-run", "--test", "conformance", "--package", f"{device}_conformance")
         found = re.search(r"Executable .*\((.*)\)", said)
         assert found is not None, said
         program = self.work / "rust" / found[1]

@@ -92,7 +92,7 @@ def drawn(language: str, base: Path, seed: str) -> Iterator[Mutant]:
     """
     sources = sources_of(language, base)
     draws = [
-        _of_kind([one for one in sources if one.kind == kind], random.Random(f"{seed} {language} {kind}"))
+        of_kind([one for one in sources if one.kind == kind], random.Random(f"{seed} {language} {kind}"))
         for kind in KINDS[language]
     ]
     while draws:
@@ -108,7 +108,8 @@ TRIES = 300
 """Draws in a row that bring nothing new: then a kind is taken to be used up."""
 
 
-def _of_kind(sources: list[Source], chance: random.Random) -> Iterator[Mutant]:
+def of_kind(sources: list[Source], chance: random.Random) -> Iterator[Mutant]:
+    """Mutants of these files without end, or until there are no more."""
     seen: set[str] = set()
     known = [(one, places) for one in sources if (places := _places(one.language, one.text))]
     weights = [sum(map(len, places.values())) ** 0.5 for _, places in known]

@@ -12,8 +12,10 @@ if TYPE_CHECKING:
     from mutants.judges import Verdict
     from mutants.sources import Mutant
 
-MARKS = {"c": 97.0, "python": 97.0, "rust": 97.0, "descriptions": 85.0}
+MARKS = {"c": 97.0, "python": 97.0, "rust": 97.0, "descriptions": 85.0, "generator": 90.0}
 """Per cent that must be killed."""
+OF_A_KIND = {"generator": 85.0}
+"""Per cent that must be killed of each kind."""
 MOST_EQUIVALENT = 3.0
 """Per cent that may be named equivalent."""
 EQUIVALENT = "equivalent"
@@ -35,12 +37,12 @@ class Table:
         if outcome == SURVIVED:
             self.survivors.append(mutant)
         if outcome == KILLED:
-            self.killers[verdict.by] += 1
+            self.killers[verdict.by.partition("::")[0]] += 1
 
     @property
     def judged(self) -> int:
         """How many count."""
-        return sum(count for of in self.counts.values() for outcome, count in of.items() if outcome != LEFT_OUT)
+        return sum(map(self.judged_of, self.counts))
 
     @property
     def total(self) -> Counter[str]:
@@ -52,15 +54,26 @@ class Table:
         """Whether the marks are met."""
         total = self.total
         few = total[EQUIVALENT] * 100 <= MOST_EQUIVALENT * max(self.judged, 1)
-        return few and per_cent(total) >= MARKS[self.language]
+        return few and per_cent(total) >= MARKS[self.language] and not self.missed
+
+    @property
+    def missed(self) -> list[str]:
+        """The kinds that miss the mark of a kind."""
+        return [kind for kind, of in self.counts.items() if per_cent(of) < OF_A_KIND.get(self.language, 0.0)]
+
+    def judged_of(self, kind: str) -> int:
+        """How many of a kind count."""
+        of = self.counts.get(kind, Counter())
+        return of.total() - of[LEFT_OUT]
 
     def lines(self) -> list[str]:
         """The table."""
         head = f"{self.language:24}{'killed':>9}{'survived':>10}{'equivalent':>12}{'left out':>10}{'per cent':>10}"
         rows = [_row(kind, of) for kind, of in self.counts.items()]
         mark = f"the mark is {MARKS[self.language]:g} per cent: {'met' if self.met else 'missed'}"
+        below = f"; below {OF_A_KIND[self.language]:g}: {', '.join(self.missed)}" if self.missed else ""
         by = ", ".join(f"{who} {count}" for who, count in self.killers.most_common())
-        return [head, *rows, _row("all", self.total), f"killed by: {by}", mark]
+        return [head, *rows, _row("all", self.total), f"killed by: {by}", mark + below]
 
     def survivor_lines(self) -> list[str]:
         """Each survivor with its place, before and after."""

@@ -53,7 +53,7 @@ def tokens_of(language: str, text: str) -> list[Token]:
 
 def _python(text: str) -> Iterator[Token]:
     starts = line_starts(text)
-    hidden = list(_for_people(text, starts))
+    hidden = list(for_people(text, starts))
     kinds = {
         tokenize.NUMBER: "number",
         tokenize.STRING: "string",
@@ -66,11 +66,11 @@ def _python(text: str) -> Iterator[Token]:
             yield Token(kinds[token.type], token.string, start, start + len(token.string))
 
 
-def _for_people(text: str, starts: list[int]) -> Iterator[tuple[int, int]]:
+def for_people(text: str, starts: list[int]) -> Iterator[tuple[int, int]]:
     """The places of docstrings, imports, annotations, decorators and what exists for the type checker alone."""
     lines = text.encode("utf-8").splitlines(keepends=True)
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.stmt) and _is_for_people(node):
+        if isinstance(node, ast.stmt) and _isfor_people(node):
             yield span(node, starts, lines)
         typed = (getattr(node, "annotation", None), getattr(node, "returns", None))
         for noted in (*typed, *getattr(node, "decorator_list", ())):
@@ -78,7 +78,7 @@ def _for_people(text: str, starts: list[int]) -> Iterator[tuple[int, int]]:
                 yield span(noted, starts, lines)
 
 
-def _is_for_people(node: ast.stmt) -> bool:
+def _isfor_people(node: ast.stmt) -> bool:
     if isinstance(node, ast.Expr):
         return isinstance(node.value, ast.Constant)
     if isinstance(node, ast.If):

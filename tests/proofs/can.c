@@ -193,6 +193,8 @@ void prove_listen__too_few(size_t count)
         receiver = fieldscribe_can_listen(&telegram, receiver.unit, EXACTLY(count, slots), count);
         (void)fieldscribe_can_take(&receiver, &frame);
         (void)fieldscribe_can_heard_slot(&receiver, where.low);
+        receiver = fieldscribe_can_listen(&telegram, receiver.unit, NULL, SLOTS);
+        (void)fieldscribe_can_take(&receiver, &frame);
     }
 }
 
@@ -235,6 +237,7 @@ void prove_received(uint16_t words, uint8_t per_frame)
         (void)fieldscribe_can_received(&receiver, &where, word, 2U);
         (void)fieldscribe_can_received(&receiver, &where, EXACTLY(1U, word), 1U);
         (void)fieldscribe_can_received(&receiver, &where, EXACTLY(0U, word), 0U);
+        (void)fieldscribe_can_received(&receiver, &where, NULL, 2U);
     }
 }
 

@@ -22,8 +22,6 @@ static fieldscribe_modbus_profile profile;
 static fieldscribe_modbus_request request;
 static fieldscribe_modbus_reply reply;
 static fieldscribe_modbus_reading reading;
-static fieldscribe_modbus_reading block;
-static uint16_t address;
 static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
 static volatile uint8_t number;
@@ -46,9 +44,12 @@ static void know(size_t count)
 /* A request of any kind, and of none. */
 static void of_any_kind(void)
 {
-    static const fieldscribe_modbus_kind *const kinds[] = {
-        &fieldscribe_modbus_words, &fieldscribe_modbus_bits, &fieldscribe_modbus_written, NULL};
-    request.kind = kinds[number % 4U];
+    static const fieldscribe_modbus_putting puts[] = {
+        &fieldscribe_modbus_put_reading, &fieldscribe_modbus_put_writing, NULL};
+    static const fieldscribe_modbus_taking takes[] = {
+        &fieldscribe_modbus_take_words, &fieldscribe_modbus_take_bits, &fieldscribe_modbus_take_echo, NULL};
+    request.put = puts[number % 3U];
+    request.take = takes[number % 4U];
 }
 
 /* A request of so many items, in an array that has no more. */
@@ -86,6 +87,9 @@ void prove_read(uint8_t unit)
 void prove_write(uint8_t unit)
 {
     request = fieldscribe_modbus_write(unit, &writing, items, ITEMS);
+    request = fieldscribe_modbus_write(unit, &writing, EXACTLY(1U, items), 1U);
+    request = fieldscribe_modbus_write(unit, &writing, items, 0U);
+    request = fieldscribe_modbus_write(unit, &writing, NULL, ITEMS);
 }
 
 void prove_send(uint8_t unit)
@@ -157,7 +161,6 @@ void prove_allows__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
-    request.given = 0U;
     of_any_kind();
     if (request.function < 0x05U) {
         (void)fieldscribe_modbus_allows(&profile, &request);
@@ -323,7 +326,6 @@ void prove_build__no_values(void)
 {
     know(KNOWN);
     request.values = NULL;
-    request.given = 0U;
     of_any_kind();
     build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
     build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
@@ -436,8 +438,7 @@ void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, s
 {
     if (length <= FRAMES) {
         //@ split length;
-        request.values = NULL;
-        request.given = 0U;
+        request.values = NULL; /* an answer is held against the request alone */
         of_any_kind();
         into(many_items, room);
         (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, &reply);
@@ -464,6 +465,20 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
     }
 }
 
+/* Nothing is stored where there is nothing, whatever room is told. */
+void prove_room(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        ask_any();
+        into(NULL, room);
+        (void)fieldscribe_modbus_room(&reply);
+        (void)fieldscribe_modbus_take_words(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_take_bits(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_take_echo(&request, frame, size, &reply);
+        (void)fieldscribe_modbus_words_in(&request, &reply, &reading);
+    }
+}
+
 void prove_answer(void)
 {
     (void)fieldscribe_modbus_answer(&request);
@@ -477,6 +492,13 @@ void prove_around(fieldscribe_modbus_framing framing)
 void prove_reply_length(fieldscribe_modbus_framing framing)
 {
     (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
+}
+
+/* An answer has come as far as a refusal is long. */
+void prove_told(uint8_t function, uint32_t expected)
+{
+    (void)fieldscribe_modbus_told(FIELDSCRIBE_MODBUS_RTU, function, EXACTLY(5U, frame), expected);
+    (void)fieldscribe_modbus_told(FIELDSCRIBE_MODBUS_TCP, function, EXACTLY(9U, frame), expected);
 }
 
 void prove_left(size_t size, size_t length)
@@ -505,9 +527,7 @@ void prove_words_in(uint16_t count)
         //@ split reading.count;
         into(EXACTLY(count, items), count);
         reply.count = count;
-        block = reading;
-        block.address = address;
-        found = fieldscribe_modbus_words_in(&block, &reply, &reading);
+        found = fieldscribe_modbus_words_in(&request, &reply, &reading);
         if (found != NULL && reading.count > 0U) {
             (void)found[0];
             (void)found[reading.count - 1U];

@@ -33,9 +33,11 @@ void prove_jumo_controller(size_t length, size_t room)
     if (length <= FRAMES) {
         request.values = items;
         request.given = LARGE / 2U;
-        request.kind = request.function > 0x04U ? &fieldscribe_modbus_written
-            : request.function > 0x02U          ? &fieldscribe_modbus_words
-                                                : &fieldscribe_modbus_bits;
+        request.put =
+            request.function > 0x04U ? &fieldscribe_modbus_put_writing : &fieldscribe_modbus_put_reading;
+        request.take = request.function > 0x04U ? &fieldscribe_modbus_take_echo
+            : request.function > 0x02U          ? &fieldscribe_modbus_take_words
+                                                : &fieldscribe_modbus_take_bits;
         reply.values = items;
         reply.room = room;
         if (request.count <= LARGE / 2U) {

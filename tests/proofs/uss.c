@@ -69,6 +69,7 @@ void prove_write(uint8_t unit, size_t count)
     if (count <= WORDS) {
         //@ split count;
         request = fieldscribe_uss_write(unit, &writing, EXACTLY(count, words), count);
+        request = fieldscribe_uss_write(unit, &writing, NULL, count);
     }
 }
 
@@ -77,6 +78,7 @@ void prove_words_of_reply(size_t count)
     if (count <= WORDS) {
         //@ split count;
         (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(count, words), count);
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, NULL, count);
     }
 }
 
@@ -176,6 +178,14 @@ void prove_allows_pkw(size_t count, uint8_t pkw)
     }
 }
 
+void prove_count(size_t count)
+{
+    send(words, count);
+    (void)fieldscribe_uss_count(&process);
+    send(NULL, count);
+    (void)fieldscribe_uss_count(&process);
+}
+
 void prove_allows_pzd(size_t count)
 {
     (void)fieldscribe_uss_allows_pzd(&profile, &link, count);
@@ -268,6 +278,16 @@ void prove_build_broadcast__words(size_t pzd_count, size_t size)
     }
 }
 
+/* Words that are not there are as many as the link has: none is read. */
+void prove_build__no_words(size_t pzd_count)
+{
+    size_t length;
+    know(KNOWN);
+    send(NULL, pzd_count);
+    (void)fieldscribe_uss_build(&profile, &link, &request, &process, frame, FRAMES, &length);
+    (void)fieldscribe_uss_build_broadcast(&profile, &link, masks, &process, frame, FRAMES, &length);
+}
+
 void prove_fits(size_t count)
 {
     (void)fieldscribe_uss_fits(&link, count);
@@ -299,6 +319,16 @@ void prove_parse__long_frame(size_t length, size_t room)
         know(KNOWN);
         into(words, room);
         (void)fieldscribe_uss_parse(&profile, &link, &request, long_frame, length, &reply);
+    }
+}
+
+void prove_parse__no_words(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        know(KNOWN);
+        into(NULL, room);
+        (void)fieldscribe_uss_parse(&profile, &link, &request, EXACTLY(length, frame), length, &reply);
     }
 }
 

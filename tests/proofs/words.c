@@ -43,6 +43,7 @@ void prove_layout_fits(uint8_t type, size_t count)
         layout.mask = layout.mask & 0xFFFFU;
         (void)fieldscribe_take_u16(&layout, own((uint8_t)count), count, &raw);
         (void)fieldscribe_take_u16(&layout, NULL, count, &raw);
+        (void)fieldscribe_take_u16(NULL, own((uint8_t)count), count, &raw);
     }
 }
 
@@ -307,6 +308,8 @@ void prove_take_text(uint16_t count)
         (void)fieldscribe_take_text(&text, EXACTLY(count, addressed), count, EXACTLY(count, reading), count);
         (void)fieldscribe_take_text(&text, EXACTLY(count - 1U, addressed), count - 1U, reading, TEXT);
         (void)fieldscribe_take_text(&text, addressed, TEXT, EXACTLY(count - 1U, reading), count - 1U);
+        (void)fieldscribe_take_text(&text, NULL, TEXT, reading, TEXT);
+        (void)fieldscribe_take_text(&text, addressed, TEXT, NULL, TEXT);
     }
 }
 
@@ -318,5 +321,7 @@ void prove_put_text(uint16_t count)
         (void)fieldscribe_put_text(&text, EXACTLY(count, reading), count, EXACTLY(count, addressed), count);
         (void)fieldscribe_put_text(&text, EXACTLY(count - 1U, reading), count - 1U, addressed, TEXT);
         (void)fieldscribe_put_text(&text, reading, TEXT, EXACTLY(count - 1U, addressed), count - 1U);
+        (void)fieldscribe_put_text(&text, NULL, TEXT, addressed, TEXT);
+        (void)fieldscribe_put_text(&text, reading, TEXT, NULL, TEXT);
     }
 }

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, LocalClient, LocalTransport, ParseError,
-    ReceiveError, Receiver, Transport,
+    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, Hears, Listener, LocalClient, LocalTransport,
+    ParseError, ReceiveError, Receiver, Transport,
 };
 use fieldscribe_runtime::Text;
 use odd_can::{enums, flags, messages, points, telegrams, with, Error, PROFILE};
@@ -156,7 +156,7 @@ fn parameters_are_read_and_written() {
     let umlaut = client.write::<points::Name>(Text::new("Gerät").unwrap());
     assert_eq!(umlaut, Err(ClientError::Point(Error::BadText(Some("name")))));
     assert_eq!(client.write::<points::Password>(1234), Ok(()));
-    assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came")));
+    assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came", None)));
     let bus = client.into_transport();
     assert_eq!(bus.sent[0], "ff0501fb0000fefe");
     assert!(bus.sent.contains(&"ee05000b2d00c30e".to_owned()));
@@ -175,17 +175,17 @@ fn receivers_hear_what_others_are_told() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
     // Its high word came once: nobody knows whether it was the same before the low one.
-    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn));
-    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing));
+    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn(Some("hours"))));
+    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing(Some("starts"))));
     // What was heard before is not taken for what is true now.
     assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
     assert_eq!(client.listener().raw::<points::Hours>(), Ok(0x0001_0009));
     let exponent = client.receive::<points::Exponent>().unwrap();
     assert_eq!(client.receive_with::<points::Power>(with::Power { exponent }), Ok(0.9));
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came")));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came", Some("hours"))));
     let mut client = client.patient(0);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing)));
-    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing(Some("hours")))));
+    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer(None)));
 }
 
 fn numbers_of_two_frames_are_waited_for() {
@@ -197,7 +197,7 @@ fn numbers_of_two_frames_are_waited_for() {
     assert_eq!(bus.later.len(), 1);
     let bus = Bus::default().then(&[low, high, part(2, [9, 0, 0]), part(1, [0, 0, 2])]);
     let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
-    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn)));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn(Some("hours")))));
 }
 
 /// A device that takes the nearest number it likes.
@@ -205,7 +205,7 @@ fn other_numbers_are_told() {
     let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
     let bus = Bus::new(&[(507, 1)], vec![nearest]);
     let mut client = Client::new(bus, &PROFILE, 5);
-    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399)));
+    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399, Some("ratio"))));
 }
 
 fn listeners_are_lent_and_paired() {
@@ -216,13 +216,38 @@ fn listeners_are_lent_and_paired() {
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(receiver.raw::<points::Starts>(), Ok(0x0001_0002));
     assert_eq!(receiver.word(9), Ok(1));
-    assert_eq!(receiver.word(19), Err(ReceiveError::Missing));
-    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing));
+    assert_eq!(receiver.word(19), Err(ReceiveError::Missing(None)));
+    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing(None)));
+}
+
+/// The receivers of two telegrams, for both of which a client can wait.
+struct Both(Receiver<telegrams::Measured>, Receiver<telegrams::Telegram>);
+
+impl Listener for Both {
+    fn hear(&mut self, frame: &Frame) {
+        self.0.hear(frame);
+        self.1.hear(frame);
+    }
+}
+
+impl Hears<telegrams::Measured> for Both {
+    fn receiver(&self) -> &Receiver<telegrams::Measured> {
+        &self.0
+    }
+}
+
+fn a_listener_of_several_telegrams_waits_for_each() {
+    let bus = Bus::default().then(&[part(3, [1, 2, 3]), part(0, [4900, 0, 0])]);
+    let both = Both(Receiver::new(5), Receiver::new(5));
+    let mut client = Client::new(bus, &PROFILE, 5).listening(both);
+    assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
+    let missing = client.patient(0).receive::<points::Starts>().unwrap_err();
+    assert_eq!(missing.to_string(), "starts: the frame with the word never came");
 }
 
 fn units_are_checked() {
     let mut client = Client::new(Bus::default(), &PROFILE, 31);
-    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit)));
+    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit, Some("ratio"))));
     assert!(client.into_transport().sent.is_empty());
 }
 
@@ -262,7 +287,8 @@ fn waits_without_blocking() {
     let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(finish(client.read::<points::Ratio>()), Ok(200));
     assert_eq!(finish(client.write::<points::Ratio>(300)), Ok(()));
-    assert_eq!(finish(client.receive::<points::Frequency>()), Ok(1.0));
+    assert_eq!(finish(client.receive_count::<points::Frequency>()), Ok(100));
+    assert_eq!(client.listener().count::<points::Frequency>(), Ok(100));
     is_send(&client.write::<points::Ratio>(300));
     is_send(&client.receive::<points::Frequency>());
     assert_eq!(client.into_transport().0.memory[&507], 300);
@@ -329,6 +355,7 @@ fn main() {
     other_numbers_are_told();
     listeners_are_lent_and_paired();
     units_are_checked();
+    a_listener_of_several_telegrams_waits_for_each();
     wrong_bytes_are_of_no_telegram();
     waits_without_blocking();
     a_transport_may_stay_on_its_thread();

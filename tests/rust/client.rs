@@ -40,11 +40,12 @@ impl Line {
         match self.framing {
             Framing::Rtu => {
                 bytes.extend(crc(&bytes).to_le_bytes());
-                assert_eq!(reply_length(&bytes[..3]), Some(bytes.len()));
+                assert_eq!(reply_length(self.framing, &bytes[..3]), Some(bytes.len()));
             }
             Framing::Tcp => {
                 let length = u8::try_from(bytes.len()).unwrap();
                 bytes.splice(0..0, [head[0], head[1], 0, 0, 0, length]);
+                assert_eq!(reply_length(self.framing, &bytes[..6]), Some(bytes.len()));
             }
         }
         reply[..bytes.len()].copy_from_slice(&bytes);
@@ -106,16 +107,18 @@ fn reads_and_writes(framing: Framing) {
     assert_eq!(client.update::<points::DelayClass>(3), Ok(()));
     let refused = client.read::<points::BaseFrequency>().unwrap_err();
     let (code, name) = (exceptions::VALUE_OUT_OF_RANGE, Some("value_out_of_range"));
-    assert_eq!(refused, ClientError::Reply(ReplyError::Exception { code, name }));
-    assert_eq!(refused.to_string(), "the device refused with exception 21h (value_out_of_range)");
+    assert_eq!(refused, ClientError::Reply(ReplyError::Exception { code, name }, Some("base_frequency")));
+    assert_eq!(refused.to_string(), "base_frequency: the device refused with exception 21h (value_out_of_range)");
+    assert_eq!(refused.point(), Some("base_frequency"));
     let far = client.write::<points::BaseFrequency>(401.0).unwrap_err();
     assert_eq!(far.to_string(), "base_frequency: 401 Hz is outside 0 to 400 Hz (raw 0 to 4000)");
     let block = blocks::MAIN.iter().find(|block| block.brings::<points::AccelerationTime>()).unwrap();
     let reply = client.exchange(Request::block(1, block)).unwrap().unwrap();
     let raw = reply.raw::<points::AccelerationTime>().unwrap();
     assert_eq!(points::AccelerationTime::decode(raw), 808_714.25);
-    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength(Some("base_frequency"))));
-    assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came")));
+    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::NotBrought(Some("base_frequency"))));
+    assert_eq!(reply.value::<points::AccelerationTime>(), Ok(808_714.25));
+    assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came", Some("base_frequency"))));
     let sent = client.into_transport().sent;
     assert_eq!(sent[1..3], ["0106102801f4", "010320080001"]);
     assert_eq!(sent[4..6], ["010320120001", "01062012ffff"]);
@@ -150,7 +153,7 @@ fn a_gateway_speaks_another_framing() {
     static BEHIND_GATEWAY: Profile = RTU.with_framings(&[Framing::Tcp]);
     let line = || Line::new(Framing::Tcp, &["01030201f4"]);
     let mut client = Client::new(line(), &RTU, Framing::Tcp, 1);
-    let refused = Err(ClientError::Build(BuildError::BadFraming));
+    let refused = Err(ClientError::Build(BuildError::BadFraming, Some("base_frequency")));
     assert_eq!(client.read::<points::BaseFrequency>(), refused);
     let mut client = Client::new(line(), &BEHIND_GATEWAY, Framing::Tcp, 1);
     assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
@@ -172,13 +175,17 @@ fn errors_say_all_once_and_name_the_point() {
     let error: ClientError<std::io::Error> = Error::Special("level").into();
     assert_eq!(error.to_string(), "level: the raw number is a special code and no quantity");
     assert!(std::error::Error::source(&error).is_none());
+    assert_eq!(enums::FrequencySource::Unknown(999).to_string(), "999");
+    assert_eq!(enums::FrequencySource::from(1).to_string(), enums::FrequencySource::from(1).name().unwrap());
 }
 
 fn all_units_get_a_write_and_none_answers() {
     let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 0);
     assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
     assert!(client.exchange(Request::command(0, &commands::ENTER)).unwrap().is_none());
-    assert!(matches!(client.read::<points::BaseFrequency>(), Err(ClientError::Build(_))));
+    let none = client.read::<points::BaseFrequency>().unwrap_err();
+    assert_eq!(none, ClientError::Build(BuildError::NotForAll, Some("base_frequency")));
+    assert_eq!(none.to_string(), "base_frequency: this cannot be sent to all units");
     assert_eq!(client.into_transport().sent, ["0006102801f4", "000609000001"]);
 }
 

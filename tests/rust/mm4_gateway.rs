@@ -168,7 +168,7 @@ fn runs_and_stops() {
     drive.lock().unwrap().faulty = true;
     let refused = client.read::<points::UserAccessLevel>().unwrap_err();
     let (error, name) = (exceptions::PARAMETER_NUMBER_NOT_ALLOWED, Some("parameter_number_not_allowed"));
-    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }));
+    assert_eq!(refused, ClientError::Reply(ParseError::Refused { error, name }, Some("user_access_level")));
     assert!(client.heard::<points::StatusWord>().unwrap().fault());
     assert!(drive.lock().unwrap().control & 1 == 1);
 }
@@ -201,7 +201,7 @@ fn wrong_links_are_noticed() {
     drive.lock().unwrap().single_first = true;
     let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
-    let wrong = ClientError::EchoMismatch(Value::Word(0));
+    let wrong = ClientError::EchoMismatch(Value::Word(0), Some("command_source"));
     assert_eq!(client.write::<points::CommandSource>(usual), Err(wrong));
     let mut client = Client::new(Port(drive), &PROFILE, Link::new(4, 2).single_first(), 3);
     assert_eq!(client.write::<points::CommandSource>(usual), Ok(()));
@@ -217,7 +217,7 @@ fn parameters_are_changed() {
     assert_eq!(nan, Err(ClientError::Point(Error::NotANumber("maximum_frequency"))));
     client.send::<points::ControlWord>(RUN).unwrap();
     let running = client.write::<points::MaximumFrequency>(50.0).unwrap_err();
-    assert_eq!(running.to_string(), "the drive refused with error 17 (not_in_this_operating_state)");
+    assert_eq!(running.to_string(), "maximum_frequency: the drive refused with error 17 (not_in_this_operating_state)");
     // P1120 has no point, as nobody says its scale; its address is at the head of the points.
     let ramp = client.exchange(Request::new(3, 1, 1120, 0)).unwrap().value();
     assert_eq!(ramp, Value::Double(10_f32.to_bits()));

@@ -123,7 +123,7 @@ fn measured_values_are_published() {
     let mut client = Client::new(Device::new(), &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     assert_eq!(client.receive::<points::TelegramIdentification>(), Ok(1301));
     assert_eq!(client.receive::<points::OperatingHours>(), Ok(100_000));
-    let receiver = *client.listener();
+    let receiver = client.listener();
     assert_eq!(receiver.value::<points::GeneratorFrequency>(), Ok(49.98));
     let power = with::GeneratorActivePower {
         generator_power_exponent: receiver.raw::<points::GeneratorPowerExponent>().unwrap(),
@@ -136,16 +136,18 @@ fn measured_values_are_published() {
     assert_eq!(receiver.value::<points::MainsState>(), Ok(enums::SupplyPresence::Absent));
     assert_eq!(points::GeneratorActivePower::decode_with(-1, power), Ok(-1000.0));
     let wrong = with::GeneratorActivePower { generator_power_exponent: 100 };
-    assert!(receiver.value_with::<points::GeneratorActivePower>(wrong).is_err());
+    let broken = receiver.value_with::<points::GeneratorActivePower>(wrong).unwrap_err();
+    let shown = "generator_active_power: the factor generator_power_exponent is 100, outside 0 to 5";
+    assert_eq!(broken.to_string(), shown);
     let empty = Receiver::<Visualisation>::new(UNIT).value::<points::GeneratorFrequency>();
-    assert_eq!(empty, Err(ReceiveError::Missing));
+    assert_eq!(empty, Err(ReceiveError::Missing(Some("generator_frequency"))));
 }
 
 fn parameters_are_changed() {
     let mut client = Client::new(Device::new(), &PROFILE, UNIT);
     // Without the password the device keeps what it has, and says so.
     let locked = client.write::<points::GeneratorFrequencySetpoint>(60.0);
-    assert_eq!(locked, Err(ClientError::EchoMismatch(12800)));
+    assert_eq!(locked, Err(ClientError::EchoMismatch(12800, Some("generator_frequency_setpoint"))));
     assert_eq!(client.write::<points::PasswordLevel2>(1234), Ok(()));
     assert_eq!(client.write::<points::GeneratorFrequencySetpoint>(60.0), Ok(()));
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
@@ -163,7 +165,7 @@ fn a_late_answer_answers_nothing() {
     let mut client = Client::new(Device::new(), &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.transport().slow = 1;
     let late = client.read::<points::GeneratorFrequencySetpoint>();
-    assert_eq!(late, Err(ClientError::Transport("nothing came")));
+    assert_eq!(late, Err(ClientError::Transport("nothing came", Some("generator_frequency_setpoint"))));
     client.transport().parameters.insert(11, 15360);
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
     assert_eq!(client.listener().taken(), 2);

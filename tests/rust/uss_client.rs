@@ -143,7 +143,7 @@ fn parameters_are_read_and_written() {
     assert_eq!(client.read::<points::WideIndex255>(), Ok(5));
     assert_eq!(client.write::<points::WideIndex255>(0x0001_0002), Ok(()));
     // The drive has no task that keeps double words of arrays.
-    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask)));
+    assert_eq!(client.store::<points::WideIndex255>(1), Err(ClientError::Build(BuildError::BadTask, Some("wide_index_255"))));
     assert_eq!(client.read::<points::LowBits>(), Ok(15));
     assert_eq!(client.update::<points::LowBits>(3), Ok(()));
     assert_eq!(client.store_update::<points::LowBits>(4), Ok(()));
@@ -159,21 +159,21 @@ fn parameters_are_read_and_written() {
 
 fn refusals_and_wrong_answers_are_told() {
     let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), &PROFILE, LINK, 3);
-    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some("source"));
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(Some("reference")))));
     let mut drive = client.into_transport();
     drive.longer = true;
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(3, 4), 3);
-    assert_eq!(client.cycle(), Err(ClientError::Reply(ParseError::WrongLength)));
+    assert_eq!(client.cycle(), Err(ClientError::Reply(ParseError::WrongLength, None)));
     let mut client = Client::new(&mut drive, &PROFILE, LINK, 32);
-    assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadUnit)));
+    assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadUnit, None)));
     let mut client = Client::new(&mut drive, &PROFILE, LINK, 3);
     let other = client.exchange(Request::cyclic(4)).err();
-    assert_eq!(other, Some(ClientError::Build(BuildError::BadUnit)));
+    assert_eq!(other, Some(ClientError::Build(BuildError::OtherUnit, None)));
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(127, 200), 3);
-    assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadLink)));
-    assert_eq!(client.broadcast([0; 4]), Err(ClientError::Build(BuildError::BadLink)));
+    assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadLink, None)));
+    assert_eq!(client.broadcast([0; 4]), Err(ClientError::Build(BuildError::BadLink, None)));
 }
 
 fn process_data_go_both_ways() {
@@ -185,8 +185,8 @@ fn process_data_go_both_ways() {
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
     assert_eq!(client.set::<points::ControlWord>(flags::ControlWord(0x047F)), Ok(()));
     assert_eq!(client.set_bits::<points::Jog>(2), Ok(()));
-    assert_eq!(client.set::<points::Position>(1), Err(Error::WrongLength(Some("position"))));
-    assert_eq!(client.set::<points::FarWord>(1), Err(Error::WrongLength(Some("far_word"))));
+    assert_eq!(client.set::<points::Position>(1), Err(Error::BeyondLink(Some("position"))));
+    assert_eq!(client.set::<points::FarWord>(1), Err(Error::BeyondLink(Some("far_word"))));
     let setpoint = with::MainSetpoint { reference: fifty };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     let none = with::MainSetpoint { reference: 0x7F80_0000 };
@@ -225,17 +225,17 @@ fn neither_old_nor_new_words_are_repeated_after_a_failure() {
     let mut line = drive();
     let mut client = started(&mut line);
     client.transport().lost = 1;
-    let lost = Err(ClientError::Transport("nothing came"));
-    assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), lost);
+    let lost = |point| Err(ClientError::Transport("nothing came", Some(point)));
+    assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), lost("control_word"));
     assert_eq!(client.words(), [0; 4]);
     assert_eq!(client.read::<points::Source>(), Ok(2));
     client.transport().lost = 1;
     client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
-    assert_eq!(client.write::<points::Source>(3), lost);
+    assert_eq!(client.write::<points::Source>(3), lost("source"));
     assert_eq!(client.cycle(), Ok(()));
     // A telegram that was not sent changes nothing.
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), Ok(()));
-    assert_eq!(client.exchange(Request::new(3, 9, 1, 0)).err(), Some(ClientError::Build(BuildError::BadTask)));
+    assert_eq!(client.exchange(Request::new(3, 9, 1, 0)).err(), Some(ClientError::Build(BuildError::BadTask, None)));
     assert_eq!(client.words(), [0x047E, 0, 0, 0]);
     let sent: Vec<_> = line.sent.iter().map(|telegram| data(telegram)).collect();
     let stop = [0x047E, 0, 0, 0];
@@ -259,7 +259,7 @@ fn a_refused_task_brings_process_data() {
     line.memory.clear();
     let mut client = started(&mut line);
     client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
-    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") });
+    let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some("source"));
     client.transport().actual[0] = 0x0008;
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(8)));
@@ -272,9 +272,9 @@ fn constant_bits_come_with_their_own_word() {
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(1)), Ok(()));
     assert_eq!(client.set_word(3, 7), Ok(()));
-    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength(None)));
+    assert_eq!(client.set_word(4, 7), Err(Error::BeyondLink(None)));
     assert_eq!(client.cycle(), Ok(()));
-    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength(None))));
+    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::BeyondLink(None))));
     let sent = client.into_transport().sent;
     assert_eq!(data(&sent[0]), [0, 0x2000, 0, 0]);
     assert_eq!(data(&sent[2]), [0x0401, 0x2000, 0, 7]);
@@ -284,11 +284,11 @@ fn answers_are_held_against_what_was_written() {
     let mut line = drive();
     line.changes = Some(0);
     let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
-    assert_eq!(client.write::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0))));
-    assert_eq!(client.store::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0))));
-    assert_eq!(client.update::<points::LowBits>(3), Err(ClientError::EchoMismatch(Value::Word(0))));
+    assert_eq!(client.write::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
+    assert_eq!(client.store::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
+    assert_eq!(client.update::<points::LowBits>(3), Err(ClientError::EchoMismatch(Value::Word(0), Some("low_bits"))));
     let far = client.write::<points::Reference>(60.0).unwrap_err();
-    assert_eq!(far.to_string(), "the drive answered 0 to a write");
+    assert_eq!(far.to_string(), "reference: the drive answered 0 to a write");
     // 33.33 is 0x420551EC; a drive may round: 0x4205_47AE is 33.32, 0x4204_0000 is 33.
     client.transport().changes = Some(0x4205);
     assert_eq!(client.write::<points::Reference>(33.33), Ok(()));
@@ -301,7 +301,7 @@ fn answers_are_held_against_what_was_written() {
 fn all_units_are_sent_valid_words() {
     let mut line = drive();
     let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
-    let bad = Err(ClientError::Build(BuildError::BadMask));
+    let bad = Err(ClientError::Build(BuildError::BadMask, None));
     // Nobody set the control word, whose constant bit makes it valid; it does not matter where it is not meant.
     assert_eq!(client.broadcast([6, 0xFFFF, 0, 0]), bad);
     assert_eq!(client.broadcast([4, 0, 0, 0]), Ok(()));

@@ -21,7 +21,7 @@ from .fast import (
     unchecked,
 )
 from .forms import Form, fixed_ends
-from .rules import NO_RAWS, Case, Rule, chosen, outside
+from .rules import NO_RAWS, Case, Rule, chosen, decimal_text, outside
 
 if TYPE_CHECKING:
     from .fast import Way
@@ -140,9 +140,15 @@ class Scaled(Form[float, float]):
         """As `converted`, by integers alone."""
         return self._rule(raws).encode_count(whole(count), self._counted(), raws)
 
-    def shown(self, raw: int, raws: Raws) -> str:
-        """The value, as people read it."""
-        return f"{self.decode(raw, raws):.12g}"
+    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
+        """The value, as people read it; with `display` rounded from the exact one."""
+        if display is None:
+            return f"{self.decode(raw, raws):.12g}"
+        if self.needs:  # as counts, which other languages compute in 64 bits
+            count = self._bounded(raw, self._rule(raws).decode_count(raw, display, raws))
+            return decimal_text(count, 10**display, display)
+        times, less, over = self._rule(raws).line(raws)
+        return decimal_text(raw * times - less, over, display)
 
 
 class Floating(Form[float, float]):
@@ -219,9 +225,12 @@ class Floating(Form[float, float]):
         """There is none: raises WrongTypeError."""
         raise WrongTypeError("a floating-point number has no counts: use raw numbers or values")
 
-    def shown(self, raw: int, raws: Raws) -> str:
-        """The number, as people read it."""
-        return f"{self.decode(raw, raws):.12g}"
+    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
+        """The number, as people read it; with `display` rounded from the exact one."""
+        number = self.decode(raw, raws)
+        if display is None or not math.isfinite(number):
+            return f"{number:.12g}"
+        return decimal_text(*number.as_integer_ratio(), display)
 
     def same(self, raw: int, other: int) -> bool:
         """Whether both are the same number: 0 and -0 are."""

@@ -1,4 +1,4 @@
-"""Exact arithmetic, once: rounding, words and patterns, rules, and what a point's raw numbers mean.
+"""The one place of exact arithmetic: rounding, words and bit patterns, rules, and what raw numbers mean.
 
-Only the oracle of the vectors computes for itself, so that a mistake here is found there.
+Only the oracle of the vectors has its own arithmetic, so that the vectors show a mistake made here.
 """

@@ -1,6 +1,6 @@
-"""The exact arithmetic of one point: values to raw numbers and back, in rationals, with run-time factors put in.
+"""The exact arithmetic of one point: values to raw numbers and back, as rationals, with the run-time factors given.
 
-It knows no words and no buses. `Settings` are raw numbers of other points by name; what is missing there is said.
+It knows no words on the wire and no buses. A CodecError names other points whose raw numbers are needed.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bound, Factor, Interval, Linear, Point, Special
 
 Settings = Mapping[str, int | Fraction]
-"""What rules take of other points, by name: raw numbers; of f32 and f64 points the value, see `setting_of`."""
+"""The raw numbers of other points by name, as rules need them; for f32 and f64 points the values (`setting_of`)."""
 
 MOST_EXPONENT = 30
 """The largest exponent of ten that a point may give: 10^30 is beyond any device."""
 
 
 class CodecError(Exception):
-    """Why there is no value or no raw number.
+    """Why a value or a raw number cannot be computed.
 
-    `status` is the one that generated code gives (`out_of_range`, `zero_factor`, ...) or `missing`; `missing` names the
-    points whose raw numbers are needed and not given, or the point that is to blame. `special` is the special code in
-    the place of a quantity.
+    `status` is the status in generated code (`out_of_range`, `zero_factor`, ...) or `missing`. `missing` names the
+    points whose raw numbers are needed but not given, or the point that causes the error. `special` is the special
+    code that was met instead of a quantity.
     """
 
     def __init__(self, status: str, missing: Iterable[str] = (), special: Special | None = None) -> None:
@@ -41,16 +41,16 @@ class CodecError(Exception):
 
 
 class _NoQuantity(Fraction):
-    """What a floating-point point holds while that is a special code: known to rules and limits as none."""
+    """The setting of a floating-point point that holds a special code: rules and limits must not compute with it."""
 
 
 class _Code(int):
-    """The same of a point of whole numbers: the raw number."""
+    """The setting of any other point that holds a special code: its raw number."""
 
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """Raw numbers low..high that may be written now; while points are `missing`, the widest that it can be."""
+    """Raw numbers low..high that may be written now; the widest possible ones while points are `missing`."""
 
     low: int
     high: int
@@ -58,7 +58,7 @@ class Window:
 
 
 def setting_of(point: Point, raw: int) -> int | Fraction:
-    """What rules take of a point that holds a raw number; 0 for a bit pattern that is no number."""
+    """The setting of a point that holds this raw number; 0 for a bit pattern that is no number."""
     coded = point.special(raw) is not None
     if not point.info.floating:
         return _Code(raw) if coded else raw
@@ -79,7 +79,7 @@ def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]
 
 
 def decode(point: Point, raw: int, settings: Settings) -> Fraction:
-    """The exact value of a raw number (of a bit pattern that is no number: `not_a_number`). Raises CodecError."""
+    """The exact value of a raw number. Raises CodecError, such as `not_a_number` for a bit pattern."""
     quantity(point, raw)
     if point.info.floating:
         number = float_of(point, raw)
@@ -93,7 +93,7 @@ def decode(point: Point, raw: int, settings: Settings) -> Fraction:
 
 
 def quantity(point: Point, raw: int) -> int:
-    """The raw number itself, if it is a quantity. Raises CodecError: `special`."""
+    """The raw number itself. Raises CodecError (`special`) if it is a special code."""
     special = point.special(raw)
     if special is not None:
         raise CodecError("special", special=special)
@@ -101,7 +101,7 @@ def quantity(point: Point, raw: int) -> int:
 
 
 def encode(point: Point, value: Fraction, settings: Settings) -> int:
-    """The raw number nearest to a value, halves away from zero; not yet held against the range. Raises CodecError."""
+    """The raw number nearest to a value, halves away from zero; the range is not checked. Raises CodecError."""
     if point.info.floating:
         return _pattern_of(point, value)
     ratio, offset = rule_in_force(point, settings)
@@ -109,14 +109,14 @@ def encode(point: Point, value: Fraction, settings: Settings) -> int:
 
 
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
-    """The raw number to write for a value, which no special code is. Raises CodecError."""
+    """The raw number to write for a value; never a special code. Raises CodecError."""
     raw = quantity(point, with_fixed(point, encode(point, value, settings)))
     check(point, raw, settings)
     return raw
 
 
 def check(point: Point, raw: int, settings: Settings) -> None:
-    """Whether a raw number may be written. Raises CodecError: `special`, `out_of_range`, `unknown_value`, ..."""
+    """Raises CodecError if a raw number may not be written: `special`, `out_of_range`, `unknown_value`, ..."""
     special = point.special(raw)
     if special is not None and special.writable:
         return
@@ -130,44 +130,44 @@ def check(point: Point, raw: int, settings: Settings) -> None:
         raise CodecError("unknown_value")
     closed = point.enum is not None and point.enum.closed
     if point.least <= raw <= point.greatest:
-        hits = [one for one in windows(point, settings) if one.low <= raw <= one.high]
-        if any(not one.missing for one in hits):
+        hits = [window for window in windows(point, settings) if window.low <= raw <= window.high]
+        if any(not window.missing for window in hits):
             return
         if hits:
-            raise CodecError("missing", (name for one in hits for name in one.missing))
+            raise CodecError("missing", (name for window in hits for name in window.missing))
     raise CodecError("unknown_value" if closed else "out_of_range")
 
 
 def digits(point: Point, raw: int) -> tuple[int, ...]:
-    """The decimal digits of a word, the highest first, which takes what is left."""
-    found = []
+    """The decimal digits of a word, the highest first; the highest may be more than 9."""
+    digits = []
     for place in reversed(range(0 if point.digits is None else point.digits.count)):
         digit, raw = divmod(raw, 10**place)
-        found.append(digit)
-    return tuple(found)
+        digits.append(digit)
+    return tuple(digits)
 
 
 def strange_digits(point: Point, raw: int) -> bool:
-    """Whether a digit of the word is none of the numbers that it may be."""
-    known = {one.raw for one in point.digits.enum.entries} if point.digits is not None else set()
+    """Whether some digit of the word has no name in the enum of the digits."""
+    known = {entry.raw for entry in point.digits.enum.entries} if point.digits is not None else set()
     return not known.issuperset(digits(point, raw))
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
-    """The intervals in force; all that the bits can hold where there are none. Raises CodecError: `zero_factor`."""
-    found = tuple(_window(one, settings) for one in point.allowed.intervals)
-    return found or (Window(point.least, point.greatest),)
+    """The intervals in force; without any, all that the bits can hold. Raises CodecError (`zero_factor`)."""
+    in_force = tuple(_window(interval, settings) for interval in point.allowed.intervals)
+    return in_force or (Window(point.least, point.greatest),)
 
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
-    """The quantity (no special code) closest to `raw` that may surely be written; None where nobody knows."""
-    known = [one for one in windows(point, settings) if not one.missing and one.low <= one.high]
-    ends = [end for one in known if point.special(end := min(max(raw, one.low), one.high)) is None]
+    """The number closest to `raw` that may certainly be written and is no special code; None if none is certain."""
+    known = [window for window in windows(point, settings) if not window.missing and window.low <= window.high]
+    ends = [end for window in known if point.special(end := min(max(raw, window.low), window.high)) is None]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)
 
 
 def float_of(point: Point, pattern: int) -> float:
-    """The number that the bit pattern of an f32 or f64 point is."""
+    """The number that an f32 or f64 point holds as a bit pattern."""
     return floats.float_of(pattern, point.info.bits)
 
 
@@ -188,7 +188,7 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
 
 
 def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
-    """The ratio times all factors; what is divided by is never zero, what is multiplied with only if `zero` may be."""
+    """The ratio times all factors. Raises CodecError for a zero divisor, and for a zero factor unless `zero` is set."""
     product = rule.ratio
     for factor in powers_last(rule):
         number = _factor(factor, settings)
@@ -199,7 +199,7 @@ def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
 
 
 def powers_last(rule: Linear) -> list[Factor]:
-    """The factors in the order in which generated code looks at them: a zero counts before an exponent too large."""
+    """The factors in the order of generated code, which reports a zero factor before an exponent that is too large."""
     return sorted(rule.factors, key=lambda factor: factor.ten_to)
 
 
@@ -220,7 +220,7 @@ def _window(interval: Interval, settings: Settings) -> Window:
 
 
 def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple[str, ...]]:
-    """The bound, and the points without which it is only the outermost one."""
+    """The bound, and the missing points; with any missing, the bound is the outermost that it can be."""
     if isinstance(bound, int):
         return bound, ()
     outermost = bound.outermost(low=lower)
@@ -235,7 +235,7 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
 
 
 def _is_code(held: int | Fraction | None, codes: tuple[tuple[int, int], ...]) -> bool:
-    """Whether what a point holds is one of its special codes."""
+    """Whether a setting is one of the point's special codes."""
     if isinstance(held, int):
         return any(low <= held <= high for low, high in codes)
     return isinstance(held, _NoQuantity)
@@ -249,7 +249,7 @@ def _pattern_of(point: Point, value: Fraction) -> int:
 
 
 def _check_units(point: Point, pattern: int) -> None:
-    """Limits of floating points are rounded as the value is, and compared with the number that the pattern is."""
+    """Raise CodecError unless a limit of the point allows the number; limits are rounded to the type as values are."""
     number = float_of(point, pattern)
     if isnan(number):
         raise CodecError("not_a_number")

@@ -1,4 +1,4 @@
-"""Linear rules in the smallest integers."""
+"""Linear rules as integers in lowest terms."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ class Line(NamedTuple):
 
     @property
     def inverse(self) -> Line:
-        """The rule the other way round; the factor is not zero."""
+        """The inverse rule; the factor must not be zero."""
         return Line.reduced(self.divisor, -self.add, self.factor)
 
     @property
     def does_nothing(self) -> bool:
-        """Whether the result is the argument."""
+        """Whether the result always equals the argument."""
         return self == SAME
 
     def result(self, argument: int | Fraction) -> Fraction:
@@ -40,26 +40,26 @@ class Line(NamedTuple):
         return (Fraction(argument) * self.factor + self.add) / self.divisor
 
     def argument(self, result: int | Fraction) -> Fraction:
-        """The exact argument that gives a result; the factor is not zero."""
+        """The exact argument that gives a result; the factor must not be zero."""
         return (Fraction(result) * self.divisor - self.add) / self.factor
 
     def meets(self, arguments: Iterable[int]) -> Iterator[int]:
-        """Every integer on the way from those arguments to the division."""
+        """Every integer that occurs between these arguments and the division."""
         for argument in arguments:
             yield from (argument, argument * self.factor, argument * self.factor + self.add)
 
 
 SAME = Line(1, 0, 1)
-"""The result is the argument."""
+"""The rule whose result is its argument."""
 
 
 def value_line(rule: Linear) -> Line:
-    """Values from raw numbers, of a rule without factors."""
+    """The line from raw numbers to values, for a rule without factors."""
     return count_line(rule, 0).inverse
 
 
 def count_line(rule: Linear, decimals: int) -> Line:
-    """Raw numbers from counts of 10^-decimals units (from values, for none), of a rule without factors."""
+    """The line from counts of 10^-decimals units (0: from values) to raw numbers, for a rule without factors."""
     ratio, offset, power = rule.ratio, rule.offset, 10**decimals
     return Line.reduced(
         ratio.numerator * offset.denominator,

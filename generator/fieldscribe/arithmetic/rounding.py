@@ -1,4 +1,4 @@
-"""Rounding to nearest, halves away from zero: the one rule by which numbers become raw numbers."""
+"""Rounding to nearest, halves away from zero: the only way in which exact numbers become raw numbers."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ def half_away(number: Fraction) -> int:
 
 
 def nearest(number: int, divisor: int) -> int:
-    """A quotient as the nearest whole number, halves away from zero; the divisor may be negative."""
+    """The quotient rounded to the nearest whole number, halves away from zero; the divisor may be negative."""
     size = (2 * abs(number) + abs(divisor)) // (2 * abs(divisor))
     return size if (number < 0) == (divisor < 0) else -size

@@ -1,4 +1,4 @@
-"""Raw numbers as patterns of bits, in 16-bit words, the high part first, and in the bits of a shared word."""
+"""Raw numbers in 16-bit words (the high part first), and in the bits of a word that points share."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ if TYPE_CHECKING:
 
 
 def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
-    """The least and the greatest number that so many bits hold."""
+    """The least and the greatest number of a type with so many bits."""
     return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
 
 
 def fits(numbers: Iterable[int], bits: int) -> bool:
-    """Whether so many bits with a sign hold all the numbers."""
+    """Whether a signed integer of so many bits holds all the numbers."""
     low, high = ends_of(bits, signed=True)
     return all(low <= number <= high for number in numbers)
 
@@ -27,12 +27,12 @@ UINT64 = ends_of(64, signed=False)
 
 
 def mask_of(width: int, low: int = 0) -> int:
-    """So many ones from bit `low` on."""
+    """A mask of `width` ones from bit `low` on."""
     return ((1 << width) - 1) << low
 
 
 def number_of(pattern: int, width: int, *, signed: bool) -> int:
-    """The number that a pattern of `width` bits is, in two's complement where that is signed."""
+    """The number in a pattern of `width` bits, read as two's complement if it is signed."""
     return pattern - (1 << width) if signed and pattern >> (width - 1) else pattern
 
 
@@ -50,7 +50,7 @@ def split(raw: int, count: int) -> tuple[int, ...]:
 
 
 def raw_of(point: Point, words: Iterable[int]) -> int:
-    """The raw number of a point out of its words; of a text all its words as one number."""
+    """The raw number of a point from its words; for a text, all words as one number."""
     pattern = joined(words)
     if point.text is not None:
         return pattern
@@ -64,12 +64,12 @@ def words_of(point: Point, raw: int) -> tuple[int, ...]:
 
 
 def group_mask(point: Point) -> int:
-    """The bits of its word that a point takes."""
+    """The mask of the bits that a point takes in its word."""
     return 0xFFFF if point.bits is None else mask_of(point.width, point.bits[1])
 
 
 def insert(point: Point, word: int, raw: int) -> int:
-    """A word with the bits of a point replaced, and those put in that are always written as a constant."""
+    """The word with the bits of a point replaced and its constant bits set."""
     low = 0 if point.bits is None else point.bits[1]
     mask = group_mask(point)
     word = word & ~mask & 0xFFFF | raw << low & mask
@@ -77,7 +77,7 @@ def insert(point: Point, word: int, raw: int) -> int:
 
 
 def with_fixed(point: Point, raw: int) -> int:
-    """A raw number of a whole word with the bits that are always written as a constant."""
+    """The raw number of a whole word with its constant bits set."""
     if point.fixed is None or point.bits is not None:
         return raw
     pattern = (raw & ~point.fixed.mask | point.fixed.bits) & mask_of(point.width)

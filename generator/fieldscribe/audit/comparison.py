@@ -6,32 +6,34 @@ import re
 from bisect import bisect_left, bisect_right
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of, looked_through_of
+from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
 from fieldscribe.audit.placement import placement
+from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.resolve.subject import Subject
 
 _SHORT = 100
-"""So many characters of a line are shown."""
+"""Findings show at most so many characters of a line."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
-"""What says that the numbers between two stand there too."""
+"""What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
 _FAR = 400
-"""A place that moved farther is looked for no more."""
+"""A section number that is no heading is searched in at most so many lines above."""
 
 
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
     manual = Manual(text)
     claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
-    errata = list(errata_of(subject))
-    found = Audit(device, manual_name, same_text, len(manual))
-    return _Comparison(manual, claims, errata, looked_through_of(subject), found).run()
+    errata = list(printed_errata_of(subject))
+    outcome = Audit(device, manual_name, same_text, len(manual))
+    return _Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
 
 
 class _Comparison:
@@ -43,9 +45,9 @@ class _Comparison:
         claims: list[Claim],
         errata: list[PrintedErratum],
         looked_through: set[int],
-        found: Audit,
+        outcome: Audit,
     ) -> None:
-        self.manual, self.claims, self.errata, self.found = manual, claims, errata, found
+        self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
         self.used: set[tuple[int, int]] = set()
         self.taken: dict[str, list[PrintedErratum]] = {}
         for erratum in errata:
@@ -54,7 +56,7 @@ class _Comparison:
         self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
         self.subjects: dict[Extent, dict[str, None]] = {}
         cited = sorted({first for claim in claims for first, _ in claim.cited})
-        self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
+        self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
         self.cited = sorted(self.now)
         self.starts = sorted({self.now[line] for line in cited})
         self.empty = {self._now(line) for line in looked_through}
@@ -68,12 +70,12 @@ class _Comparison:
             self._check_erratum(erratum)
         self._unused()
         self._uncited()
-        self.found.facts = sum(not claim.optional for claim in self.claims)
-        self.found.errata = len(self.errata)
-        return self.found
+        self.outcome.facts = sum(not claim.optional for claim in self.claims)
+        self.outcome.errata = len(self.errata)
+        return self.outcome
 
     def _now(self, line: int) -> int:
-        """Where a line stands that nothing cites: it moved as the cited line above it did."""
+        """Where any line of the transcribed text stands in this text: it moved with the nearest cited line above it."""
         place = bisect_right(self.cited, line)
         return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
 
@@ -82,11 +84,11 @@ class _Comparison:
         if key not in self._extents:
             start = self._now(first)
             if last:
-                found = Extent(start, start + last - first, "lines")
+                extent = Extent(start, start + last - first, "lines")
             else:
                 place = bisect_right(self.starts, start)
-                found = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
-            self._extents[key] = found
+                extent = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
+            self._extents[key] = extent
         return self._extents[key]
 
     def _tokens(self, extent: Extent) -> list[Token]:
@@ -105,14 +107,14 @@ class _Comparison:
         extents = [self._extent(*cited) for cited in claim.cited]
         for extent in extents:
             self.subjects.setdefault(extent, {})[claim.subject] = None
-        stands = [self._stands(claim, extent) for extent in extents]  # in all of them: each marks what it uses
+        stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         if not any(stands) and not claim.optional and not self._is_taken(claim):
             nearest = self._nearest(claim, extents[0].first)
             missing = Missing(claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest)
-            self.found.missing.append(missing)
+            self.outcome.missing.append(missing)
 
     def _is_taken(self, claim: Claim) -> bool:
-        """Whether an erratum says that the description has this instead of what is printed."""
+        """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" else ()
         for erratum in self.taken.get(claim.point, ()):
             if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
@@ -120,15 +122,17 @@ class _Comparison:
         return False
 
     def _stands(self, claim: Claim, extent: Extent) -> bool:
-        there = [self._has(word, extent) for word in claim.words]  # each marks the numbers in it
-        if any(there):
+        word_stands = [
+            self._has(word, extent) for word in claim.words
+        ]  # no short cut: each call marks the numbers used
+        if any(word_stands):
             return True
         if claim.fact == "section":
             return self._lies_in(claim.words[0], extent.first)
         if claim.fact == "bytes":
             return self._has_bytes(claim.shown, extent)
         if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
-            extent = Extent(extent.first, extent.first, "row")  # the rows below are of the other words
+            extent = Extent(extent.first, extent.first, "row")  # the rows below belong to the point's other words
         tokens = self._tokens(extent)
         hits = [token for token in tokens if token.readings & claim.numbers]
         self.used.update((token.line, token.column) for token in hits)
@@ -138,7 +142,7 @@ class _Comparison:
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
 
     def _has(self, word: str, extent: Extent) -> bool:
-        """Whether a word stands there; the numbers in it are used then."""
+        """Whether a word stands in the extent; if so, the numbers in it count as used."""
         for line in range(extent.first, extent.last + 1):
             for at in places_in(self.manual.line(line), word):
                 self.used.update(
@@ -157,9 +161,9 @@ class _Comparison:
         wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
         hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
         self.used.update((token.line, token.column) for token in hits)
-        there = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
-        return all(int(digits[at : at + 2], 16) in there for at in range(0, len(digits), 2)) or all(
-            int(digits[at : at + 4], 16) in there for at in range(0, len(digits), 4)
+        readings = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
+        return all(int(digits[at : at + 2], 16) in readings for at in range(0, len(digits), 2)) or all(
+            int(digits[at : at + 4], 16) in readings for at in range(0, len(digits), 4)
         )
 
     def _nearest(self, claim: Claim, line: int) -> int | None:
@@ -172,15 +176,15 @@ class _Comparison:
 
     def _check_erratum(self, erratum: PrintedErratum) -> None:
         if not erratum.numbers and not erratum.texts:
-            self.found.uncheckable += 1
+            self.outcome.uncheckable += 1
             return
-        cited = [self._extent(*one) for one in erratum.cited]
+        cited = [self._extent(*lines) for lines in erratum.cited]
         extents = cited
-        if erratum.told:  # a sentence may speak of what stands around, which does not make that used
+        if erratum.is_sentence:  # it may speak of the whole section; only numbers at the cited lines count as used
             sections = [self.manual.section_of(extent.first) for extent in extents]
             extents = [
-                Extent(min(one.first, two.first), max(one.last, two.last), "section")
-                for one, two in zip(cited, sections, strict=True)
+                Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
+                for extent, section in zip(cited, sections, strict=True)
             ]
         absent = False
         for number in map(abs, erratum.numbers):
@@ -192,7 +196,7 @@ class _Comparison:
             first = extents[0].first
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
             nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
-            self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
+            self.outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
 
     def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
         """The tokens of an extent that can mean a number."""
@@ -204,8 +208,8 @@ class _Comparison:
 
     def _lacks(self, texts: Iterable[str], extents: list[Extent]) -> bool:
         """Whether one of the texts does not stand in the extents."""
-        there = " ".join(" ".join(self._text(extent) for extent in extents).split())
-        return any(" ".join(one.split()) not in there for one in texts)
+        printed = " ".join(" ".join(self._text(extent) for extent in extents).split())
+        return any(" ".join(text.split()) not in printed for text in texts)
 
     def _lies_in(self, section: str, line: int) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""
@@ -216,13 +220,13 @@ class _Comparison:
 
     def _unused(self) -> None:
         for extent, subjects in self.subjects.items():
-            for line in (one for one in range(extent.first, extent.last + 1) if one not in self.empty):
+            for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
                 for token in self._of_line(line):
                     if (token.line, token.column) not in self.used and token.text not in self.codes:
                         self.used.add((token.line, token.column))
-                        one = Unused(token.line, token.column, token.text, tuple(subjects))
-                        self.found.unused.append(one)
-        self.found.unused.sort(key=lambda one: (one.line, one.column))
+                        unused = Unused(token.line, token.column, token.text, tuple(subjects))
+                        self.outcome.unused.append(unused)
+        self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
@@ -233,11 +237,11 @@ class _Comparison:
         for line in manual.headings:
             section = manual.section_of(line)
             if not any(number in covered for number in range(section.first, section.last + 1)):
-                self.found.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
+                self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
         for line in range(1, len(manual) + 1):
             if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
-                self.found.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
-        self.found.uncited.sort(key=lambda one: one.line)
+                self.outcome.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
+        self.outcome.uncited.sort(key=lambda uncited: uncited.line)
 
     def _moved(self, cited: list[int]) -> dict[int, int]:
         """Where each cited line stands in a manual that changed; what moved is noted."""
@@ -248,11 +252,11 @@ class _Comparison:
                     anchors.setdefault(first, []).append(claim)
         numbers: dict[int, list[Fraction]] = {}
         for erratum in self.errata:
-            if not erratum.told:
+            if not erratum.is_sentence:
                 for first, _ in erratum.cited:
                     numbers.setdefault(first, []).extend(erratum.numbers)
         now = placement(self.manual, cited, anchors, numbers)
         for line in [line for line in cited if now[line] != line]:
             for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
-                self.found.moved.append(Moved(name, line, now[line]))
+                self.outcome.moved.append(Moved(name, line, now[line]))
         return now

@@ -28,18 +28,18 @@ _HEADING = re.compile(r"#{1,6}\s+\S|[0-9]+(?:\.[0-9]+)+\.?[ \t]*[^\W\d]")
 _NUMBERED = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])")
 _RULE = re.compile(r"[|\s:-]+")
 _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
-"""A chapter has one number, as many other lines have: only what the table of contents lists, with a page, is one."""
+"""A number and a title. Many other lines look so: only those are chapters that the table of contents lists."""
 _ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
 _LONG_ROW = 40
-"""A row or paragraph that is not a section is not looked for beyond so many lines."""
+"""A row or paragraph has at most so many lines."""
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A number in the text: how it is written, where, and what it can mean: as decimal, as hexadecimal, as bits."""
+    """A number in the text: how it is written, where, and all that it can mean (`10` is ten, sixteen or two)."""
 
     text: str
     line: int
@@ -86,18 +86,18 @@ class Manual:
     @cached_property
     def _chapters(self) -> set[tuple[str, str]]:
         """The number and title of each chapter in the table of contents."""
-        return {found for text in self.lines if _CONTENTS.search(text) and (found := _chapter(text)) is not None}
+        return {chapter for text in self.lines if _CONTENTS.search(text) and (chapter := _chapter(text)) is not None}
 
     @cached_property
     def numbered(self) -> dict[str, int]:
         """The line of each numbered section."""
-        found: dict[str, int] = {}
+        line_of_number: dict[str, int] = {}
         for number in self.headings:
             text = self.line(number)
             match = _NUMBERED.match(text) or _CHAPTER.match(text)
             if match:
-                found.setdefault(match[1], number)
-        return found
+                line_of_number.setdefault(match[1], number)
+        return line_of_number
 
     @cached_property
     def tokens(self) -> list[list[Token]]:
@@ -107,23 +107,23 @@ class Manual:
     @cached_property
     def lines_of(self) -> dict[Fraction, list[int]]:
         """Where each number stands, in whatever notation."""
-        found: dict[Fraction, list[int]] = {}
+        lines_of_reading: dict[Fraction, list[int]] = {}
         for number, tokens in enumerate(self.tokens, 1):
             for reading in {reading for token in tokens for reading in token.readings}:
-                found.setdefault(reading, []).append(number)
-        return found
+                lines_of_reading.setdefault(reading, []).append(number)
+        return lines_of_reading
 
     @cached_property
     def words(self) -> dict[str, list[int]]:
         """Where each word stands, in small letters."""
-        found: dict[str, list[int]] = {}
+        lines_of_word: dict[str, list[int]] = {}
         for number, text in enumerate(self.lines, 1):
             for word in {match[0].lower() for match in _WORD.finditer(text)}:
-                found.setdefault(word, []).append(number)
-        return found
+                lines_of_word.setdefault(word, []).append(number)
+        return lines_of_word
 
     def lines_with(self, word: str) -> list[int]:
-        """The lines that have a word, of a numbered section its heading alone."""
+        """The lines that contain a word; for the number of a section only its heading."""
         if word in self.numbered:
             return [self.numbered[word]]
         first = "".join(char if char.isalnum() else " " for char in word).split()
@@ -189,19 +189,19 @@ class Manual:
         if not text.startswith("|"):
             return []
         empty = {place for place, cell in enumerate(text.split("|")) if not cell.strip()}
-        found: list[tuple[int, str]] = []
+        merged: list[tuple[int, str]] = []
         above = number - 1
         while empty and self.line(above).startswith("|") and not _RULE.fullmatch(self.line(above)):
             cells = self.line(above).split("|")
             for place in [place for place in empty if place < len(cells) and cells[place].strip()]:
-                found.append((above, cells[place]))
+                merged.append((above, cells[place]))
                 empty.discard(place)
             above -= 1
-        return found
+        return merged
 
 
 def tokens_of(text: str, number: int) -> list[Token]:
-    """The numbers in a piece of text of a line; the 1 of a fraction says nothing by itself."""
+    """The numbers in a piece of text of a line, without the 1 of a fraction 1/x."""
     return [
         Token(match[0], number, match.start() + 1, frozenset(_readings(match)))
         for match in _NUMBER.finditer(text)
@@ -223,27 +223,27 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:
         amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
-        return {Fraction(int(bare, 16)), *amount}  # 10A may be ten ampere
+        return {Fraction(int(bare, 16)), *amount}  # "10A" may be ten ampere
     text = match["decimal"]
-    found = set(_decimals(text))
+    readings = set(_decimals(text))
     if text.isdigit() and len(text) in (2, 4, 8):
-        found.add(Fraction(int(text, 16)))
+        readings.add(Fraction(int(text, 16)))
     if set(text) <= {"0", "1"} and len(text) > 1:
-        found.add(Fraction(int(text, 2)))
-    return found
+        readings.add(Fraction(int(text, 2)))
+    return readings
 
 
 def _decimals(text: str) -> set[Fraction]:
-    """A number with points or commas, which may part decimals or thousands; a list of numbers gives each of them."""
+    """The readings of a number with points or commas: they may part decimals, thousands, or the numbers of a list."""
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}
-    found = {Fraction(int(part)) for part in parts}
+    readings = {Fraction(int(part)) for part in parts}
     if len(parts) == 2:
-        found.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
+        readings.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
     if all(len(part) == 3 for part in parts[1:]):
-        found.add(Fraction(int("".join(parts))))
-    return found
+        readings.add(Fraction(int("".join(parts))))
+    return readings
 
 
 def has_word(text: str, word: str) -> bool:

@@ -1,4 +1,4 @@
-"""What an audit found, as plain data."""
+"""The findings of an audit, as plain data."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Unprinted:
 
 @dataclass(slots=True)
 class Audit:
-    """Everything that was found. `facts` were looked for; `uncheckable` errata print nothing that can be looked for."""
+    """All findings. `facts` counts the claims; `uncheckable` the errata without a number or quoted text to search."""
 
     device: str
     manual: str
@@ -95,8 +95,8 @@ class Audit:
     def shifts(self) -> list[tuple[int, int, int, int]]:
         """Moved places in runs that moved alike: first line, last line, by how many lines, how many places."""
         runs: list[tuple[int, int, int, int]] = []
-        for line, by in sorted({(one.line, one.now - one.line) for one in self.moved}):
-            count = Counter((one.line, one.now - one.line) for one in self.moved)[line, by]
+        for line, by in sorted({(place.line, place.now - place.line) for place in self.moved}):
+            count = Counter((place.line, place.now - place.line) for place in self.moved)[line, by]
             if runs and runs[-1][2] == by:
                 first, _, _, before = runs[-1]
                 runs[-1] = (first, line, by, before + count)
@@ -112,9 +112,9 @@ class Audit:
             "same_text": self.same_text,
             "clean": self.clean,
             "counts": self.counts,
-            "missing": [asdict(one) for one in self.missing],
-            "moved": [asdict(one) for one in self.moved],
-            "errata_not_printed": [asdict(one) for one in self.unprinted],
-            "unused_numbers": [asdict(one) for one in self.unused],
-            "uncited": [asdict(one) for one in self.uncited],
+            "missing": [asdict(fact) for fact in self.missing],
+            "moved": [asdict(place) for place in self.moved],
+            "errata_not_printed": [asdict(erratum) for erratum in self.unprinted],
+            "unused_numbers": [asdict(number) for number in self.unused],
+            "uncited": [asdict(place) for place in self.uncited],
         }

@@ -16,39 +16,41 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from fractions import Fraction
 
-    from fieldscribe.audit.claims import Claim
+    from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Manual
 
 _LOST, _NOT_FIRST, _BELOW, _CHANGE = 10.0, 1.0, 0.5, 6.0
-"""What it costs: no anchor stands in the place; none opens it; its section's heading does not; the shift changes.
+"""Costs of a place: no anchor stands in it; none stands on its first line; that line is not its section's heading;
+it is shifted otherwise than the place above.
 
-A line with one anchor does not move by itself, to and back: a number that was changed is likelier.
+A changed shift costs more than half of a lost anchor, so that a line with one anchor does not move alone: most
+likely its number was changed.
 """
 _MOST = 2
-"""A line with more codes, sections and addresses than one costs at most so many times as much."""
+"""Several lost codes, sections and addresses of a line cost at most so many times as much as a single one."""
 _STRONG, _WEAK = 3, 2
-"""What a code, a section or an address weighs, and what all other facts of a line do together."""
+"""The weight of a code, a section or an address, and the weight of all other facts of a line together."""
 _BYTES = 8
-"""So many digits of a frame tell where it stands."""
+"""A frame is searched by so many of its first digits."""
 _LONGEST = 40
-"""A place without a cited line below it is not longer."""
+"""A place ends after at most so many lines, where the next cited line is farther away."""
 _MERGED = 10
-"""A cell that is merged with those below it stands at most so many rows above."""
+"""The text of a merged cell stands at most so many rows above."""
 _HOPELESS = 120.0
-"""A sequence that costs so much more than the best is given up."""
+"""A sequence of shifts that costs so much more than the best is given up."""
 _COMMON, _NEAREST = 12, 3
-"""How many shifts are tried for all lines, and how many places of an anchor for its own line."""
+"""How many of the most frequent shifts are tried for every line, and how many of its own for each anchor."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Anchor:
-    """The lines that have a fact, the spans in which what it belongs to may begin, and how much it tells."""
+    """A fact that tells where a cited line is now: the lines with it, spans in which the line may lie, its weight."""
 
     places: list[int]
     spans: tuple[tuple[int, int], ...] = ()
     weight: int = 1
     length: int | None = None
-    """How many lines it has, where that is said."""
+    """How many lines the fact may take from the cited line on; None: as long as the place is."""
 
 
 def placement(
@@ -57,30 +59,33 @@ def placement(
     claims: Mapping[int, list[Claim]],
     numbers: Mapping[int, Iterable[Fraction]],
 ) -> dict[int, int]:
-    """Where each cited line stands now, and each that an erratum is about, with the `numbers` printed there."""
+    """Where each line stands now that a claim cites, or an erratum (`numbers`: what it says is printed there)."""
     lines = sorted({*cited, *numbers})
     anchors = [_anchors(manual, line, claims.get(line, ()), numbers.get(line, ())) for line in lines]
-    own = [_candidates(line, one) for line, one in zip(lines, anchors, strict=True)]
-    common = [shift for shift, _ in Counter(shift for one in own for shift in one).most_common(_COMMON)]
-    states = [dict.fromkeys((0, *common, *one)) for one in own]
+    own_shifts = [_candidates(line, anchors_of_line) for line, anchors_of_line in zip(lines, anchors, strict=True)]
+    common = [
+        shift
+        for shift, _ in Counter(shift for shifts_of_line in own_shifts for shift in shifts_of_line).most_common(_COMMON)
+    ]
+    states = [dict.fromkeys((0, *common, *shifts_of_line)) for shifts_of_line in own_shifts]
     shifts = _Search(manual, lines, _lengths(lines, cited), anchors).cheapest(states)
     return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
 
 
 def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
-    """How long what begins at each line is: to the next line that a claim cites."""
+    """How many lines the place has that begins at each line: up to the next line that a claim cites."""
     ends = [*cited, lines[-1] + _LONGEST if lines else 0]
     return [min(_LONGEST, max(1, ends[min(bisect_right(cited, line), len(cited))] - line)) for line in lines]
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    found = [_anchor(manual, claim, line) for claim in claims]
-    found += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
-    return [one for one in found if one is not None and one.places]
+    anchors = [_anchor(manual, claim, line) for claim in claims]
+    anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
+    return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
 
 def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
-    """Where a fact stands; None for one that tells no place (a section without a number, a fact that is nowhere)."""
+    """The anchor of a claim; None for a section that has no numbered heading."""
     if claim.fact == "section":
         heading = manual.numbered.get(claim.words[0])
         if heading is None:
@@ -97,13 +102,13 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
 
 
 def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
-    """Shifts that lead from a line to places of its anchors, the nearest of each."""
+    """The shifts that bring a line to the nearest places of each of its strong anchors."""
     shifts: dict[int, None] = {}
     for anchor in anchors:
         if anchor.weight < _STRONG:
             continue
         at = bisect_left(anchor.places, line)
-        around = anchor.places[max(0, at - _NEAREST) : at + _NEAREST]  # they are in order
+        around = anchor.places[max(0, at - _NEAREST) : at + _NEAREST]  # places are sorted
         nearest = sorted(around, key=lambda place: (abs(place - line), place))[:_NEAREST]
         shifts.update(dict.fromkeys(place - line for place in nearest))
     return shifts
@@ -132,7 +137,7 @@ class _Search:
             least = min(now.values())
             costs = {shift: cost for shift, cost in now.items() if cost <= least + _HOPELESS}
             steps.append(step)
-        shift = min(costs, key=lambda one: (costs[one], abs(one), one), default=0)
+        shift = min(costs, key=lambda shift: (costs[shift], abs(shift), shift), default=0)
         result = []
         for step in reversed(steps):
             result.append(shift)
@@ -140,7 +145,7 @@ class _Search:
         return result[::-1]
 
     def _cost(self, index: int, shift: int) -> float:
-        """How badly a place fits: the share of its anchors that do not stand in it, and whether one opens it."""
+        """How badly a place fits: the share of the line's anchors that do not stand in it, and how it begins."""
         anchors, line = self.anchors[index], self.cited[index]
         if not anchors:
             return 0.0
@@ -148,13 +153,13 @@ class _Search:
         if start in self.headings:
             end = max(end, self.manual.section_of(start).last + 1)
         start_of_cells = start - _MERGED if self.manual.is_merged(start) else start
-        strong, weak = [0, 0], [0, 0]  # lost, of so many
+        strong, weak = [0, 0], [0, 0]  # how many are lost, and how many there are
         opens = False
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
             at = bisect_left(anchor.places, start_of_cells)
-            there = at < len(anchor.places) and anchor.places[at] < stop
-            lost = not there and not any(low <= start <= high for low, high in anchor.spans)
+            stands = at < len(anchor.places) and anchor.places[at] < stop
+            lost = not stands and not any(low <= start <= high for low, high in anchor.spans)
             count = strong if anchor.weight == _STRONG else weak
             count[0] += lost
             count[1] += 1

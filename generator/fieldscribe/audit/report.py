@@ -20,37 +20,37 @@ _TEXTS = {
 }
 
 
-def as_lines(found: Audit, *, everything: bool) -> Iterator[Line]:
-    """What has to be looked at, worst first, then the figures; with `everything` also what is only worth a look."""
-    for one in found.missing:
-        where = f"line {one.line}" if one.last in (0, one.line) else f"lines {one.line} to {one.last}"
-        said = f": {one.subject}: {one.fact} {one.wanted} is not at {where}; {_near(one.nearest)}"
-        yield [("error", "missing"), ("", visible(said))]
-    for erratum in found.unprinted:
-        said = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
-        yield [("error", "erratum"), ("", visible(said))]
-    for first, last, by, count in found.shifts():
+def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
+    """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
+    for fact in outcome.missing:
+        where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
+        message = f": {fact.subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
+        yield [("error", "missing"), ("", visible(message))]
+    for erratum in outcome.unprinted:
+        message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
+        yield [("error", "erratum"), ("", visible(message))]
+    for first, last, by, count in outcome.shifts():
         lines = f"line {first}" if first == last else f"lines {first} to {last}"
         places = f"{count} cited place{'' if count == 1 else 's'}"
         side = "below" if by > 0 else "above"
         yield [("warning", "moved"), ("", f": {places} of {lines} stand {abs(by)} lines {side}")]
-    for number in found.unused if everything else ():
+    for number in outcome.unused if everything else ():
         subjects = ", ".join(number.subjects[:3]) + (", ..." if len(number.subjects) > 3 else "")
         yield [("hint", "unused"), ("", visible(f": line {number.line}: {number.number} ({subjects})"))]
-    for place in found.uncited if everything else ():
+    for place in outcome.uncited if everything else ():
         yield [("hint", "uncited"), ("", visible(f": line {place.line}: {place.kind}: {place.text}"))]
-    yield from _figures(found, everything)
+    yield from _figures(outcome, everything)
 
 
 def _near(line: int | None) -> str:
     return "it stands nowhere in the manual" if line is None else f"the nearest place is line {line}"
 
 
-def _figures(found: Audit, everything: bool) -> Iterator[Line]:
-    counts = found.counts
+def _figures(outcome: Audit, everything: bool) -> Iterator[Line]:
+    counts = outcome.counts
     checked = counts["errata"] - counts["errata_uncheckable"]
     tail = "" if everything else " (--all lists them)"
-    yield [("strong", f"{found.device} against {visible(found.manual)}"), ("", f" ({_TEXTS[found.same_text]})")]
+    yield [("strong", f"{outcome.device} against {visible(outcome.manual)}"), ("", f" ({_TEXTS[outcome.same_text]})")]
     for label, text in (
         ("facts", f"{counts['facts']}, {counts['missing']} of them not where they are cited"),
         ("errata", f"{checked} with a printed text to look for, {counts['errata_not_printed']} not there"),
@@ -70,7 +70,7 @@ class _Table:
     rows: list[tuple[object, ...]]
 
 
-def as_html(found: Audit) -> str:
+def as_html(outcome: Audit) -> str:
     """A page of tables that needs nothing beside it."""
     from fieldscribe.render import render
 
@@ -79,31 +79,34 @@ def as_html(found: Audit) -> str:
         _Table(
             "Facts that are not where they are cited",
             ("Subject", "Fact", "Wanted", "Line", "Nearest"),
-            [(one.subject, one.fact, one.wanted, one.line, one.nearest or where) for one in found.missing],
+            [(fact.subject, fact.fact, fact.wanted, fact.line, fact.nearest or where) for fact in outcome.missing],
         ),
         _Table(
             "Errata whose printed text is not there",
             ("Erratum", "Printed", "Line", "Nearest"),
-            [(one.erratum, one.printed, one.line, one.nearest or where) for one in found.unprinted],
+            [
+                (erratum.erratum, erratum.printed, erratum.line, erratum.nearest or where)
+                for erratum in outcome.unprinted
+            ],
         ),
         _Table(
             "Cited places that moved",
             ("Subject", "Cited line", "Line now"),
-            [(one.subject, one.line, one.now) for one in found.moved],
+            [(place.subject, place.line, place.now) for place in outcome.moved],
         ),
         _Table(
             "Numbers in cited places that no fact uses",
             ("Line", "Number", "Cited by"),
-            [(one.line, one.number, ", ".join(one.subjects)) for one in found.unused],
+            [(number.line, number.number, ", ".join(number.subjects)) for number in outcome.unused],
         ),
         _Table(
             "Sections and rows that nothing cites",
             ("Line", "Kind", "Text"),
-            [(one.line, one.kind, one.text) for one in found.uncited],
+            [(place.line, place.kind, place.text) for place in outcome.uncited],
         ),
     ]
-    seen = [_Table(one.title, one.heads, [tuple(map(_shown, row)) for row in one.rows]) for one in tables]
-    view = {"found": found, "manual": visible(found.manual), "text": _TEXTS[found.same_text], "tables": seen}
+    seen = [_Table(table.title, table.heads, [tuple(map(_shown, row)) for row in table.rows]) for table in tables]
+    view = {"found": outcome, "manual": visible(outcome.manual), "text": _TEXTS[outcome.same_text], "tables": seen}
     return render("audit.html.j2", view)
 
 

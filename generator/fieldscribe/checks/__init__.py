@@ -1,4 +1,4 @@
-"""What must hold of a device beyond its shape. One file per fact, named as the fact; each reports and goes on."""
+"""What must be true of a device beyond the shape of its keys. Each file checks one fact and has its name."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def run_checks(subject: Subject) -> None:
-    """All checks, those of the family among them; errata come late because the others use them, names last."""
+    """Run all checks, also those of the family. Errata come after the checks that use them, names last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
         conditions_can_hold,
@@ -30,7 +30,7 @@ def run_checks(subject: Subject) -> None:
         references_exist,
     )
 
-    own = subject.scope.family.part("checks")
+    family_part = subject.scope.family.part("checks")
     checks: tuple[Callable[[Subject], None], ...] = (
         device_name_is_free.check,
         every_point_has_a_source.check,
@@ -44,7 +44,7 @@ def run_checks(subject: Subject) -> None:
         defaults_are_allowed.check,
         references_exist.check,
         printed_facts_agree.check,
-        *(() if own is None else own.CHECKS),
+        *(() if family_part is None else family_part.CHECKS),
         frames_agree.check,
         errata_are_used.check,
         names_do_not_clash.check,

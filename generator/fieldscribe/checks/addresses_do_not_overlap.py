@@ -9,14 +9,14 @@ from fieldscribe.checks.meetings import Meetings
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Command, Point
+    from fieldscribe.resolve.subject import Subject
 
 _WHOLE = (15, 0)
 _MOST = 512
 _APART = ", or say by `when`, `variants`, `since` or `until` that they are never there at once"
 _Key = tuple[str, str | None, int, int]
-"""Space, telegram, index (0 where addresses have none beside them) and address."""
+"""Space, telegram, index (0 where addresses of the space have no index) and address."""
 
 Taken = dict[_Key, list[Resolved]]
 
@@ -24,7 +24,7 @@ Taken = dict[_Key, list[Resolved]]
 def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
-    told: set[int] = set()
+    told_rows: set[int] = set()
     meetings = Meetings(subject)
     for resolved in subject.resolved:
         if subject.report.full:
@@ -33,13 +33,17 @@ def check(subject: Subject) -> None:
             continue
         for address in resolved.point.addresses:
             others = taken.setdefault(_key(subject, resolved.point, address), [])
-            fresh = [one for one in others if (row := _row(resolved, one)) is None or row not in told]
-            rivals = [one for one in fresh if _overlap(resolved.point, one.point) and not meetings.never(resolved, one)]
+            fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
+            rivals = [
+                other
+                for other in fresh
+                if _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
+            ]
             if rivals:
-                _tell(subject, resolved, rivals, address)
-            told.update(row for one in rivals if (row := _row(resolved, one)) is not None)
+                _report_overlap(subject, resolved, rivals, address)
+            told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
             if len(fresh) == _MOST:
-                message = f"more than {_MOST} points stand at {_place(subject, resolved.point, address)}"
+                message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
                 subject.report.error("too-many-items", message, resolved.draft.span("at"), "nobody needs so many")
             others.append(resolved)
             _gap(subject, resolved, address)
@@ -51,7 +55,7 @@ def _key(subject: Subject, point: Point, address: int) -> _Key:
     return point.space, point.telegram, (point.index or 0) if indexed else 0, address
 
 
-def _place(subject: Subject, point: Point, address: int) -> str:
+def _place_in_words(subject: Subject, point: Point, address: int) -> str:
     """The address in words."""
     if point.telegram is not None:
         return f"word {address} of the telegram {point.telegram}"
@@ -61,9 +65,9 @@ def _place(subject: Subject, point: Point, address: int) -> str:
 
 
 def _row(mine: Resolved, other: Resolved) -> int | None:
-    """The row of the manual that both points were expanded from, if it is one: a wrong rule there is one finding."""
-    one, another = mine.draft.element, other.draft.element
-    return id(one.at) if one is not None and another is not None and one.at is another.at else None
+    """The row of the manual, if both points were expanded from the same: all its overlaps are one finding."""
+    expanded = mine.draft.element and other.draft.element
+    return id(mine.draft.own) if expanded and mine.draft.own is other.draft.own else None
 
 
 def _overlap(mine: Point, other: Point) -> bool:
@@ -73,21 +77,21 @@ def _overlap(mine: Point, other: Point) -> bool:
     ]
 
 
-def _tell(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
-    """One finding that names all the points that are there at once."""
+def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
+    """One finding that names all points at the address."""
     together = [mine, *others]
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here") for other in others]
-    place = _place(subject, mine.point, address)
-    what = f"{_listed([one.point.name for one in together])} {'both' if len(together) == 2 else 'all'}"
-    if all(one.point.bits for one in together):
-        bit = max(one.point.bits[1] for one in (mine, others[0]) if one.point.bits)
+    place = _place_in_words(subject, mine.point, address)
+    what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
+    if all(resolved.point.bits for resolved in together):
+        bit = max(resolved.point.bits[1] for resolved in (mine, others[0]) if resolved.point.bits)
         hint = f"points may share a word, but not its bits: correct one{_APART}"
         subject.report.error(
             "bits-overlap", f"{what} take bit {bit} of {place}", mine.draft.span("bits"), hint, related
         )
         return
     hint = f"correct one `at`, give each `bits` of the word{_APART}"
-    if any(len(one.point.addresses) > 1 for one in together):
+    if any(len(resolved.point.addresses) > 1 for resolved in together):
         hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
     elif any(_row(mine, other) is not None for other in others):
         hint = "`addressing` must give each set and index an address of its own: correct it, or the row"

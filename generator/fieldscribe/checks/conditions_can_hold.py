@@ -9,10 +9,10 @@ from fieldscribe.checks.meetings import Meetings, clauses
 from fieldscribe.existence import ends_before
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.existence import Clause, Domain
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _MOST_SHOWN = 12
 
@@ -21,7 +21,7 @@ def check(subject: Subject) -> None:
     """Comparisons and clauses that nothing in the device can make true, and circles of conditions."""
     _circles(subject)
     meetings = Meetings(subject)
-    points = {name: found[0] for name, found in meetings.points.items()}
+    points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
     known: dict[Clause, bool] = {}
     for resolved in subject.resolved:
         point = resolved.point
@@ -35,15 +35,15 @@ def check(subject: Subject) -> None:
             if clause not in known:
                 known[clause] = meetings.possible(clause)
             if not known[clause]:
-                _never(subject, resolved, meetings, clause, points)
+                _report_never_true(subject, resolved, meetings, clause, points)
 
 
 def _circles(subject: Subject) -> None:
-    """Findings for conditions in a circle: a point that exists only if another does, and that one only if the first."""
+    """Findings for conditions in a circle: two points of which each exists only if the other does."""
     from graphlib import CycleError, TopologicalSorter
 
-    drafts = {one.point.name: one for one in subject.resolved if one.point.when is not None}
-    needs = {name: one.point.when.names for name, one in drafts.items() if one.point.when is not None}
+    drafts = {resolved.point.name: resolved for resolved in subject.resolved if resolved.point.when is not None}
+    needs = {name: resolved.point.when.names for name, resolved in drafts.items() if resolved.point.when is not None}
     while needs and not subject.report.full:
         try:
             TopologicalSorter(needs).prepare()
@@ -57,18 +57,20 @@ def _circles(subject: Subject) -> None:
             return
 
 
-def _never(subject: Subject, one: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]) -> None:
+def _report_never_true(
+    subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]
+) -> None:
     """A finding about the first comparison that is never true, or about all of them together."""
     alone = next((part for part in clause if not meetings.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)
     hint = "one thing has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
         hint = f"`{alone.of}` can be {_shown(meetings.domain(alone.of))}"
-    subject.report.error("never-true", f"`{text}` is never true", one.draft.span("when"), hint)
+    subject.report.error("never-true", f"`{text}` is never true", resolved.draft.span("when"), hint)
 
 
 def _shown(domain: Domain) -> str:
-    parts = [one if isinstance(one, str) else _band(one) for one in domain[:_MOST_SHOWN]]
+    parts = [part if isinstance(part, str) else _band(part) for part in domain[:_MOST_SHOWN]]
     raw = "" if isinstance(domain[0], str) else " (raw)"
     return ", ".join(parts) + (", ..." if len(domain) > _MOST_SHOWN else "") + raw
 

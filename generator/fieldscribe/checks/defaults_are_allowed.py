@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _LONGEST = 30
 
@@ -20,29 +18,28 @@ def check(subject: Subject) -> None:
     """Defaults that the range excludes."""
     for resolved in subject.resolved:
         point = resolved.point
-        if point.default is None or resolved.draft.failed & {"scale", "range", "type", "enum"}:
+        if resolved.draft.failed & {"scale", "range", "type", "enum"}:
             continue
-        fault = _fault(point, point.default)
+        fault = _fault(point)
         if fault is not None:
             _report(subject, resolved, fault)
 
 
-def _fault(point: Point, default: Fraction) -> str | None:
+def _fault(point: Point) -> str | None:
+    """Why the point does not take its default; None if it does, or if only other points tell."""
+    default, raw = point.default, point.default_raw
+    if raw is not None:
+        return None if point.special(raw) else _forbidden(point, raw)
+    if default is None:
+        return None
     if point.info.floating:
         held = not point.allowed.units or any(low <= default <= high for low, high in point.allowed.units)
         return None if held else "the range does not allow it"
-    if point.scale is None:
-        raw = default
-    elif point.fixed_scale is None:
-        return None  # only other points tell
-    else:
-        raw = point.fixed_scale.at(default)
-    if raw.denominator != 1:
-        shown = number_text(raw)
-        return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
-    if any(special.low <= raw <= special.high for special in point.specials):
+    rule = fixed_rule(point)
+    if rule is None:
         return None
-    return _forbidden(point, raw.numerator)
+    shown = number_text(rule.argument(default))
+    return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
 
 
 def _forbidden(point: Point, raw: int) -> str | None:
@@ -58,7 +55,26 @@ def _forbidden(point: Point, raw: int) -> str | None:
 
 
 def _report(subject: Subject, resolved: Resolved, fault: str) -> None:
-    unit = f" {resolved.point.unit.symbol}" if resolved.point.unit.symbol else ""
-    message = f"the default {resolved.draft.get('default')}{unit} cannot be written: {fault}"
-    hint = "defaults are in the unit; correct it, the range or the scale"
-    subject.report.error("default-outside-range", message, resolved.draft.span("default"), hint)
+    point, draft = resolved.point, resolved.draft
+    raw = draft.layer("default") is not None
+    key = "default" if raw else "default_in_units"
+    unit = f" {point.unit.symbol}" if point.unit.symbol and not raw else ""
+    said = draft.get(key)
+    hint = "it is in the unit; correct it, the range or the scale"
+    if raw:
+        hint = (
+            f"write `default_in_units: {said}`"
+            if _fits_in_units(point)
+            else "it is a raw number; correct it, or the range"
+        )
+    message = f"the default {said}{unit} cannot be written: {fault}"
+    subject.report.error("default-outside-range", message, draft.span(key), hint)
+
+
+def _fits_in_units(point: Point) -> bool:
+    """Whether the number would do as a value: it was meant so, then."""
+    rule = fixed_rule(point)
+    if rule is None or point.default_raw is None or point.default == point.default_raw:
+        return False
+    raw = rule.argument(point.default_raw)
+    return raw.denominator == 1 and _forbidden(point, raw.numerator) is None

@@ -1,4 +1,4 @@
-"""A device's files take the place of no others: those of a system, of our runtime, or of a language."""
+"""The files of a device have names that neither an operating system, nor our runtime, nor a language uses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 _UNSAFE = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 
@@ -29,4 +29,4 @@ def _reasons(name: str) -> Iterator[str]:
         yield "is no safe name for a folder on every system"
     if name == "fieldscribe" or name.startswith("fieldscribe_"):
         yield "is taken by the runtime, which stands beside the generated files"
-    yield from filter(None, (target(one).device_name_taken(name) for one in TARGETS))
+    yield from filter(None, (target(name_of_target).device_name_taken(name) for name_of_target in TARGETS))

@@ -1,4 +1,4 @@
-"""Named numbers can occur: enum entries lie inside the range and the type and are no special codes."""
+"""Every entry of an enum can occur: it lies in the range and the type, and it is no special code."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:
@@ -35,7 +35,7 @@ def _held(point: Point) -> str:
 
 
 def _specials(subject: Subject, resolved: Resolved) -> None:
-    """One number is a name of the enum or a special code, not both."""
+    """Findings for numbers that are an entry of the enum and a special code."""
     point, draft = resolved.point, resolved.draft
     for entry in point.enum.entries if point.enum is not None else ():
         special = point.special(entry.raw)

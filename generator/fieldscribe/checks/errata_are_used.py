@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:
-    """Keys of errata that no printed fact contradicts."""
+    """Findings for what an erratum says is printed wrong, where nothing disagrees."""
     for erratum in subject.errata:
         printed = erratum.raw["printed"]
         on_bus = any(":" in about for about in erratum.subjects)

@@ -1,4 +1,4 @@
-"""Every point says where in the manual it stands: section or page, and the line where the manual's text is at hand."""
+"""Every point cites its section or page, and its line too where the document names the file of its text."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.subject import Subject
 
 
 @dataclass(frozen=True, slots=True)
 class _Lacks:
-    """A point that cites no section, or no line of that file."""
+    """A point that cites no section and no page, or, where `file` is given, no line of that file."""
 
     draft: Draft
     file: str | None
@@ -39,35 +39,35 @@ def check(subject: Subject) -> None:
                 lacking.setdefault(id(draft.group), []).append(_Lacks(draft, None))
             elif document.file is not None and source.line is None:
                 lacking.setdefault(id(draft.group), []).append(_Lacks(draft, document.file))
-    for key, found in lacking.items():
-        if len(found) == members[key] > 1 and len({one.file for one in found}) == 1:
-            _tell_of_all(subject, found[0])
+    for key, lacks in lacking.items():
+        if len(lacks) == members[key] > 1 and len({lack.file for lack in lacks}) == 1:
+            _report_group(subject, lacks[0])
         else:
-            _tell_of_each(subject, found)
+            _report_points(subject, lacks)
 
 
 def _broken(draft: Draft) -> tuple[str, ...]:
-    """The keys of the group and of the source that had the wrong shape, and so a finding of their own."""
+    """The keys of group and source that were left out because of their shape: they have a finding already."""
     source = draft.get("source")
     return (*draft.group.broken, *(source.broken if isinstance(source, Map) else ()))
 
 
-def _tell_of_each(subject: Subject, found: list[_Lacks]) -> None:
-    for one in found:
+def _report_points(subject: Subject, lacks: list[_Lacks]) -> None:
+    for lack in lacks:
         message, hint = (
-            f"`{one.draft.name}` cites no line of the manual's text",
-            f"add `line: …`, its line in {one.file}",
+            f"`{lack.draft.name}` cites no line of the manual's text",
+            f"add `line: …`, its line in {lack.file}",
         )
-        if one.file is None:
-            message = f"`{one.draft.name}` cites no section and no page"
+        if lack.file is None:
+            message = f"`{lack.draft.name}` cites no section and no page"
             hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"
-        subject.report.error("missing-source", message, one.draft.span(), hint)
+        subject.report.error("missing-source", message, lack.draft.span(), hint)
 
 
-def _tell_of_all(subject: Subject, one: _Lacks) -> None:
-    group = one.draft.group
-    what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {one.file}"
-    if one.file is None:
+def _report_group(subject: Subject, lack: _Lacks) -> None:
+    group = lack.draft.group
+    what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {lack.file}"
+    if lack.file is None:
         what, hint = "section and no page", "add `source: {document: …, section: …}` to the group"
     message = f"no point of the group `{group['group']}` cites a {what.replace(' and no', ' or a')}"
     subject.report.error("missing-source", message, group.span("group"), hint)

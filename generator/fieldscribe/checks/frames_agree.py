@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.model import Frame, Point
@@ -21,7 +21,7 @@ Carries = Callable[["Point"], int | None]
 
 @dataclass(slots=True)
 class Seen:
-    """What one frame turned out to be: `request` is what a family made of it, for its answers.
+    """What a frame was read as. `request` is the family's own form of it, which its answers are parsed with.
 
     `carries` is None where the bytes are no frame of the device.
     """
@@ -32,92 +32,100 @@ class Seen:
 
 
 Reader = Callable[[Subject, "OpenFrame", dict[str, Seen]], Seen]
-"""A frame, with those before it by name, as the family reads it; disagreements are reported."""
+"""Reads a frame as the family does; takes the frames before it by name, and reports what disagrees."""
 
 
 def check(subject: Subject) -> None:
     """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
     if not subject.bus_is_whole:
         return
-    own = subject.scope.family.part("checks")
-    read: Reader = _unread if own is None else own.read
+    family_part = subject.scope.family.part("checks")
+    read: Reader = _unread if family_part is None else family_part.read
     seen: dict[str, Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
-    for one in subject.open_frames:
-        found = read(subject, one, seen)
-        if found.carries is not None:
-            _meaning(subject, one, found.carries, points)
-            if one.frame.direction == "request":
-                _fixed(subject, one, found.carries, fixed)
-        ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{one.frame.name}", ()))
-        seen[one.frame.name] = found
-        subject.frames.append(replace(found.frame, errata=ids))
+    for open_frame in subject.open_frames:
+        read_frame = read(subject, open_frame, seen)
+        if read_frame.carries is not None:
+            _compare_meaning(subject, open_frame, read_frame.carries, points)
+            if open_frame.frame.direction == "request":
+                _compare_fixed_bits(subject, open_frame, read_frame.carries, fixed)
+        ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{open_frame.frame.name}", ()))
+        seen[open_frame.frame.name] = read_frame
+        subject.frames.append(replace(read_frame.frame, errata=ids))
 
 
-def _unread(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
-    """A frame of a family that does not say how its frames are read."""
+def _unread(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """The reader for families that do not read frames."""
     del subject, seen
-    return Seen(one.frame)
+    return Seen(open_frame.frame)
 
 
-def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
-    says = one.raw.get("says")
+def _compare_meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
+    says = open_frame.raw.get("says")
     if not isinstance(says, Map):
         return
     for word in says:
         draft = subject.index.find(word.removesuffix(".raw"))
         point = points.get(draft.item) if draft is not None else None
-        if draft is None or point is None or point.item not in one.frame.meaning or "at" in draft.failed:
+        if draft is None or point is None or point.item not in open_frame.frame.meaning or "at" in draft.failed:
             continue
-        wanted, found = one.frame.meaning[point.item], carries(point)
-        if found != wanted:
-            shown = "does not carry it" if found is None else f"carries raw {found}"
+        wanted, carried = open_frame.frame.meaning[point.item], carries(point)
+        if carried != wanted:
+            shown = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
-            subject.disagrees(Printed(f"frame:{one.frame.name}", "says", says[word], None, says.span(word), message))
+            subject.disagrees(
+                Printed(f"frame:{open_frame.frame.name}", "says", says[word], None, says.span(word), message)
+            )
 
 
-def _fixed(subject: Subject, one: OpenFrame, carries: Carries, points: list[Point]) -> None:
-    """What a request writes has the bits that are always written as a constant."""
+def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carries, points: list[Point]) -> None:
+    """Findings for requests that write a word without its constant bits."""
     for point in points:
         word = carries(_whole_word(point))
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        subject.disagrees(Printed(f"frame:{one.frame.name}", "fixed", printed, None, one.raw.span("bytes"), message))
+        subject.disagrees(
+            Printed(f"frame:{open_frame.frame.name}", "fixed", printed, None, open_frame.raw.span("bytes"), message)
+        )
 
 
 def _whole_word(point: Point) -> Point:
-    """The word that a bit group lies in, as if it were the point."""
+    """The point, or the whole word that it has a few bits of, as a point."""
     return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
 
 
-def no_frame(subject: Subject, one: OpenFrame, message: str) -> Seen:
-    """A finding for bytes that nobody could send; nothing here tells which would be right."""
-    printed = hex_of(one.frame.printed)
-    subject.disagrees(Printed(f"frame:{one.frame.name}", "form", printed, None, one.raw.span("bytes"), message))
-    return Seen(replace(one.frame, valid=False))
+def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
+    """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
+    printed = hex_of(open_frame.frame.printed)
+    subject.disagrees(
+        Printed(f"frame:{open_frame.frame.name}", "form", printed, None, open_frame.raw.span("bytes"), message)
+    )
+    return Seen(replace(open_frame.frame, valid=False))
 
 
-def answers_nothing(subject: Subject, one: OpenFrame) -> None:
+def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
     """A finding for a response that does not say what it answers."""
-    if one.frame.answers is None:
-        message = f"the response `{one.frame.name}` answers nothing"
-        subject.report.error("unknown-frame", message, one.raw.span("name"), "name the request under `answers`")
+    if open_frame.frame.answers is None:
+        message = f"the response `{open_frame.frame.name}` answers nothing"
+        subject.report.error("unknown-frame", message, open_frame.raw.span("name"), "name the request under `answers`")
 
 
-def wrong_error(subject: Subject, one: OpenFrame, carried: int | None) -> None:
-    """A disagreement where the frame is said to carry another error than it does."""
-    said = one.raw.get("error")
-    if said is not None and said != carried:
+def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) -> None:
+    """A finding for a frame that carries another error than the description says."""
+    stated = open_frame.raw.get("error")
+    if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
-        message = f"the error {said} is said to be answered, the frame {shown}"
-        subject.disagrees(Printed(f"frame:{one.frame.name}", "error", said, carried, one.raw.span("error"), message))
+        message = f"the error {stated} is said to be answered, the frame {shown}"
+        subject.disagrees(
+            Printed(f"frame:{open_frame.frame.name}", "error", stated, carried, open_frame.raw.span("error"), message)
+        )
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
-    """The raw number of a point from its words, the high part first; None if one is not there."""
+    """The raw number of a point from its words, the high part first; None if a word is missing."""
     known = [word for word in words if word is not None]
     return raw_of(point, known) if len(known) == len(words) else None
 

@@ -1,4 +1,4 @@
-"""What a group says of its points is about points that it has: a telegram, a rule of addresses."""
+"""The `telegram` and the `addressing` of a group have points that they apply to."""
 
 from __future__ import annotations
 
@@ -10,38 +10,35 @@ from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.subject import Subject
 
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 
 
 def check(subject: Subject) -> None:
-    """Findings for a telegram that no point is a word of, and for a wrong rule of addresses that no row uses."""
+    """Findings for a telegram without points, and for a rule of addresses that cannot be read."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
-    with_rows: set[int] = set()
-    for one in subject.resolved:
-        group = one.draft.group
+    for resolved in subject.resolved:
+        group = resolved.draft.group
         groups.setdefault(id(group), group)
-        if one.point.space == SPACE or "space" in one.draft.failed:
+        if resolved.point.space == SPACE or "space" in resolved.draft.failed:
             with_words.add(id(group))
-        if one.draft.element is not None:
-            with_rows.add(id(group))
     for key, group in groups.items():
         if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:
             message = f"no point of the group is a word of the telegram `{group['telegram']}`"
             hint = "write `space: telegram`, or leave `telegram` out"
             subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
-        if "addressing" in group and key not in with_rows:
-            _readable(subject, group)
+        if "addressing" in group:
+            _check_rule(subject, group)
 
 
-def _readable(subject: Subject, group: Map) -> None:
+def _check_rule(subject: Subject, group: Map) -> None:
     try:
         evaluate(parse_expression(group["addressing"]), _KNOWN)
     except FormulaError as error:
         if "is not known" in error.message:
             error.hint = "a rule knows number, index, set, sets and indices"
-        if "division by zero" not in error.message:  # other numbers may be fine
+        if "division by zero" not in error.message:  # it was evaluated with ones; the real numbers may be fine
             formula_finding(error, group.span("addressing"), subject.report)

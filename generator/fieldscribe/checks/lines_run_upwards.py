@@ -1,4 +1,4 @@
-"""Places in the manual's text that are intervals run upwards."""
+"""Intervals of cited lines run upwards."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.keys import lists_with
 from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 _LISTS = lists_with(DEVICE, "lines")
 
@@ -19,8 +20,8 @@ _LISTS = lists_with(DEVICE, "lines")
 def check(subject: Subject) -> None:
     """Findings for `lines` such as 9..3."""
     seen: set[int] = set()
-    for one in subject.resolved:
-        for layer in one.draft.layers:
+    for resolved in subject.resolved:
+        for layer in resolved.draft.layers:
             if id(layer) not in seen:
                 seen.add(id(layer))
                 _lines(subject, layer)
@@ -35,23 +36,23 @@ def check(subject: Subject) -> None:
 
 
 def _lines(subject: Subject, raw: Map) -> None:
-    said = raw.get("lines")
-    if said is None:
+    lines = raw.get("lines")
+    if lines is None:
         return
-    for holder, at, text in _said(raw, "lines", said):
+    for holder, at, text in _texts_in(raw, "lines", lines):
         first, dots, last = text.partition("..")
-        if dots and int(first) > int(last):
+        if dots and parse_integer(first) > parse_integer(last):
             subject.report.error(
                 "range-reversed", f"lines `{text}` run downwards", holder.span(at), f"write {last}..{first}"
             )
 
 
-def _said(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
+def _texts_in(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:
     if isinstance(value, Map):
-        for key, one in value.items():
-            yield from _said(value, key, one)
+        for key, item in value.items():
+            yield from _texts_in(value, key, item)
     elif isinstance(value, Seq):
-        for place, one in enumerate(value):
-            yield from _said(value, place, one)
+        for place, item in enumerate(value):
+            yield from _texts_in(value, place, item)
     else:
         yield holder, at, str(value)

@@ -1,4 +1,4 @@
-"""A point means one thing: its number is a name, a word of flags, a quantity by a scale, or a floating-point number."""
+"""A point has one meaning: a named number, a word of flags, a quantity by a scale, or a floating-point number."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
@@ -27,11 +27,12 @@ _RIVALS = (
     ("fixed", "enum", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("fixed", "digits", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("range", "range_in_units", "give one of them; what the manual prints besides goes under `printed`"),
+    ("default", "default_in_units", "give one of them: `default` is a raw number, `default_in_units` a value"),
 )
 
 
 def check(subject: Subject) -> None:
-    """Facts of one point that cannot both hold."""
+    """Findings for facts of one point that exclude each other."""
     for resolved in subject.resolved:
         draft = resolved.draft
         _shared_names(subject, resolved)
@@ -59,7 +60,7 @@ def check(subject: Subject) -> None:
 
 
 def _shared_names(subject: Subject, resolved: Resolved) -> None:
-    """A name that is a special code and something else: whoever writes it means one of the two."""
+    """Findings for a name that is a special code and also an enum entry or a flag: it would be ambiguous."""
     point = resolved.point
     if not point.specials:
         return
@@ -81,7 +82,7 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
-    """Findings for facts about whole numbers at a text or a floating-point number."""
+    """Findings for facts about whole numbers that a text or a floating-point number was given."""
     rule = "text-fact" if draft.text else "float-fact"
     for key in keys:
         if draft.get(key) is not None and draft.layer(key) is not draft.group:

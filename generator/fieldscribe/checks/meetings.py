@@ -1,4 +1,4 @@
-"""Which points are there at once: by their variants, their conditions, and the firmware that has them."""
+"""Which points can exist in the same device: variants, conditions and firmwares tell."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from fieldscribe.existence import ANY, Clause, Comparison, Domain, ends_before, 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 
 class Meetings:
-    """What can occur in one device, found when it is first asked for."""
+    """Answers whether conditions and points can occur together in one device."""
 
     def __init__(self, subject: Subject) -> None:
         self.axes = {axis: tuple(entry["values"]) for axis, entry in subject.scope.axes.items()}
@@ -25,12 +25,12 @@ class Meetings:
 
     @cached_property
     def points(self) -> dict[str, list[Point]]:
-        """The points by name: in all variants, and by item."""
-        found: dict[str, list[Point]] = {}
+        """The points by name (of all variants) and by item."""
+        points_of_name: dict[str, list[Point]] = {}
         for resolved in self._resolved:
             for name in {resolved.point.name, resolved.point.item}:
-                found.setdefault(name, []).append(resolved.point)
-        return found
+                points_of_name.setdefault(name, []).append(resolved.point)
+        return points_of_name
 
     def domain(self, name: str) -> Domain:
         """The values of an axis, or the raw numbers that a point may hold."""
@@ -42,11 +42,11 @@ class Meetings:
         """Whether the comparisons can be true at once."""
         return possible(clause, self.domain)
 
-    def never(self, one: Resolved, other: Resolved) -> bool:
-        """Whether no device has both."""
-        if "when" in one.draft.failed or "when" in other.draft.failed:
-            return True  # nobody knows what was meant
-        mine, theirs = one.point, other.point
+    def never(self, resolved: Resolved, other: Resolved) -> bool:
+        """Whether no device can have both points."""
+        if "when" in resolved.draft.failed or "when" in other.draft.failed:
+            return True  # the condition could not be read, and has a finding
+        mine, theirs = resolved.point, other.point
         if ends_before(mine.until, theirs.since) or ends_before(theirs.until, mine.since):
             return True
         if not (mine.variant or mine.when) or not (theirs.variant or theirs.when):
@@ -55,12 +55,12 @@ class Meetings:
 
 
 def clauses(point: Point) -> tuple[Clause, ...]:
-    """What must hold for the point to exist: its condition, in its variant."""
-    own: Clause = ()
+    """The clauses of which one must hold for the point to exist: its condition, and its variant in each."""
+    variant_clause: Clause = ()
     if point.variant is not None:
         axis, _, value = point.variant.partition("=")
-        own = (Comparison(axis, "==", (value,)),)
-    return (own,) if point.when is None else tuple(own + clause for clause in point.when.clauses)
+        variant_clause = (Comparison(axis, "==", (value,)),)
+    return (variant_clause,) if point.when is None else tuple(variant_clause + clause for clause in point.when.clauses)
 
 
 def _numbers(points: list[Point]) -> Domain:
@@ -68,10 +68,10 @@ def _numbers(points: list[Point]) -> Domain:
 
 
 def _bands(point: Point) -> Iterator[tuple[int, int]]:
-    """The raw numbers of a point: those that have a name, and those of its range unless names are all that it has."""
+    """The raw numbers of a point: entries of its enum, its range unless the enum is closed, its special codes."""
     if point.enum is not None:
         yield from ((entry.raw, entry.raw) for entry in point.enum.entries)
     if point.enum is None or not point.enum.closed:
-        for one in point.allowed.intervals:
-            yield one.outer
+        for interval in point.allowed.intervals:
+            yield interval.outer
     yield from ((special.low, special.high) for special in point.specials)

@@ -1,7 +1,7 @@
-"""No two things get one identifier in any target, whichever is generated, and nothing takes what generated code needs.
+"""No two things get the same identifier in any target, and none gets an identifier that generated code needs.
 
-Each target lists its names by what they are of (`targets/*/identifiers.py`); here they are only compared. What is wrong
-is left out, so that a device with other findings gets these too. Reserved words are no clash: targets turn them aside.
+Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
+that have other findings are left out. Reserved words are no clash: targets change such names themselves.
 """
 
 from __future__ import annotations
@@ -12,39 +12,39 @@ from fieldscribe.checks.owners import Owners, given_names
 
 if TYPE_CHECKING:
     from fieldscribe.checks.owners import Thing
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:
-    """Names that meet in the description itself, then those that meet in a target."""
-    told: set[frozenset[Thing]] = set()
+    """Findings for equal names in the description, then for equal identifiers in a target."""
+    told_pairs: set[frozenset[Thing]] = set()
     first: dict[tuple[str, str], Thing] = {}
     for namespace, name, thing in given_names(subject):
         other = first.setdefault((namespace, name), thing)
         if other != thing:
-            _report(subject, other, thing, f"`{name}` in {namespace}", told)
-    _compare_targets(subject, told)
+            _report(subject, other, thing, f"`{name}` in {namespace}", told_pairs)
+    _compare_targets(subject, told_pairs)
 
 
-def _compare_targets(subject: Subject, told: set[frozenset[Thing]]) -> None:
+def _compare_targets(subject: Subject, told_pairs: set[frozenset[Thing]]) -> None:
     from fieldscribe.targets import TARGETS, knows, target
     from fieldscribe.targets.identifiers import clashes
 
     owners, device = Owners(subject), subject.sound
-    for name in (one for one in TARGETS if knows(one, device)):
+    for name in (known for known in TARGETS if knows(known, device)):
         for clash in clashes(target(name).identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
-            _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told)
+            _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
 
 
-def _report(subject: Subject, first: Thing, second: Thing, where: str, told: set[frozenset[Thing]]) -> None:
-    """Two names that meet in one language mostly meet in others too, and are told once."""
+def _report(subject: Subject, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
+    """Report a pair once: names that clash in one language mostly clash in others too."""
     pair = frozenset((first, second))
     if second.place is None:
         first, second = second, first
-    if pair in told or second.place is None:
+    if pair in told_pairs or second.place is None:
         return
-    told.add(pair)
+    told_pairs.add(pair)
     hint = "rename one of them" if first.place is not None else "choose another name"
     related = [] if first.place is None else [(first.place, f"{first.words} stands here")]
     message = f"{first.words} and {second.words} would both be {where}"

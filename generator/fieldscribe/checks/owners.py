@@ -1,4 +1,4 @@
-"""What identifiers stand for, in words and with its place in the text."""
+"""The owners of identifiers, as messages name them and with their places in the description."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from fieldscribe.resolve.drafts import groups
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
     from fieldscribe.targets.identifiers import Owner
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
 _OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
-"""Under which key of a description the things of a kind stand."""
+"""The key of a point under which parts of each kind stand."""
 
 
 class Thing(NamedTuple):
-    """Something with a name: what messages call it, and where it stands; what a target needs itself stands nowhere."""
+    """Something with a name: its words in messages and its place; None for what a target itself needs."""
 
     words: str
     place: Span | None
 
 
 class _EnumFound(NamedTuple):
-    """An enum where it is said: one that many points share, or a point's own."""
+    """An enum with the place where it is written: under `enums`, or in its point."""
 
     name: str
     thing: Thing
@@ -40,19 +40,19 @@ class _EnumFound(NamedTuple):
 
 
 def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
-    """What a description calls its groups, points and enums, which every target takes as it is."""
+    """The names of groups, points and enums as the description gives them, with their namespace."""
     for group in groups(subject.scope):
         name = str(group["group"])
         yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
-    for one in subject.resolved:
-        yield from _names_of_point(subject, one)
+    for resolved in subject.resolved:
+        yield from _names_of_point(subject, resolved)
     for enum in _enums(subject):
         yield "the enums of generated code", enum.name, enum.thing
 
 
-def _names_of_point(subject: Subject, one: Resolved) -> Iterator[tuple[str, str, Thing]]:
-    """A point under its name, its name in a variant and its former names."""
-    where, point, draft = "generated code", one.point, one.draft
+def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Thing]]:
+    """The names of a point: its item, its own name where it has a variant, and its former names."""
+    where, point, draft = "generated code", resolved.point, resolved.draft
     yield where, point.item, Thing(_point_words(draft), draft.span())
     if point.variant is not None:
         first = subject.index.by_name[point.name][0]
@@ -75,33 +75,35 @@ def _point_words(draft: Draft) -> str:
 def _enums(subject: Subject) -> Iterator[_EnumFound]:
     """The enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
-    for one in subject.resolved:
-        point, draft = one.point, one.draft
+    for resolved in subject.resolved:
+        point, draft = resolved.point, resolved.draft
         if not point.generated or (point.enum is None and point.digits is None):
             continue
         key, enum = ("enum", point.enum) if point.digits is None else ("digits", point.digits.enum)
         if enum is None:
             continue
-        said = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
-        entries: Map = subject.scope.named_enums[said] if isinstance(said, str) else said
+        enum_as_written = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
+        entries: Map = (
+            subject.scope.named_enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
+        )
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
         thing = Thing(f"the enum of `{draft.name}`", draft.span(key))
-        if isinstance(said, str):
-            section = next(file["enums"] for file in subject.scope.files if said in file.get("enums", {}))
-            thing = Thing(f"the enum `{said}`", section.key_span(said))
+        if isinstance(enum_as_written, str):
+            section = next(file["enums"] for file in subject.scope.files if enum_as_written in file.get("enums", {}))
+            thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
         yield _EnumFound(enum.name, thing, entries)
 
 
 class Owners:
-    """What the owners of identifiers are in one description."""
+    """Finds the owners of identifiers in a description."""
 
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
 
     def thing(self, owner: Owner) -> Thing:
-        """The owner in words, and where it stands."""
+        """The owner in words, with its place."""
         if owner.kind == "target":
             return Thing(owner.name, None)
         if owner.kind == "enum":
@@ -160,11 +162,11 @@ class Owners:
 
     def _holder_of_codes(self, codes: Owner) -> Draft:
         """The first point that has codes which many share."""
-        return next(one.draft for one in self._subject.resolved if one.point.shared_codes == codes.name)
+        return next(resolved.draft for resolved in self._subject.resolved if resolved.point.shared_codes == codes.name)
 
 
 def _key_place(holder: object, name: str) -> Span | None:
-    """Where the key stands that has the name, or that gives it to something."""
+    """The place of the key that is the name, or whose value is or has the name."""
     for key, value in holder.items() if isinstance(holder, Map) else ():
         if name in (key, value, value.get("name") if isinstance(value, Map) else None):
             return holder.key_span(key) if isinstance(holder, Map) else None

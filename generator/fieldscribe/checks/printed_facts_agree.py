@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe import wording
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.arithmetic.words import number_of
-from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
+from fieldscribe.resolve.subject import Printed, Subject, same
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
 
@@ -34,7 +34,7 @@ _NEEDS = {
     "choices": {"enum", "range"},
     "pairs": {"type", "scale", "unit"},
 }
-"""The facts that a printed one is held against, but for numbers, which are held against the address."""
+"""The keys of the facts that each printed key is compared with; all others are compared with the address."""
 
 
 def check(subject: Subject) -> None:
@@ -56,7 +56,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
         if key in ("range_in_units", "resolution", "pairs") and unknown_scale:
-            continue  # nothing to hold it against
+            continue  # the scale is not known
         if key in ("range", "range_in_units"):
             _range(subject, resolved, key, value, span)
         elif key == "resolution":
@@ -71,7 +71,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
-    """The point's number in every numbering of its group, and for a pair that of the word with the low part."""
+    """The point's number in every numbering of its group; `low_...` for the word with the low part."""
     point, addresses = resolved.point, resolved.point.addresses
     if not addresses:
         return {}
@@ -96,23 +96,22 @@ def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, number
             hint += "`numbering: {modicon: wire + 1}`"
             subject.report.error("unknown-key", message, printed.key_span(key), hint)
         return
-    for one, span in _each(printed[key], printed.span(key)):
+    for printed_number, span in _each(printed[key], printed.span(key)):
         try:
-            given = parse_number(str(one))
+            number = parse_number(str(printed_number))
         except NumberError as error:
             subject.report.error("bad-number", error.message, span, error.hint)
             continue
-        if given != right:
-            message = (
-                f"{key.replace('_', ' ')} {one} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
-            )
-            subject.disagrees(Printed(point.name, key, one, right, span, message))
+        if number != right:
+            fact = f"{key.replace('_', ' ')} {printed_number}"
+            message = f"{fact} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
+            subject.disagrees(Printed(point.name, key, printed_number, right, span, message))
 
 
 def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
     if isinstance(value, Seq):
-        for index, one in enumerate(value):
-            yield one, value.span(index)
+        for index, item in enumerate(value):
+            yield item, value.span(index)
     else:
         yield value, span
 
@@ -124,9 +123,9 @@ def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Spa
         return
     in_units = key == "range_in_units"
 
-    def agrees(given: Any) -> bool | None:
-        found = subject.ranges.intervals(resolved.draft, given, span, in_units, printed=True)
-        return None if found is None else _same_range(point.allowed, without_codes(found, point.specials))
+    def agrees(printed_range: Any) -> bool | None:
+        intervals = subject.ranges.intervals(resolved.draft, printed_range, span, in_units, printed=True)
+        return None if intervals is None else _same_range(point.allowed, without_codes(intervals, point.specials))
 
     if agrees(value) is not False:
         return
@@ -140,9 +139,9 @@ def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Spa
 def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
     point = resolved.point
 
-    def agrees(given: Any) -> bool:
+    def agrees(printed_range: Any) -> bool:
         try:
-            return constant_range(as_text(given)) in (None, point.allowed.units)
+            return constant_range(as_text(printed_range)) in (None, point.allowed.units)
         except FormulaError:
             return False
 
@@ -153,9 +152,13 @@ def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
-    fixed = [one for one in taken.intervals if isinstance(one.low, int) and isinstance(one.high, int)]
-    printed_fixed = [one for one in printed.intervals if isinstance(one.low, int) and isinstance(one.high, int)]
-    moving = taken.intervals[len(fixed) :]  # those that other points limit stand behind the fixed ones
+    fixed = [
+        interval for interval in taken.intervals if isinstance(interval.low, int) and isinstance(interval.high, int)
+    ]
+    printed_fixed = [
+        interval for interval in printed.intervals if isinstance(interval.low, int) and isinstance(interval.high, int)
+    ]
+    moving = taken.intervals[len(fixed) :]  # intervals that other points limit come last
     printed_moving = printed.intervals[len(printed_fixed) :]
     return moving == printed_moving and (fixed == printed_fixed or (bool(moving) and not printed_fixed))
 
@@ -165,20 +168,20 @@ def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) ->
     number, _, unit = str(value).strip().partition(" ")
     step = _step(point)
     try:
-        given = parse_number(number)
+        printed_step = parse_number(number)
     except NumberError as error:
         subject.report.error("bad-number", error.message, span, error.hint)
         return
     if step is None:
         return
     right = f"{number_text(step)} {point.unit.symbol}".strip()
-    if given != step or (unit.strip() and not same(unit, point.unit.symbol)):
+    if printed_step != step or (unit.strip() and not same(unit, point.unit.symbol)):
         message = f"the resolution {value} is printed for `{point.name}`, the scale says {right}"
         subject.disagrees(Printed(point.name, "resolution", value, right, span, message))
 
 
 def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
-    """Raw numbers and values that are printed side by side: the scale turns each into the other."""
+    """Compare printed pairs of a raw number and a value: the scale must turn each into the other."""
     point = resolved.point
     rule = fixed_rule(point)
     if rule is None or point.info.floating:
@@ -188,8 +191,8 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         return
     for key, value in pairs.items():
         raw = integer(key, pairs.key_span(key), subject.report)
-        given = number(value, pairs.span(key), subject.report)
-        if raw is None or given is None:
+        printed_value = number(value, pairs.span(key), subject.report)
+        if raw is None or printed_value is None:
             continue
         if not -(1 << point.width >> 1) <= raw < 1 << point.width:
             message = f"{key} does not fit into the {point.width} bits of `{point.name}`"
@@ -199,14 +202,14 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         if raw > point.greatest:
             raw = number_of(raw, point.width, signed=True)
         exact = rule.result(raw)
-        if half_away(rule.argument(given)) != raw and abs(exact - given) > _half_digit(value):
-            said, right = f"{key} {value}", f"{key} {number_text(exact)}"
-            message = f"the pair {said} is printed for `{point.name}`, the scale says {number_text(exact)}"
-            subject.disagrees(Printed(point.name, "pairs", said, right, pairs.span(key), message))
+        if half_away(rule.argument(printed_value)) != raw and abs(exact - printed_value) > _half_digit(value):
+            pair, right = f"{key} {value}", f"{key} {number_text(exact)}"
+            message = f"the pair {pair} is printed for `{point.name}`, the scale says {number_text(exact)}"
+            subject.disagrees(Printed(point.name, "pairs", pair, right, pairs.span(key), message))
 
 
 def _half_digit(value: Any) -> Fraction:
-    """Half a unit of the last digit that is printed: how far rounding may have moved the number."""
+    """Half a unit of the last printed digit: the error that rounding may have made."""
     decimals = len(str(value).partition(".")[2])
     return Fraction(1, 2 * 10**decimals)
 
@@ -220,7 +223,7 @@ def _step(point: Point) -> Fraction | None:
 
 
 def _flags(subject: Subject, resolved: Resolved) -> None:
-    """The masks and bit numbers that are printed for flags, in bits of the word."""
+    """Compare the masks and bit numbers printed for flags, which count in the whole word."""
     point, raw = resolved.point, resolved.draft.get("flags")
     first = point.bits[1] if point.bits else 0
     by_name = {flag.name: flag for flag in point.flags}
@@ -240,11 +243,11 @@ def _flags(subject: Subject, resolved: Resolved) -> None:
             if key not in printed:
                 continue
             span = printed.span(key)
-            given = integer(printed[key], span, subject.report)
-            if given not in (None, right, other):
-                said, shown = (f"{one:04X}h" if key == "mask" else str(one) for one in (given, right))
-                message = f"the {_FLAG_WORDS[key]} {said} is printed for `{flag.name}`, taken is {shown}"
-                subject.disagrees(Printed(point.name, key, said, shown, span, message, flag=flag.name))
+            printed_number = integer(printed[key], span, subject.report)
+            if printed_number not in (None, right, other):
+                as_printed, shown = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
+                message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {shown}"
+                subject.disagrees(Printed(point.name, key, as_printed, shown, span, message, flag=flag.name))
 
 
 def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> None:
@@ -252,7 +255,7 @@ def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> No
     if point.enum is not None:
         right = len(point.enum.entries)
     else:
-        ends = [(one.low, one.high) for one in point.allowed.intervals if point.allowed.listed]
+        ends = [(interval.low, interval.high) for interval in point.allowed.intervals if point.allowed.listed]
         right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
         message = f"{value} choices are printed for `{point.name}`, taken are {right}"

@@ -1,34 +1,31 @@
-"""What is named exists: the command that `keeps` names, the point that a command's `busy` names."""
+"""Names refer to what exists: `keep_with` to a command, a command's `busy` to a point."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
-from fieldscribe.language.meant import value_hint
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:
-    """Names of commands and points that nothing has."""
+    """Findings for names of commands and points that do not exist."""
     scope = subject.scope
     declared = {str(raw["name"]) for raw in scope.listed("commands")}
-    choice = ("choice",) if scope.family.chooses_memory else ()  # the request says whether the memory keeps it
-    known = ("no", "yes", *choice, *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
-        if keeps == "choice" and keeps not in known:
+        if keeps == "choice" and not scope.family.chooses_memory:
             message = f"a {scope.family.name} request cannot choose where the device keeps the value"
-            choosers = " and ".join(one.name for one in families() if one.chooses_memory)
+            choosers = " and ".join(family.name for family in families() if family.chooses_memory)
             hint = (
-                f"write `keeps: yes`, `keeps: no`, or the command that stores; `choice` is for the tasks of {choosers}"
+                "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores; "
+                f"`choice` is for the tasks of {choosers}"
             )
             scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
-        elif keeps is not None and keeps not in known:
-            span = resolved.draft.span("keeps")
-            scope.unknown("command", keeps, span, known, value_hint("keeps", keeps))
+        elif keeps not in (None, "no", "yes", "choice", *declared):
+            scope.unknown("command", str(keeps), resolved.draft.span("keep_with"), sorted(declared))
     for raw in scope.listed("commands"):
         busy = raw.get("busy")
         if busy is not None and subject.index.find(busy) is None:

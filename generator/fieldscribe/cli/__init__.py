@@ -42,20 +42,20 @@ COMMANDS = {
 """All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
 
 FINE, FINDINGS, USAGE = 0, 1, 2
-"""Exit codes: nothing to say; the input is wrong or stale; the command line or the machine is."""
+"""Exit codes: all is well; findings in the input, or stale output; wrong usage or trouble with the machine."""
 
 _DIGITS = frozenset(".0123456789")
 _INTERRUPTED, _PIPE_CLOSED = 130, 141
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; its exit code. Nothing but that leaves: every failure is a message on stderr."""
+    """Run one command and return its exit code. No exception gets out: every failure is a message on stderr."""
     sys.stdout = sys.stdout or open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # it was closed by the caller
     sys.stderr = sys.stderr or open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # likewise
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
-    gc.disable()  # a run is short and makes no circles: collecting costs a third of a large compile
+    gc.disable()  # a run is short and has no reference cycles: collection would cost a third of a large compile
     try:
         code = _dispatch(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()
@@ -118,7 +118,7 @@ def _overview(argv: list[str]) -> int:
 
 
 def _left(stop: SystemExit) -> int:
-    """The exit code that argparse leaves with, which has said why."""
+    """The exit code of argparse, which has printed the reason."""
     return stop.code if isinstance(stop.code, int) else USAGE
 
 
@@ -132,7 +132,7 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
     from argparse import ArgumentParser, RawDescriptionHelpFormatter
 
     class Parser(ArgumentParser):
-        """Quotes arguments, which may be the names of a stranger's files, as findings do."""
+        """A parser that quotes arguments in messages as findings do: file names may hold control characters."""
 
         def error(self, message: str) -> NoReturn:
             from fieldscribe.report import visible
@@ -149,7 +149,7 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
 
 
 def _width() -> int:
-    """The columns of the terminal; argparse would import shutil with all its archive formats to ask."""
+    """The columns of the terminal, without shutil: argparse would import it with all its archive formats."""
     try:
         columns = int(os.environ.get("COLUMNS", "0")) or os.get_terminal_size(sys.stdout.fileno()).columns
     except (OSError, ValueError):
@@ -158,7 +158,7 @@ def _width() -> int:
 
 
 def _forget_stdout() -> None:
-    """The reader is gone: nothing more is written, also not when the interpreter ends."""
+    """The reader closed the pipe: send the rest of the output nowhere, also at interpreter exit."""
     try:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, ValueError):
@@ -166,7 +166,7 @@ def _forget_stdout() -> None:
 
 
 def show_traceback(error: BaseException) -> None:
-    """Where an internal error came from, for those who ask."""
+    """Print the traceback of an internal error if FIELDSCRIBE_DEBUG is set."""
     if os.environ.get("FIELDSCRIBE_DEBUG"):
         import traceback
 
@@ -175,9 +175,9 @@ def show_traceback(error: BaseException) -> None:
 
 def _failed(error: Exception) -> int:
     show_traceback(error)
-    said = ascii(str(error)[:200])[1:-1]
+    text = ascii(str(error)[:200])[1:-1]
     print(
-        f"fieldscribe: internal error: {type(error).__name__}: {said}; this is a bug: please report it to the project "
+        f"fieldscribe: internal error: {type(error).__name__}: {text}; this is a bug: please report it to the project "
         "with the command line and the description (FIELDSCRIBE_DEBUG=1 shows where)",
         file=sys.stderr,
     )

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from fieldscribe.audit import Audit
-    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.subject import Subject
 
 HELP = "hold everything that a description cites against the text of its manual"
 EXAMPLE = """examples:
@@ -20,7 +20,7 @@ ends with 1 when a cited fact is not where it is cited; unused numbers and uncit
 
 
 _MOST_BYTES = 256 << 20
-"""The largest text of a manual: a hundred times the longest that we know."""
+"""The largest manual text that is read: a hundred times the longest known one."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -44,14 +44,14 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli.common import print_json
     from fieldscribe.cli.terminal import print_lines
 
-    found = _audit(arguments)
+    outcome = _audit(arguments)
     if arguments.format == "json":
-        print_json(found.as_data())
+        print_json(outcome.as_data())
     elif arguments.format == "html":
-        print(as_html(found))
+        print(as_html(outcome))
     else:
-        print_lines(as_lines(found, everything=arguments.all))
-    return FINE if found.clean else FINDINGS
+        print_lines(as_lines(outcome, everything=arguments.all))
+    return FINE if outcome.clean else FINDINGS
 
 
 def _audit(arguments: Namespace) -> Audit:
@@ -78,19 +78,23 @@ def _audit(arguments: Namespace) -> Audit:
     return audit(subject, str(subject.scope.header["device"]), path.name, text, same_text=same)
 
 
-def _manual(subject: Subject, given: Path) -> tuple[Path, str | None]:
-    """The file to read, and the checksum of the text that was transcribed. Raises StopError."""
+def _manual(subject: Subject, place: Path) -> tuple[Path, str | None]:
+    """The file to read, and the checksum of the text that was transcribed, if known. Raises StopError."""
     from fieldscribe.cli.common import StopError
 
     documents = list(subject.scope.documents.values())
-    if not given.exists():
-        raise StopError(f"there is no file `{given}`", "name the text that was extracted from the manual")
-    # a name from a description leads nowhere but into the folder that was given
-    known = {one.file: one.sha256 for one in documents if one.file and Path(one.file).name == one.file}
-    if given.is_dir():
-        there = [name for name in known if (given / name).is_file()]
-        if not there:
-            raise StopError(f"`{given}` holds no manual of this device", f"it would be {' or '.join(known)}")
-        return given / there[0], known[there[0]]
-    expected = known.get(given.name, next(iter(known.values()), None))
-    return given, expected
+    if not place.exists():
+        raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
+    # only plain names, so that a description cannot lead out of the given folder
+    known = {
+        document.file: document.sha256
+        for document in documents
+        if document.file and Path(document.file).name == document.file
+    }
+    if place.is_dir():
+        present = [name for name in known if (place / name).is_file()]
+        if not present:
+            raise StopError(f"`{place}` holds no manual of this device", f"it would be {' or '.join(known)}")
+        return place / present[0], known[present[0]]
+    expected = known.get(place.name, next(iter(known.values()), None))
+    return place, expected

@@ -1,4 +1,4 @@
-"""What commands share: which description is meant, and how results and refusals are told."""
+"""What commands share: finding the description, and printing results and errors."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class StopError(Exception):
         self.code = code
 
     def tell(self) -> int:
-        """Print it; the exit code."""
+        """Print it and return the exit code."""
         if self.message:
             usage_error(self.message, self.hint)
         return self.code
@@ -53,7 +53,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Say that there is no such command; the exit code."""
-    from fieldscribe.conversation.selection import quoted
+    from fieldscribe.asked import quoted
 
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
@@ -90,7 +90,7 @@ def some_path(text: str) -> Path:
 
 
 def description_paths(paths: list[Path]) -> list[Path]:
-    """What was given, ids of devices as their folders; else ./device.yaml, ./descriptions, or the compiler's own.
+    """The given paths, with device ids as folders; without any, ./device.yaml, ./descriptions, or the shipped ones.
 
     Raises StopError for what does not exist.
     """
@@ -108,7 +108,7 @@ def description_paths(paths: list[Path]) -> list[Path]:
 
 
 def _known_folder(name: Path) -> Path:
-    """The folder of the device of that id, in ./descriptions or among what comes with the compiler."""
+    """The folder of a device id, in ./descriptions or among the shipped descriptions."""
     from fieldscribe.pipeline import DEVICE_FILE
     from fieldscribe.resources import descriptions_dir
 
@@ -122,7 +122,8 @@ def _known_folder(name: Path) -> Path:
 
 def open_device(arguments: Namespace) -> Device:
     """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
-    from fieldscribe.conversation.selection import UnclearError, choose_variants
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.conversation.selection import choose_variants
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_device
 
@@ -138,7 +139,7 @@ def open_device(arguments: Namespace) -> Device:
 
 
 def report_findings(report: Report, form: str, stream: TextIO | None = None) -> None:
-    """Tell findings. As text they are messages (stderr, or `stream`); as JSON, when there are errors, the result."""
+    """Print findings: as text on stderr or `stream`; as JSON on stdout if there are errors, in place of the result."""
     from fieldscribe.report import as_data, as_lines, summary
 
     findings = report.findings
@@ -178,21 +179,21 @@ def device_file(arguments: Namespace) -> Path:
         raise StopError(
             f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"
         )
-    found = find_devices([path], Report())
-    if not found:
+    devices = find_devices([path], Report())
+    if not devices:
         raise StopError(f"`{asked}` holds no {DEVICE_FILE}", f"name a folder with a {DEVICE_FILE}, or the file itself")
-    if len(found) > 1:
-        names = ", ".join(file.parent.name for file in found[:8])
-        raise StopError(f"`{asked}` holds {len(found)} devices", f"name one of them: {names}")
-    return found[0]
+    if len(devices) > 1:
+        names = ", ".join(file.parent.name for file in devices[:8])
+        raise StopError(f"`{asked}` holds {len(devices)} devices", f"name one of them: {names}")
+    return devices[0]
 
 
 def _roots(arguments: Namespace) -> list[Path]:
-    given: Path | None = arguments.descriptions
-    if given is not None:
-        if not given.is_dir():
-            raise StopError(f"there is no folder `{given}`")
-        return [given]
+    folder: Path | None = arguments.descriptions
+    if folder is not None:
+        if not folder.is_dir():
+            raise StopError(f"there is no folder `{folder}`")
+        return [folder]
     from fieldscribe.resources import descriptions_dir
 
     return [LOCAL, descriptions_dir()]
@@ -201,14 +202,14 @@ def _roots(arguments: Namespace) -> list[Path]:
 def _near(name: str, known: list[str]) -> str:
     from difflib import get_close_matches
 
-    found = get_close_matches(name.lower()[:60], known, 3)
-    if found:
-        return f"did you mean {' or '.join(f'`{one}`' for one in found)}?"
+    names = get_close_matches(name.lower()[:60], known, 3)
+    if names:
+        return f"did you mean {' or '.join(f'`{name}`' for name in names)}?"
     return f"there are {', '.join(known[:20])}" if known else ""
 
 
 def _reader() -> ReadLines:
-    """Reads each file that findings name once."""
+    """A reader of the files that findings name; it keeps each text."""
     from fieldscribe.language.source import MOST_BYTES
     from fieldscribe.reading import read_regular
     from fieldscribe.report import split_lines
@@ -227,9 +228,8 @@ def _reader() -> ReadLines:
 
 
 def settings_of(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
-    """What `--with` says of other points. Raises StopError."""
-    from fieldscribe.conversation.refusals import RefusedError
-    from fieldscribe.conversation.selection import UnclearError
+    """The settings of other points that `--with` gives. Raises StopError."""
+    from fieldscribe.asked import RefusedError, UnclearError
     from fieldscribe.conversation.typed_values import read_settings
 
     try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.conversation.answers import Heard
+    from fieldscribe.families.answers import Heard
 
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
@@ -53,25 +53,25 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Decode; the exit code: 1 when there is a fault or a finding."""
+    from fieldscribe.asked import UnclearError
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
-    from fieldscribe.conversation.family import conversation_of
-    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.conversation.listener import decode
 
     device = open_device(arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        heard = conversation_of(device).decode(device, settings, _frames(arguments.frames), options)
+        heard = decode(device, settings, _frames(arguments.frames), options)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    heard = [one for one in heard if arguments.unit is None or one.unit == arguments.unit]
+    heard = [reading for reading in heard if arguments.unit is None or reading.unit == arguments.unit]
     if arguments.format == "json":
-        print_json({"device": device.id, "frames": [one.as_data() for one in heard]})
+        print_json({"device": device.id, "frames": [reading.as_data() for reading in heard]})
     else:
         _print(heard)
-    return FINDINGS if any(one.wrong for one in heard) else FINE
+    return FINDINGS if any(reading.wrong for reading in heard) else FINE
 
 
 def _frames(words: list[str]) -> list[str]:
@@ -91,17 +91,17 @@ def _frames(words: list[str]) -> list[str]:
 
 def _print(heard: list[Heard]) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.conversation.hexadecimal import spaced
     from fieldscribe.report import visible
+    from fieldscribe.wording.buses import spaced
 
-    for place, one in enumerate(heard):
+    for place, reading in enumerate(heard):
         if place:
             print_lines([[]])
-        rows = [("Frame", one.summary)]
-        rows += [("Says", item.text) for item in one.items]
-        rows += [("Header" if one.framing == "tcp" else "Checksum", one.checks)] if one.checks else []
-        rows += [("Wrong", fault) for fault in (*one.faults, *one.findings)]
-        rows += [("Note", note) for note in one.notes]
-        print_rows(visible(one.shown) or spaced(one.data), [(label, visible(text)) for label, text in rows])
+        rows = [("Frame", reading.summary)]
+        rows += [("Says", item.text) for item in reading.items]
+        rows += [("Header" if reading.framing == "tcp" else "Checksum", reading.checks)] if reading.checks else []
+        rows += [("Wrong", fault) for fault in (*reading.faults, *reading.findings)]
+        rows += [("Note", note) for note in reading.notes]
+        print_rows(visible(reading.shown) or spaced(reading.data), [(label, visible(text)) for label, text in rows])
     if not heard:
         print_lines([[("", "no frame of that unit")]])

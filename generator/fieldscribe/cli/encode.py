@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Mapping
 
-    from fieldscribe.conversation.answers import Sent
     from fieldscribe.conversation.encoding import Encoded
+    from fieldscribe.families.answers import Sent
 
 HELP = "turn a value into its raw number, or into the whole request frame"
 EXAMPLE = """examples:
@@ -55,14 +55,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Encode; the exit code: 1 when the value is refused."""
+    from fieldscribe.asked import RefusedError, UnclearError
     from fieldscribe.cli import FINDINGS, FINE, USAGE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
     from fieldscribe.conversation.encoding import encode_point
-    from fieldscribe.conversation.family import conversation_of
     from fieldscribe.conversation.options import asks_for_frames
-    from fieldscribe.conversation.refusals import RefusedError
-    from fieldscribe.conversation.selection import UnclearError, choose_point
+    from fieldscribe.conversation.requests import frames_for
+    from fieldscribe.conversation.selection import choose_point
 
     device = open_device(arguments)
     options = options_of(device, arguments)
@@ -72,7 +72,7 @@ def run(arguments: Namespace) -> int:
         point = choose_point(device, name, index=options.index)
         encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
         framed = arguments.frame or asks_for_frames(options)
-        sent = conversation_of(device).frames_for(device, point, encoded.raw, settings, options) if framed else None
+        sent = frames_for(device, point, encoded.raw, settings, options) if framed else None
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except RefusedError as error:

@@ -45,17 +45,18 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Explain; the exit code."""
+    from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.conversation.lookup import near, number_of
+    from fieldscribe.conversation.lookup import near
     from fieldscribe.conversation.others import explain_others
-    from fieldscribe.conversation.selection import did_you_mean, quoted
+    from fieldscribe.hexadecimal import number_of
 
     device = open_device(arguments)
     matches = _matches(device, arguments.what)
-    found = _told(device, matches, as_documented=arguments.as_documented)
-    found += explain_others(device, arguments.what)
-    if not found:
+    explanations = _told(device, matches, as_documented=arguments.as_documented)
+    explanations += explain_others(device, arguments.what)
+    if not explanations:
         if arguments.what.strip().lower().startswith("unit:"):
             raise StopError(*_no_unit(arguments.what.partition(":")[2].strip()))
         hint = did_you_mean(near(device, arguments.what))
@@ -63,38 +64,39 @@ def run(arguments: Namespace) -> int:
             hint = hint.replace("did you mean", "described near it:").rstrip("?")
         raise StopError(f"{device.id} has no code, name or address `{quoted(arguments.what)}`", hint)
     if arguments.format == "json":
-        readings = [{"readings": readings, **told.as_data()} for readings, told in found]
+        readings = [{"readings": readings, **explanation.as_data()} for readings, explanation in explanations]
         print_json({"device": device.id, "what": arguments.what, "found": readings})
     else:
-        _print(found, arguments.what)
+        _print(explanations, arguments.what)
     return FINE
 
 
 def _no_unit(symbol: str) -> tuple[str, str]:
     """The message and the hint for a unit that is neither the description's nor a shipped one."""
-    from fieldscribe.conversation.selection import quoted
+    from fieldscribe.asked import quoted
     from fieldscribe.language.units import unit_hint
 
     return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
 
 
 def _matches(device: Device, what: str) -> list[Match]:
-    """Every point that is meant, of those that the chosen variants have. Raises StopError where they have none."""
+    """Every matching point that the chosen variants have. Raises StopError if they have none of the matches."""
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
     from fieldscribe.conversation.lookup import find
-    from fieldscribe.conversation.selection import absence, label
+    from fieldscribe.conversation.selection import absence
+    from fieldscribe.wording import label
 
     matches = find(device, what)
-    there = [match for match in matches if not absence(device, match.point)]
-    if matches and not there:
+    existing = [match for match in matches if not absence(device, match.point)]
+    if matches and not existing:
         first = matches[0].point
         raise StopError(f"{label(first)}: {absence(device, first)}", "choose another --variant", FINDINGS)
-    return there
+    return existing
 
 
 def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
-    """Each of the points, with all readings that lead to it."""
+    """The explanation of each matching point, with all readings of the question that lead to it."""
     from fieldscribe.conversation.explanation import explain_point
 
     readings: dict[str, list[str]] = {}
@@ -108,13 +110,13 @@ def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[
     ]
 
 
-def _print(found: list[tuple[list[str], Explanation]], what: str) -> None:
+def _print(explanations: list[tuple[list[str], Explanation]], what: str) -> None:
+    from fieldscribe.asked import quoted
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.conversation.selection import quoted
 
-    if len(found) > 1:
-        print_lines([[("strong", f"`{quoted(what)}` can mean {len(found)} things.")], []])
-    for place, (readings, told) in enumerate(found):
+    if len(explanations) > 1:
+        print_lines([[("strong", f"`{quoted(what)}` can mean {len(explanations)} things.")], []])
+    for place, (readings, explanation) in enumerate(explanations):
         if place:
             print_lines([[]])
-        print_rows(told.heading, [("Found as", "; ".join(readings)), *told.rows])
+        print_rows(explanation.heading, [("Found as", "; ".join(readings)), *explanation.rows])

@@ -19,10 +19,10 @@ _JSON = "json"
 
 
 def _forms() -> tuple[str, ...]:
-    """The forms: the model of any device, and what only some families have."""
+    """All forms: the model, which every device has, and those that only some families have."""
     from fieldscribe.families import families
 
-    return (_JSON, *(form for one in families() for form in one.exports))
+    return (_JSON, *(form for family in families() for form in family.exports))
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -84,24 +84,24 @@ def run(arguments: Namespace) -> int:
 def _compiled(
     arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, memory: Memory | None
 ) -> Result:
-    """Do what was asked for; what became of it. Raises OSError."""
+    """List, compare or write, as the arguments say, and return the result. Raises OSError."""
     from fieldscribe.cli import show_traceback
     from fieldscribe.output.generation import Generation
 
-    made = Generation(arguments.out, targets, report, show_traceback)
-    made.load(device_files)
+    generation = Generation(arguments.out, targets, report, show_traceback)
+    generation.load(device_files)
     if arguments.list_outputs:
-        made.list_outputs()
+        generation.list_outputs()
     elif arguments.check:
-        made.compare()
+        generation.compare()
     else:
-        made.write(lambda: _say_waiting(arguments.out), memory, force=arguments.force)
+        generation.write(lambda: _say_waiting(arguments.out), memory, force=arguments.force)
         if arguments.depfile and not report.has_errors:
             from fieldscribe.output.depfile import write_depfile
 
-            outputs = (arguments.out / path for path in sorted(made.result.wanted))
-            write_depfile(arguments.depfile, outputs, made.inputs.digests)
-    return made.result
+            outputs = (arguments.out / path for path in sorted(generation.result.wanted))
+            write_depfile(arguments.depfile, outputs, generation.inputs.digests)
+    return generation.result
 
 
 def _say_waiting(out: Path) -> None:
@@ -113,7 +113,7 @@ def _say_waiting(out: Path) -> None:
 
 
 def _say(arguments: Namespace, result: Result, report: Report) -> int:
-    """Tell what happened; the exit code."""
+    """Print what happened and return the exit code."""
     from fieldscribe.report import visible
 
     if arguments.format == "json":

@@ -1,4 +1,4 @@
-"""What commands ask about the link and about single frames: their options, which each family checks."""
+"""The options of commands about the link and single frames; families say which of them they take."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.conversation.options import Options
+    from fieldscribe.asked import Options
     from fieldscribe.model import Device
 
 
 def add_with(parser: ArgumentParser) -> None:
-    """What other points hold."""
+    """The option `--with`: what other points hold."""
     parser.add_argument(
         "--with",
         dest="given",
@@ -24,50 +24,54 @@ def add_with(parser: ArgumentParser) -> None:
 
 
 def add_framing(parser: ArgumentParser, default: str) -> None:
-    """How frames are wrapped."""
+    """The option that says how frames are wrapped."""
     from fieldscribe.conversation.options import framings
     from fieldscribe.families import families
 
-    known = {one.name: framings(one) for one in families() if framings(one)}
-    said = "; ".join(f"{', '.join(ways)} ({name})" for name, ways in known.items())
+    known = {family.name: framings(family) for family in families() if framings(family)}
+    ways_of_families = "; ".join(f"{', '.join(ways)} ({name})" for name, ways in known.items())
     parser.add_argument(
         "--framing",
         choices=tuple(way for ways in known.values() for way in ways),
-        help=f"how frames are wrapped: {said} ({default})",
+        help=f"how frames are wrapped: {ways_of_families} ({default})",
     )
 
 
 def add_own(parser: ArgumentParser, command: str) -> None:
-    """The options that only some families have a use for."""
+    """The options that only some families take."""
     from fieldscribe.families import families
 
-    for one in families():
-        for option in one.options:
+    for family in families():
+        for option in family.options:
             if command not in option.commands:
                 continue
-            said = f"{one.name}: {option.help}"
+            help_text = f"{family.name}: {option.help}"
             if option.type is None:
-                parser.add_argument(option.flag, action="store_true", help=said)
+                parser.add_argument(option.flag, action="store_true", help=help_text)
             else:
                 parser.add_argument(
-                    option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=said
+                    option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=help_text
                 )
 
 
 def options_of(device: Device, arguments: Namespace) -> Options:
-    """What was asked for, if the device's family has a use for it. Raises StopError."""
+    """The options that were given. Raises StopError for one that the device's family does not take."""
     from dataclasses import fields
 
+    from fieldscribe.asked import Options, UnclearError
     from fieldscribe.cli.common import StopError
-    from fieldscribe.conversation.options import Options, refuse_foreign
-    from fieldscribe.conversation.selection import UnclearError
+    from fieldscribe.conversation.options import refuse_foreign
     from fieldscribe.families import families
 
-    given = {one.name: getattr(arguments, one.name) for one in fields(Options) if hasattr(arguments, one.name)}
-    names = dict.fromkeys(option.name for one in families() for option in one.options)
-    said = {name: getattr(arguments, name, None) for name in names}
+    common = {
+        option_field.name: getattr(arguments, option_field.name)
+        for option_field in fields(Options)
+        if hasattr(arguments, option_field.name)
+    }
+    names = dict.fromkeys(option.name for family in families() for option in family.options)
+    values = {name: getattr(arguments, name, None) for name in names}
     options = Options(
-        **given, own={name: value for name, value in said.items() if value is not None and value is not False}
+        **common, own={name: value for name, value in values.items() if value is not None and value is not False}
     )
     try:
         refuse_foreign(device, options)

@@ -1,4 +1,4 @@
-"""Printing: plain text, or colour and layout by rich when a person looks on."""
+"""Printing: plain text, or colours and layout by rich on a terminal."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _LABEL_STYLES = {"Wrong": "bold red", "Note": "yellow", "Erratum": "yellow", "No
 
 
 def is_coloured(stream: TextIO) -> bool:
-    """Whether a person with a terminal that knows colours reads the stream, and has not said no."""
+    """Whether the stream is a terminal with colours, and the environment does not forbid them."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
         return False
     return stream.isatty()
@@ -40,7 +40,7 @@ def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
         text = ("".join(_styled(style, piece) for style, piece in line) for line in lines)
     else:
         text = ("".join(piece for _, piece in line) for line in lines)
-    stream.writelines(f"{one}\n" for one in text)
+    stream.writelines(f"{line}\n" for line in text)
 
 
 def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) -> None:
@@ -73,7 +73,7 @@ def _print_table(heading: str, rows: Sequence[Row], stream: TextIO) -> None:
 
 @cache
 def _marks(style: str) -> tuple[str, str]:
-    """What goes before and behind a text of that style. Asked of rich once, for findings come by the thousand."""
+    """The control codes around a text of that style; rich is asked only once, because findings may be thousands."""
     from rich.color import ColorSystem
     from rich.style import Style
 

@@ -31,36 +31,40 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """List them; the exit code."""
+    """List them and return the exit code."""
     from fieldscribe.cli.common import print_json
     from fieldscribe.language.units import shipped
 
     known = list(shipped().values())
-    found, code = _chosen(known, arguments.words) if arguments.words else (known, 0)
+    chosen, code = _chosen(known, arguments.words) if arguments.words else (known, 0)
     if arguments.format == "json":
-        print_json({"units": [_as_data(one) for one in found]})
+        print_json({"units": [_as_data(known_unit) for known_unit in chosen]})
     else:
-        _print(found, every=bool(arguments.words))
+        _print(chosen, every=bool(arguments.words))
     return code
 
 
 def _chosen(known: Sequence[Known], words: Sequence[str]) -> tuple[list[Known], int]:
-    """The units that the words name, and the exit code; words that name none are told."""
+    """The units that the words name, and the exit code; reports words that name none."""
+    from fieldscribe.asked import quoted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import usage_error
-    from fieldscribe.conversation.selection import quoted
     from fieldscribe.language.units import shipped_unit, unit_hint
 
-    found: dict[str, Known] = {}
+    chosen: dict[str, Known] = {}
     code = FINE
     for word in words:
         unit = shipped_unit(word)
-        here = [one for one in known if one.unit == unit or (unit is None and word.casefold() in _words(one))]
-        found |= {one.unit.symbol: one for one in here}
+        here = [
+            known_unit
+            for known_unit in known
+            if known_unit.unit == unit or (unit is None and word.casefold() in _words(known_unit))
+        ]
+        chosen |= {known_unit.unit.symbol: known_unit for known_unit in here}
         if not here:
             code = FINDINGS
             usage_error(f"no unit, name or quantity is `{quoted(word)}`", unit_hint(word, ()))
-    return list(found.values()), code
+    return list(chosen.values()), code
 
 
 def _words(known: Known) -> tuple[str, str]:
@@ -74,18 +78,20 @@ def _as_data(known: Known) -> dict[str, str]:
     return {**described, "base": known.base, "factor": str(known.factor)}
 
 
-def _print(found: Sequence[Known], *, every: bool) -> None:
-    """One line a unit; units with a prefix stand behind the unit itself unless `every` one was asked for by name."""
+def _print(chosen: Sequence[Known], *, every: bool) -> None:
+    """Print a line for each unit; those with a prefix only behind their base unit, unless `every` is set."""
     from fieldscribe.cli.terminal import print_lines
 
     prefixes: dict[str, list[str]] = {}
-    for one in found:
-        if one.prefix:
-            prefixes.setdefault(one.base, []).append(one.unit.symbol)
-    shown = [one for one in found if every or not one.prefix]
-    width = max((len(one.unit.symbol) for one in shown), default=0)
-    for one in shown:
-        behind = f" = {one.factor} {one.base}" if one.prefix else ""
-        also = "" if every else "".join(f", {symbol}" for symbol in prefixes.get(one.base, ()))
-        said = f"{one.unit.name} ({one.unit.quantity}){behind}" + (f"; also {also[2:]}" if also else "")
-        print_lines([[("strong", f"{one.unit.symbol:<{width}}"), ("", f"  {said}")]])
+    for known_unit in chosen:
+        if known_unit.prefix:
+            prefixes.setdefault(known_unit.base, []).append(known_unit.unit.symbol)
+    shown = [known_unit for known_unit in chosen if every or not known_unit.prefix]
+    width = max((len(known_unit.unit.symbol) for known_unit in shown), default=0)
+    for known_unit in shown:
+        behind = f" = {known_unit.factor} {known_unit.base}" if known_unit.prefix else ""
+        also = "" if every else "".join(f", {symbol}" for symbol in prefixes.get(known_unit.base, ()))
+        meaning = f"{known_unit.unit.name} ({known_unit.unit.quantity}){behind}" + (
+            f"; also {also[2:]}" if also else ""
+        )
+        print_lines([[("strong", f"{known_unit.unit.symbol:<{width}}"), ("", f"  {meaning}")]])

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.meanings import meaning_of, raw_text, rounding_remarks
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.selection import absence, label
+from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.text import line
+from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.lookup import number_of
 from fieldscribe.families import family
+from fieldscribe.hexadecimal import number_of
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.family import conversation_of
+from fieldscribe.conversation.requests import read_text, write_text
 from fieldscribe.families import family
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
@@ -19,21 +19,14 @@ if TYPE_CHECKING:
 Row = tuple[str, str]
 
 _KINDS = {"u": "unsigned", "s": "signed, two's complement", "f": "IEEE 754 floating point"}
-_PRINTED = {
+_ROWS = {
     "wire": "Wire address",
-    "low wire": "Words",
+    "low_wire": "Words",
     "range": "Raw range",
-    "range in units": "Range",
-    "resolution": "Resolution",
-    "unit": "Unit",
-    "access": "Access",
-    "type": "Type",
-    "scale": "Scale",
-    "default": "Default",
-    "code": "Code",
-    "title": "Title",
+    "range_in_units": "Range",
+    "default_in_units": "Default",
 }
-"""Which row an erratum's printed fact stands in."""
+"""Which row a printed fact stands in, where that is not called as its key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +62,9 @@ def explain_point(device: Device, point: Point, *, as_documented: bool = False) 
 
 def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[Row]:
     yield from _identity_rows(device, point)
-    conversation = conversation_of(device)
     if point.generated and not without_requests:
-        yield "Read", conversation.read_text(device, point)
-        yield "Write", conversation.write_text(device, point)
+        yield "Read", read_text(device, point)
+        yield "Write", write_text(device, point)
     yield from _meaning_rows(device, point)
     yield from _names_rows(point)
     yield from _behaviour_rows(device, point)
@@ -123,6 +115,7 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
     yield "Scale", wording.scale_text(point, by_name)
     yield "Resolution", wording.resolution_text(point)
+    yield "Shown with", wording.decimals_text(point)
     yield "Widths", "; ".join(wording.width_texts(point))
     yield "Range", "" if point.flags else wording.range_text(point, by_name)
     yield "Raw range", wording.raw_range_text(point)
@@ -189,29 +182,15 @@ def _erratum_text(erratum: Erratum) -> str:
 
 
 def _documented(rows: list[Row], errata: list[Erratum]) -> list[Row]:
-    """The rows with each printed fact in the place of the taken one; what is no such fact follows as a sentence."""
-    printed: list[Row] = []
+    """The rows with each printed fact in the place of the taken one; what is in words or has no row follows."""
+    shown, further = list(rows), []
     for erratum in errata:
-        for part in erratum.printed.split("; "):
-            label, said = _printed_fact(part)
+        facts = [(_ROWS.get(key, key.replace("_", " ").capitalize()), said) for key, said in erratum.facts]
+        for label, said in facts or [("The manual says", erratum.printed)]:
             remark = f"{said} (as printed; {erratum.id})"
-            at = next((place for place, row in enumerate(rows) if label and row[0].lower() == label.lower()), None)
+            at = next((place for place, row in enumerate(rows) if row[0].lower() == label.lower()), None)
             if at is None:
-                printed.append((label or "The manual says", remark))
+                further.append((label, remark))
             else:
-                rows = [*rows[:at], (rows[at][0], remark), *rows[at + 1 :]]
-    return rows + printed
-
-
-def _printed_fact(part: str) -> Row:
-    """The row that a printed fact such as `wire 4219` belongs to (empty for a sentence), and what is printed there."""
-    for key, label in sorted(_PRINTED.items(), key=lambda one: -len(one[0])):
-        if part.lower().startswith((f"{key} ", f"{key}: ")):
-            return label, part[len(key) :].lstrip(": ")
-    return _reference_fact(part)
-
-
-def _reference_fact(part: str) -> Row:
-    key, _, said = part.replace(": ", " ", 1).partition(" ")
-    is_number = bool(said) and said.replace("h", "").replace("/", "").replace(" ", "").isalnum() and " " not in key
-    return (key.capitalize(), said) if is_number and said[:1].isdigit() else ("", part)
+                shown[at] = shown[at][0], remark
+    return shown + further

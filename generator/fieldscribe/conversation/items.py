@@ -5,59 +5,24 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.codec import setting_of
-from fieldscribe.conversation.answers import Item
 from fieldscribe.conversation.meanings import meaning_of, range_remark, raw_text, unchecked_remark
-from fieldscribe.conversation.selection import absence, label, same_meaning
-from fieldscribe.existence import absent
-from fieldscribe.families import family
+from fieldscribe.conversation.selection import absence, same_meaning
+from fieldscribe.families.answers import Item
 from fieldscribe.text import line
-from fieldscribe.wording import title_text
+from fieldscribe.wording import label, title_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from fractions import Fraction
+    from collections.abc import Iterable
 
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.meanings import Meaning
     from fieldscribe.model import Device, Point
-
-Where = tuple[str, int, int]
-"""(the space or the telegram, the address, the index that travels beside it or 0)."""
 
 Base = tuple[str, int, int]
 """(space, address, count): where an item is."""
 
 Numbers = tuple[int, "Settings"]
 """The raw number of a point, and what is known of others."""
-
-
-class Directory:
-    """Which points stand where."""
-
-    def __init__(self, device: Device) -> None:
-        self._at: dict[Where, list[Point]] = {}
-        indexed = family(device.family).indexed
-        for point in present_first(device):
-            for place in point.places:
-                index = (point.index or 0) if place.space in indexed else 0
-                for address in place.addresses:
-                    here = self._at.setdefault((point.telegram or place.space, address, index), [])
-                    if point not in here and not (here and absence(device, point)):
-                        here.append(point)
-        self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
-        for point in device.points:
-            self._places.setdefault(point.name, set()).add((point.addresses, point.index))
-
-    def at(self, where: str, address: int, index: int = 0) -> list[Point]:
-        """The points of which that is a word."""
-        return self._at.get((where, address, index), [])
-
-    def settings(self, found: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
-        """What rules take of points with these raw numbers; not of variants that are in different places."""
-        for point, raw in found:
-            if len(self._places[point.name]) == 1:
-                yield point.name, setting_of(point, raw)
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
@@ -75,11 +40,6 @@ def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
 def title_of(point: Point) -> str:
     """The English title."""
     return title_text({"en": point.title["en"]})
-
-
-def present_first(device: Device) -> list[Point]:
-    """All points, those last that the chosen variants do not have: in their places others may stand."""
-    return sorted(device.points, key=lambda point: absent(point.when, device.variants))
 
 
 def named_item(point: Point, base: Base, said: str = "", *, odd: str = "") -> Item:

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.hexadecimal import number_of
 from fieldscribe.text import line
+from fieldscribe.wording.buses import word_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -15,9 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
-_HEX = re.compile(r"0x([0-9a-f]+)|([0-9][0-9a-f]*)h|h'([0-9a-f]+)'?", re.IGNORECASE)
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
-_DECIMAL = re.compile(r"[0-9]+")
 _LONGEST = 64
 _NOT_ALONE = frozenset({"mux", "word"})
 """Numberings whose numbers name many points: they are read only when asked for."""
@@ -67,15 +67,6 @@ def near(device: Device, what: str) -> list[str]:
     known = {point.item: point.item for point in device.points}
     known |= {point.code.lower(): point.code for point in device.points if point.code}
     return [known[one] for one in get_close_matches(asked, list(known), _NEAR)]
-
-
-def number_of(text: str) -> int | None:
-    """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
-    if len(text) > _LONGEST or not text.isascii():
-        return None
-    if found := _HEX.fullmatch(text):
-        return int(found[1] or found[2] or found[3], 16)
-    return int(text) if _DECIMAL.fullmatch(text) else None
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:
@@ -155,18 +146,6 @@ def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterato
         if number == (slot if key == "mux" else word + 1):
             yield Match(f"{key} {number}", point, word_text(point.addresses, address))
             return
-
-
-def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -> str:
-    """Which word of a point an address is: `low word (2 of 2)`; empty for a point of one word."""
-    count = len(addresses)
-    if count < 2 or address not in addresses:
-        return ""
-    place = addresses.index(address)
-    if text:
-        return f"word {place + 1} of {count}, the first characters first"
-    name = {0: "high word", count - 1: "low word"}.get(place, "word")
-    return f"{name} ({place + 1} of {count}, the high part first)"
 
 
 def _neighbours(device: Device, number: int) -> list[Point]:

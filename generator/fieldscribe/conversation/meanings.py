@@ -14,7 +14,7 @@ from fieldscribe.arithmetic.words import words_of
 from fieldscribe.conversation.refusals import amount_with_unit, failure, names_text, refusal
 from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, number_text
+from fieldscribe.wording.exact import hex_text, number_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -129,6 +129,9 @@ def _quantity(device: Device, point: Point, raw: int, settings: Settings) -> Mea
             return Meaning(str(codec.float_of(point, raw)))
         message, hint = failure(device, point, error)
         return Meaning(f"not known: {message}", None, error.missing, hint)
+    if point.display is not None:
+        shown_value = rounded(value.numerator, value.denominator, point.display)
+        return Meaning(wording.with_unit(shown_value, point), number_text(value))
     if point.info.floating:
         return Meaning(wording.with_unit(_shortest(point, raw), point), number_text(value))
     return Meaning(amount_with_unit(point, value), number_text(value))

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from dataclasses import fields
+from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.selection import UnclearError
+from fieldscribe.asked import Options, UnclearError
 from fieldscribe.families import families, family
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.families.contract import Family
     from fieldscribe.model import Device
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """None is what nobody said; `own` are options by name that only some families have, as far as they were said."""
-
-    framing: str | None = None
-    unit: int | None = None
-    request: str | None = None
-    index: int | None = None
-    own: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
 def asks_for_frames(options: Options) -> bool:

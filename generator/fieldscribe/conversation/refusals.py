@@ -8,8 +8,10 @@ from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.conversation.selection import label, points_by_name
+from fieldscribe.asked import RefusedError
+from fieldscribe.conversation.selection import points_by_name
 from fieldscribe.text import line
+from fieldscribe.wording import label
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -20,20 +22,6 @@ if TYPE_CHECKING:
 
 _MOST_DIGITS = 12
 _MOST_NAMES = 30
-
-
-class RefusedError(Exception):
-    """A value that must not be sent. `status` is the one that generated code gives, or `missing`, `read_only`, ...
-
-    `why` is what the message says behind the point that it is about.
-    """
-
-    def __init__(self, status: str, message: str, hint: str = "", *, why: str = "") -> None:
-        super().__init__(message)
-        self.status = status
-        self.message = message
-        self.hint = hint
-        self.why = why or message
 
 
 def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str = ": ") -> RefusedError:

@@ -7,23 +7,16 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.asked import UnclearError, did_you_mean, quoted
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.existence import absent
 from fieldscribe.text import line
+from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Device, Point
-
-
-class UnclearError(Exception):
-    """Something that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
 
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
@@ -84,22 +77,6 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
     raise UnclearError(
         f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
     )
-
-
-def did_you_mean(names: list[str]) -> str:
-    """A hint that offers near names; empty when there are none."""
-    return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
-
-
-def label(point: Point) -> str:
-    """How a point is called in answers: code and name."""
-    return f"{line(point.code)} {point.item}" if point.code else point.item
-
-
-def quoted(text: str) -> str:
-    """What a person typed, as messages repeat it: clean and short."""
-    cleaned = line(text[:200])
-    return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.refusals import RefusedError
-from fieldscribe.conversation.selection import label
+from fieldscribe.asked import RefusedError
 from fieldscribe.text import line
+from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point

@@ -1,6 +1,6 @@
-"""The exported model: one JSON object per device that tools outside rely on (`schema.json` beside this describes it).
+"""The exported model: one JSON object per device for other tools; `schema.json` beside this file describes it.
 
-It changes only with its `format` number. JSON numbers are integers; every other exact number is text.
+Its shape changes only with its `format` number. JSON numbers are integers; every other exact number is text.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
 
-FORMAT = 2
-"""The number of this contract."""
+FORMAT = 3
+"""The version of the exported shape."""
 
 
 def export_model(device: Device) -> dict[str, object]:
@@ -32,33 +32,33 @@ def export_model(device: Device) -> dict[str, object]:
         "device": device.id,
         "version": device.version,
         "family": device.family,
-        "documents": [_document(one) for one in device.documents],
+        "documents": [_document(document) for document in device.documents],
         "variants": {axis: list(values) for axis, values in device.variants.items()},
         "limits": _limits(device),
         "points": [_point(device, point, by_name, directions) for point in device.points],
-        "commands": [_command(one) for one in device.commands],
-        "messages": [_message(one) for one in device.messages],
-        "telegrams": [_telegram(one) for one in device.telegrams],
-        "frames": [_frame(one) for one in device.frames],
+        "commands": [_command(command) for command in device.commands],
+        "messages": [_message(message) for message in device.messages],
+        "telegrams": [_telegram(telegram) for telegram in device.telegrams],
+        "frames": [_frame(frame) for frame in device.frames],
         "codes": _codes(device.bus),
-        "errata": [_erratum(one) for one in device.errata],
+        "errata": [_erratum(erratum) for erratum in device.errata],
     }
 
 
 def export_form(form: str, device: Device, unit: int | None) -> bytes:
     """The device in a form that only some families have. Raises ExportError."""
-    own = family(device.family)
-    if form not in own.exports:
-        takers = " and ".join(one.name for one in families() if form in one.exports)
+    own_family = family(device.family)
+    if form not in own_family.exports:
+        takers = " and ".join(family.name for family in families() if form in family.exports)
         raise ExportError(f"a {form.upper()} is for {takers} devices, {device.id} is a {device.family} device")
-    made: bytes = own.part("export").export(form, device, unit)
-    return made
+    exported: bytes = own_family.part("export").export(form, device, unit)
+    return exported
 
 
 def _point(device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str]) -> dict[str, object]:
     direction = None if point.telegram is None else directions.get(point.telegram)
-    own: Any = family(device.family).part("export")
-    places = own.places(device.bus, point) if hasattr(own, "places") else None
+    family_part: Any = family(device.family).part("export")
+    places = family_part.places(device.bus, point) if hasattr(family_part, "places") else None
     return export_point(point, by_name, direction, places)
 
 
@@ -73,23 +73,23 @@ def _document(document: Document) -> dict[str, object]:
 
 
 def _limits(device: Device) -> dict[str, object]:
-    """What the frames need to know, in the order of the contract; what a family does not have stands for nothing."""
+    """What the frames need to know, in the order of the schema; keys of other families stand there empty."""
     bus = device.bus
-    found: dict[str, object] = {
+    limits: dict[str, object] = {
         "framings": list(bus.framings),
         "units": list(bus.units),
         "broadcast": bus.broadcast,
-        "most": {str(one.number): one.most for one in bus.functions if one.most is not None},
+        "most": {str(function.number): function.most for function in bus.functions if function.most is not None},
         "gaps": {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
         "timing": dict(bus.timing),
     }
-    for one in sorted(families(), key=lambda one: one.name == device.family):
-        part: Any = one.part("export")
+    for each_family in sorted(families(), key=lambda each_family: each_family.name == device.family):
+        part: Any = each_family.part("export")
         if part is not None:
-            found |= part.limits(bus if one.name == device.family else None)
+            limits |= part.limits(bus if each_family.name == device.family else None)
     schema = json.loads(Path(__file__).with_name("schema.json").read_text("utf-8"))
     order = schema["$defs"]["limits"]["required"]
-    return {key: found.pop(key) for key in order} | found
+    return {key: limits.pop(key) for key in order} | limits
 
 
 def _command(command: Command) -> dict[str, object]:
@@ -142,9 +142,9 @@ def _frame(frame: Frame) -> dict[str, object]:
 
 def _codes(bus: Bus) -> dict[str, object]:
     return {
-        "exceptions": {str(one.number): _code(one) for one in bus.exceptions},
-        "functions": {str(one.number): _code(one) for one in bus.functions},
-        "responses": {str(one.number): _code(one) for one in bus.codes("responses")},
+        "exceptions": {str(exception.number): _code(exception) for exception in bus.exceptions},
+        "functions": {str(function.number): _code(function) for function in bus.functions},
+        "responses": {str(response.number): _code(response) for response in bus.codes("responses")},
         "serial": {setting: dict(codes) for setting, codes in bus.serial.items()},
     }
 

@@ -5,22 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import PointsByName, bound_of, scale_of
-from fieldscribe.wording.exact import fixed_rule, number_text
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fieldscribe.existence import Comparison, Condition
     from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096
-"""A longer list of single numbers is said as ranges alone."""
+"""Longer lists of single numbers are exported as ranges only."""
 
 
 def export_point(
     point: Point, by_name: PointsByName, direction: str | None = None, places: tuple[Place, ...] | None = None
 ) -> dict[str, object]:
-    """All facts of a point, in the order of the contract; what the model does not hold yet is null or empty.
+    """All facts of a point, in the order of the schema.
 
-    `direction` is that of its telegram; `places` stand in place of its own where the family has more of them.
+    `direction` is that of its telegram; `places` replace its own where its family derives more of them.
     """
     return {
         "name": point.name,
@@ -33,7 +33,7 @@ def export_point(
         "index": point.index,
         "addresses": list(point.addresses),
         "references": dict(point.references),
-        "places": [_place(one) for one in places or point.places],
+        "places": [_place(place) for place in places or point.places],
         "type": point.type if point.untyped is None else None,
         "words": point.words,
         "access": point.access,
@@ -47,9 +47,10 @@ def export_point(
         "repeat": _repeat(point),
         "format": None,
         "unit": point.unit.symbol,
+        "display": None if point.display is None else {"decimals": point.display},
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
-        "special": [_special(one) for one in point.specials],
+        "special": [_special(special) for special in point.specials],
         "fixed": {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         "changes": point.changes,
         "together": None,
@@ -57,7 +58,7 @@ def export_point(
         "raw": _raw(point),
         "enum": None if point.enum is None else _names(point.enum),
         "open": _is_open(point.enum),
-        "flags": [_flag(one) for one in point.flags],
+        "flags": [_flag(flag) for flag in point.flags],
         "digits": None if point.digits is None else {"count": point.digits.count, "enum": _names(point.digits.enum)},
         "encoding": None if point.text is None else point.text.encoding,
         "persistence": point.keeps,
@@ -70,28 +71,28 @@ def export_point(
 
 
 def source_of(source: Source) -> dict[str, object]:
-    """Where in the manual a fact stands."""
+    """The place in the manual that a fact is taken from."""
     return {"document": source.document, "section": source.section, "page": source.page, "line": source.line}
 
 
 def _default(point: Point) -> int | str | None:
-    """The default as raw number; of f32 and f64 the value; null where the raw number depends on other points."""
-    if point.default is None or point.info.floating:
+    """The default as raw number, for f32 and f64 as value; null where the raw number depends on other points."""
+    if point.info.floating:
         return None if point.default is None else number_text(point.default)
-    rule = fixed_rule(point)
-    if rule is None:
-        return None
-    raw = rule.argument(point.default)
-    return int(raw) if raw.denominator == 1 else number_text(raw)
+    return point.default_raw
 
 
 def _condition(condition: Condition) -> dict[str, object]:
-    """Any of clauses whose comparisons all hold: of variant axes with names, of points with raw numbers."""
-    return {"any": [{"all": [_comparison(one) for one in clause]} for clause in condition.clauses]}
+    """A condition: any of its clauses, all comparisons of a clause. Points are compared by raw number, axes by name."""
+    return {"any": [{"all": [_comparison(comparison) for comparison in clause]} for clause in condition.clauses]}
 
 
-def _comparison(one: Comparison) -> dict[str, object]:
-    return {"of": one.of, "is": one.test, "than": list(one.than) if one.test == "in" else one.than[0]}
+def _comparison(comparison: Comparison) -> dict[str, object]:
+    return {
+        "of": comparison.of,
+        "is": comparison.test,
+        "than": list(comparison.than) if comparison.test == "in" else comparison.than[0],
+    }
 
 
 def _place(place: Place) -> dict[str, object]:
@@ -112,13 +113,15 @@ def _raw(point: Point) -> dict[str, object]:
     allowed = point.allowed
     if point.info.floating:
         return {"ranges": [[number_text(low), number_text(high)] for low, high in allowed.units], "values": None}
-    ranges = [[bound_of(one.low, True, point), bound_of(one.high, False, point)] for one in allowed.intervals]
+    ranges = [
+        [bound_of(interval.low, True, point), bound_of(interval.high, False, point)] for interval in allowed.intervals
+    ]
     return {"ranges": ranges, "values": _values(allowed) if allowed.listed else None}
 
 
 def _values(allowed: Allowed) -> list[int] | None:
     """The numbers that the author listed one by one."""
-    spans = [(one.low, one.high) for one in allowed.intervals]
+    spans = [(interval.low, interval.high) for interval in allowed.intervals]
     fixed = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
     if len(fixed) < len(spans) or sum(high - low + 1 for low, high in fixed) > _MOST_VALUES:
         return None
@@ -130,7 +133,7 @@ def _is_open(enum: Enum | None) -> bool:
 
 
 def _repeat(point: Point) -> str | None:
-    """The name of the row that stands for this point and others: its name without set and index."""
+    """The name of the row that this point was expanded from: its own name without set and index."""
     name = point.name
     for word, number in (("index", point.index), ("set", point.set)):
         name = name.removesuffix(f"_{word}_{number}")
@@ -138,7 +141,7 @@ def _repeat(point: Point) -> str | None:
 
 
 def _names(enum: Enum) -> dict[str, object]:
-    return {str(one.raw): _entry(one) for one in enum.entries}
+    return {str(entry.raw): _entry(entry) for entry in enum.entries}
 
 
 def _entry(entry: Entry) -> dict[str, object]:
@@ -146,8 +149,10 @@ def _entry(entry: Entry) -> dict[str, object]:
 
 
 def _flag(flag: Flag) -> dict[str, object]:
-    """One flag. A single bit without words for its numbers names the one that makes it true."""
-    values = {str(one.raw): {"name": one.name, "title": dict(one.title)} for one in flag.values}
+    """One flag. For a single bit without named numbers, the number that makes it true is exported."""
+    values = {
+        str(flag_value.raw): {"name": flag_value.name, "title": dict(flag_value.title)} for flag_value in flag.values
+    }
     if not values and flag.width == 1:
         values = {str(flag.active): {"name": flag.name, "title": dict(flag.title)}}
     return {"bits": [flag.low + flag.width - 1, flag.low], "name": flag.name, "values": values}

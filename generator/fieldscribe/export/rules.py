@@ -16,7 +16,7 @@ _MOST_DIGITS = 1000
 
 
 class ExportError(ValueError):
-    """A rule that this format cannot say without changing its meaning."""
+    """The format cannot express this rule without changing its meaning."""
 
 
 def scale_of(point: Point, by_name: PointsByName) -> list[dict[str, object]] | None:
@@ -39,7 +39,7 @@ def scale_of(point: Point, by_name: PointsByName) -> list[dict[str, object]] | N
 
 
 def rule_of(rule: Linear, by_name: PointsByName) -> tuple[Fraction, list[dict[str, object]]]:
-    """The constant and the uses of a rule, the constants of its factors in the former. Raises ExportError."""
+    """The constant of a rule, which those of its factors are multiplied into, and its uses. Raises ExportError."""
     ratio, uses = rule.ratio, []
     for factor in rule.factors:
         constant, used = use_of(factor, by_name[factor.point])
@@ -49,7 +49,7 @@ def rule_of(rule: Linear, by_name: PointsByName) -> tuple[Fraction, list[dict[st
 
 
 def use_of(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
-    """A run-time factor as constant times uses of `point`'s raw number or value. Raises ExportError.
+    """A run-time factor as a constant times `point`'s raw number or value. Raises ExportError.
 
     `raw * slope + intercept` is the raw number itself, a multiple of the value, or a multiple of the raw number.
     """
@@ -79,7 +79,7 @@ def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
 
 
 def _power_of_ten(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
-    """Ten to `raw * slope + intercept`: of the raw number, else of the value, else of the raw number several times."""
+    """Ten to `raw * slope + intercept`, as a power of the raw number, of the value, or of repeated raw numbers."""
     rule = fixed_rule(point)
     if factor.slope not in (1, -1) and rule is not None and Fraction(rule.factor, rule.divisor) == factor.slope:
         rest = factor.intercept - Fraction(rule.add, rule.divisor)
@@ -102,19 +102,19 @@ def _use(factor: Factor, part: str, kind: str, sign: int) -> dict[str, object]:
 
 
 def _unsayable(factor: Factor) -> ExportError:
-    said = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
-    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({said})")
+    inner = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
+    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({inner})")
 
 
 def _limit(rule: Linear) -> str:
-    """The rule applied to 1, as an expression of exact arithmetic."""
-    above = [_factor(one) for one in rule.factors if one.power > 0]
-    below = [_factor(one) for one in rule.factors if one.power < 0]
+    """The rule applied to 1, as an arithmetic expression."""
+    above = [_factor(factor) for factor in rule.factors if factor.power > 0]
+    below = [_factor(factor) for factor in rule.factors if factor.power < 0]
     if rule.ratio.numerator != 1 or not above:
         above.append(str(rule.ratio.numerator))
     if rule.ratio.denominator != 1:
         below.append(str(rule.ratio.denominator))
-    text = " * ".join(above) + "".join(f" / {one}" for one in below)
+    text = " * ".join(above) + "".join(f" / {factor}" for factor in below)
     if rule.offset:
         text += f" {'+' if rule.offset > 0 else '-'} {abs(rule.offset.numerator)}"
         text += f" / {rule.offset.denominator}" if rule.offset.denominator != 1 else ""

@@ -67,7 +67,8 @@ class Family:
     """The rules of a family, as far as every stage may ask for them; what takes code is a part of its folder.
 
     The parts are modules: `keys` (those that it alone has), `reading` (its own facts, out of the text), `checks`,
-    `conversation`, `export`, and `targets.<target>`; each room says what it asks of its part.
+    `speech`, `sending` and `explaining` (frames taken apart, built, and shown), `export`, and `targets.<target>`; each
+    room says what it asks of its part.
     """
 
     name: str

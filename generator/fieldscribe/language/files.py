@@ -1,4 +1,4 @@
-"""All files of one description: device.yaml and the parts that it lists, each held against the table of keys."""
+"""All documents of a description, held against the table of keys: those of device.yaml, then those of its parts."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.reading import Inputs
 
-_PART_KEYS = frozenset({"group", "groups", "points"})
+_PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")
 
 
 @dataclass(frozen=True, slots=True)
 class Files:
-    """The mappings of a description, device.yaml first. Not `complete` if a part is missing or could not be read."""
+    """The mappings of a description, the head first. Not `complete` if a part is missing or could not be read."""
 
     maps: tuple[Map, ...]
     complete: bool
@@ -37,24 +37,23 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
 
     Nothing else of the folder is read: whatever an editor or a stranger leaves there.
     """
-    source = read_source(device_file, report, inputs)
-    header = None if source is None else load(source, report)
+    header, *below = _documents(device_file, report, inputs)
     if header is None or _is_part(header, device_file, report):
         return None
-    fine = check_shape(header, DEVICE, report)
-    parts = [_file(path, report, inputs) for path in _parts(device_file, header, report)]
+    whole = [check_shape(header, DEVICE, report)]
+    paths = _parts(device_file, header, report)
+    parts = [*below, *(document for path in paths for document in _documents(path, report, inputs))]
+    whole += [part is not None and check_shape(part, PART, report) for part in parts]
     if not all(key in header for key in _NEEDED):
         return None
-    listed = "parts" not in header.broken and len(parts) == len(header.get("parts", ()))
-    complete = fine and listed and all(part_fine for _, part_fine in parts)
-    return Files((header, *(part for part, _ in parts if part is not None)), complete)
+    listed = "parts" not in header.broken and len(paths) == len(header.get("parts", ()))
+    return Files((header, *(part for part in parts if part is not None)), listed and all(whole))
 
 
-def _file(path: Path, report: Report, inputs: Inputs | None) -> tuple[Map | None, bool]:
-    """The file's mapping, and whether it is whole."""
+def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | None]:
+    """What a file holds, one at least: None for what could not be read."""
     source = read_source(path, report, inputs)
-    root = None if source is None else load(source, report)
-    return root, root is not None and check_shape(root, PART, report)
+    return [None] if source is None else load(source, report)
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:

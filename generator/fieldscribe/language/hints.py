@@ -84,7 +84,7 @@ def _number_hint(value: str, fractions: bool) -> str:
         return f"write a decimal point: {value.replace(',', '.')}"
     if re.fullmatch(r"[-+]?[0-9]{1,18}", value):
         return f"leave out the quotes: {value}"
-    return "write a plain decimal number"
+    return "write a plain decimal number" if fractions else forms.WHOLE.hint
 
 
 def _example(example: Any) -> str:

@@ -92,6 +92,9 @@ class _Definitions:
         if "enum" in said:
             said["enum"] = [*([True, False] if YES_NO in shape.kinds else ()), *said["enum"]]
             said["enum"] += [None] if NOTHING in shape.kinds else []
+        if "integer" in types and "string" not in types:
+            types.append("string")
+            said = _in_every_notation(said)
         return {
             "description": shape.meaning,
             "type": types[0] if len(types) == 1 else types,
@@ -121,6 +124,14 @@ class _Definitions:
             "additionalProperties": False if other is None else self.shape(other),
             **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
         }
+
+
+def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
+    """What is said of a whole number, which YAML may take for text: 1028h."""
+    if "enum" not in said:
+        return said | {"pattern": forms.WHOLE.pattern}
+    choices = said.pop("enum")
+    return said | {"anyOf": [{"enum": choices}, {"type": "string", "pattern": forms.WHOLE.pattern}]}
 
 
 _TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", Place: "object"}

@@ -22,6 +22,7 @@ def keys_markdown() -> str:
     """The page: one table for each kind of mapping."""
     lines = ["# All keys of the description language", ""]
     lines += ["Made by `make keys` from the table of keys; `README.md` beside this page shows them at work.", ""]
+    lines += ["Whole numbers are written as manuals write them: `4136`, `0x1028`, `1028h`, `H'33F`, `0b0101`.", ""]
     for place in PLACES:
         lines += [f"## {place.heading}", "", place.shape.meaning, ""]
         lines += ["| key | type | meaning | example |", "|---|---|---|---|"]
@@ -33,6 +34,8 @@ def keys_markdown() -> str:
 def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
     """The keys of a mapping; of mappings without a table of their own also what is inside."""
     for name, key in keys_of(place).items():
+        if place not in key.places:
+            continue  # of a table of its own
         needed = " **Required.**" if place in key.required else ""
         yield f"`{prefix}{name}`", _type(key.shape), _meaning(key.shape) + needed, _example(key.shape)
         if len(key.places) <= _FEW or not _leads_to_a_table(key.shape):

@@ -1,4 +1,4 @@
-"""YAML 1.2 text to plain values that remember where they stand.
+"""YAML 1.2 text to plain values that remember where they stand: one mapping for each document.
 
 Mappings and sequences become `Map` and `Seq`, plain scalars what `scalars.py` makes of them. Nothing is constructed
 from tags, and what aliases and nesting may cost is bounded.
@@ -16,11 +16,14 @@ from fieldscribe.language.nodes import Map, Seq, Value, share
 from fieldscribe.language.scalars import scalar
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.source import SourceFile
 
 MOST_DEPTH = 40
 MOST_NODES = 1_000_000
+MOST_DOCUMENTS = 10_000
 
 _MOST_PIECES = 100
 _WORD = re.compile(r"[a-z][a-z0-9_]*")
@@ -40,24 +43,24 @@ class _RefusedError(Exception):
     """The text cannot be read any further; the finding is already reported."""
 
 
-def load(source: SourceFile, report: Report) -> Map | None:
-    """The file's mapping, or None with findings when it cannot be read to its end; duplicate keys are left out."""
+def load(source: SourceFile, report: Report) -> list[Map | None]:
+    """The mapping of each document, or None with a finding for what is none and for a rest that cannot be read.
+
+    Empty documents are nothing; duplicate keys are left out.
+    """
+    documents: list[Map | None] = []
     try:
-        root = _Builder(source, report).build()
+        documents.extend(_Builder(source, report).documents())
     except _RefusedError:
-        return None
+        documents.append(None)
     except yaml.MarkedYAMLError as error:
         _syntax(source, error, report)
-        return None
+        documents.append(None)
     except yaml.YAMLError as error:
         message = f"this is not YAML: {error}".splitlines()[0]
         report.error("yaml-syntax", message, source.span(1, 1), "save the file as plain UTF-8 text")
-        return None
-    if isinstance(root, Map):
-        return root
-    hint = "start with `fieldscribe: 1` and `device: …`"
-    report.error("wrong-type", "the file must be a mapping of keys to values", source.span(1, 1), hint)
-    return None
+        documents.append(None)
+    return documents
 
 
 def _syntax(source: SourceFile, error: yaml.MarkedYAMLError, report: Report) -> None:
@@ -80,20 +83,32 @@ class _Builder:
         self.nodes = 0
         self.next_event = yaml.CSafeLoader(source.text).get_event
 
-    def build(self) -> Value:
-        """The value of the one document in the text."""
+    def documents(self) -> Iterator[Map | None]:
+        """The documents that hold something, as far as they can be read."""
         self.next_event()  # stream start
-        event = self.next_event()
-        if type(event) is yaml.StreamEndEvent:
+        count = held = 0
+        while type(event := self.next_event()) is not yaml.StreamEndEvent:
+            count += 1
+            if count > MOST_DOCUMENTS:
+                message = f"more than {MOST_DOCUMENTS} documents"
+                self._refuse("yaml-size", message, event, "split the description with `parts`")
+            event = self.next_event()
+            if not _is_nothing(event):
+                held += 1
+                yield self._document(event)
+            self.next_event()  # document end
+            self.anchors.clear()
+        if not held:
             hint = "a description starts with `fieldscribe: 1` and `device: …`"
             self._refuse("file-empty", "the file holds only comments", event, hint)
-        root = self._node(self.next_event(), 0)
-        self.next_event()  # document end
-        event = self.next_event()
-        if type(event) is not yaml.StreamEndEvent:
-            message = "a second YAML document starts here"
-            self._refuse("yaml-syntax", message, event, "one file holds one document: remove the `---`")
-        return root
+
+    def _document(self, event: Any) -> Map | None:
+        root = self._node(event, 0)
+        if isinstance(root, Map):
+            return root
+        hint = "a description starts with `fieldscribe: 1` and `device: …`, a part with `group: …` or shared facts"
+        self._error("wrong-type", "a document must be a mapping of keys to values", event, hint)
+        return None
 
     def _node(self, event: Any, depth: int) -> Value:
         kind = type(event)
@@ -216,6 +231,11 @@ class _Builder:
     def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
         self._error(rule, message, event, hint)
         raise _RefusedError
+
+
+def _is_nothing(event: Any) -> bool:
+    """Whether a document is empty."""
+    return type(event) is yaml.ScalarEvent and not (event.value or event.style or event.tag or event.anchor)
 
 
 def _is_alone(key: Any, value: Any) -> bool:

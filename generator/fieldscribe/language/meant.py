@@ -65,7 +65,7 @@ def _type(_: str, value: Any) -> str | None:
     if word in TYPE_WORDS:
         return f"write `type: {word}`"
     if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or re.search("(^|[^a])bcd", word):
-        words = '`untyped: "48-bit counter"` with `takes: 3` words'
+        words = '`untyped: "48-bit counter"` with `length: 3`'
         return f"no type here is like this: leave `type` out and say it in words, as {words}"
     return None
 
@@ -172,6 +172,12 @@ def _decimals(_: str, value: Any) -> str | None:
     return f"it counts the digits behind the point: write `decimals: {digits}`"
 
 
+def _default(_: str, value: Any) -> str | None:
+    """A value where a raw number belongs."""
+    fraction = isinstance(value, Decimal) and "." in str(value)
+    return f"it is a raw number; a value in the unit is `default_in_units: {value}`" if fraction else None
+
+
 def _source(_: str, value: Any) -> str | None:
     if isinstance(value, str | int | Decimal) and len(str(value)) <= _LONGEST:
         return f'write `source: {{document: …, section: "{value}"}}`'
@@ -181,6 +187,9 @@ def _source(_: str, value: Any) -> str | None:
 def _at(_: str, value: Any) -> str | None:
     if isinstance(value, Seq) and value:
         return f"a point of several words stands once, at its first: write `at: {value[0]}`"
+    if isinstance(value, Map) and value.keys() <= {"number", "sets", "indices", "set", "index"}:
+        beside = ", ".join(f"{key}: {one}" for key, one in value.items() if key != "number")
+        return f"write `at: {value.get('number', '…')}`" + (f", and `{beside}` beside it" if beside else "")
     return None
 
 
@@ -216,11 +225,9 @@ def _index(key: str, value: Any) -> str | None:
 
 
 def _sets(key: str, value: Any) -> str | None:
-    """How many sets there are, where each needs its address."""
-    if isinstance(value, int | Seq):
-        return (
-            f"each set has its address: `{key}: {{2: {{at: …}}}}`; by a rule of the group: `at: {{number: …, sets: 4}}`"
-        )
+    """Sets as a list."""
+    if isinstance(value, Seq):
+        return f"write a count, or each with its row: `{key}: 4`, `{key}: {{2: {{at: …}}}}`"
     return None
 
 
@@ -271,6 +278,24 @@ def _bytes(key: str, value: Any) -> str | None:
     return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
 
 
+def _words(_: str, value: Any) -> str | None:
+    """Their count, where their order belongs."""
+    return f"a count of words is `length: {value}`" if type(value) is int else None
+
+
+def _keeps(_: str, value: Any) -> str | None:
+    """A command's name."""
+    if not isinstance(value, str) or value.lower() in WORDS["keeps"] or not re.fullmatch("[a-z][a-z0-9_]*", value):
+        return None
+    return f"write no, yes or choice; the command that keeps what is written is named as `keep_with: {value}`"
+
+
+def _group(_: str, value: Any) -> str | None:
+    """Its keys under it."""
+    name = value.get("name") if isinstance(value, Map) else None
+    return f"write `group: {name}` and its other keys below, at the top" if isinstance(name, str) else None
+
+
 def _values(_: str, value: Any) -> str | None:
     """The values of a variant as a list."""
     if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str | int) for one in value):
@@ -297,9 +322,13 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "values": _values,
     "steps": _steps,
     "decimals": _decimals,
+    "default": _default,
     "source": _source,
     "at": _at,
     **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
     "family": _family,
+    "group": _group,
+    "keeps": _keeps,
+    "words": _words,
 }
 """What makes the hint, by key; words alone stand in the table above."""

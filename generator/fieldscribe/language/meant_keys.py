@@ -5,6 +5,9 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import DEVICE, GROUP
+
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
@@ -12,6 +15,7 @@ _SCALE = "a scale is one formula: `scale: value = raw {} {}`"
 _SPACE = "the `space` says what is read and written; function codes stand under `functions` of the `bus`"
 _WIDTH = "the `type` says how wide a number is (u16, u32, ...), `characters` how long a text is"
 _ORDER = "the order of words is `words: high first` or `words: low first`; the bytes of a word have one order"
+_GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"
 _MEANT: Mapping[str, tuple[str, str]] = {
     word: (ours, hint)
     for ours, hint, words in (
@@ -23,7 +27,8 @@ _MEANT: Mapping[str, tuple[str, str]] = {
         ("range", "", "limits values valid_range allowed"),
         ("range", "both ends are one range: `range: low..high`", "min max minimum maximum min_value max_value"),
         ("type", "", "datatype data_type format encoding_type dtype"),
-        ("type", _WIDTH, "size length len count quantity width bytes nwords word_count"),
+        ("type", _WIDTH, "size len count quantity width bytes nwords word_count"),
+        ("length", "", "takes words"),
         ("words", _ORDER, "byte_order byteorder endianness endian word_order wordorder swap byteswap"),
         ("title", "", "description label text desc caption"),
         ("note", "", "comment comments remark remarks info help"),
@@ -59,12 +64,8 @@ _MEANT: Mapping[str, tuple[str, str]] = {
         ("model", "", "product device_model type_name"),
         ("device", "", "device_id"),
         ("family", "", "protocol bus_type"),
-        (
-            "groups",
-            "points stand in a group: `groups: [{group: …, space: …, source: …, points: […]}]`",
-            "points registers",
-        ),
-        ("group", "", "name section"),
+        ("points", "", "registers"),
+        ("group", "", "name section groups"),
         ("rule", "", "then expression"),
         ("when", "", "if condition case"),
         ("why", "", "reason because"),
@@ -78,6 +79,10 @@ _MEANT: Mapping[str, tuple[str, str]] = {
 def meant_key(key: str, value: Any, known: Collection[str]) -> str | None:
     """What to write instead of a key, where it is known what somebody meant by it; None if not."""
     ours, hint = _MEANT.get(key.lower().replace("-", "_"), ("", ""))
+    if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
+        return _GROUP
+    if "group" in known and key in keys_of(DEVICE):
+        return "this stands in the head of device.yaml, its first document"
     if ours not in known:
         return _of_an_entry(key, known)
     if hint in ("*", "/"):

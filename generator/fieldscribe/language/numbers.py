@@ -63,6 +63,15 @@ def parse_integer(text: str) -> int:
     return number.numerator
 
 
+def is_whole_number(text: str) -> bool:
+    """Whether a text is a whole number in some notation."""
+    try:
+        parse_integer(text)
+    except NumberError:
+        return False
+    return True
+
+
 def shown(text: str) -> str:
     """A text from a description as messages quote it: clean, on one line, short."""
     cleaned = line(text[:200])

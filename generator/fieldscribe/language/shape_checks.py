@@ -12,6 +12,7 @@ from fieldscribe.language.hints import form_hint, key_hint, nearest, quoted, sho
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.meant import reversed_hint, value_hint
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
     from fieldscribe.kinds import Form, Place, Shape, Text, Whole
@@ -22,7 +23,7 @@ Check = Callable[[Any, Map | Seq, Any, Report], bool]
 Broken keys and items are dropped from what holds them. Places are made only for findings.
 """
 
-_NAMING = ("name", "code", "id", "group")
+_NAMING = ("name", "code", "id")
 
 
 @lru_cache(maxsize=256)
@@ -37,9 +38,15 @@ def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> boo
 
 
 def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
-    """The check of the value's own type, if it is one of the `wanted`."""
+    """The check of the value's own type, if it is one of the `wanted`.
+
+    A whole number may be written in every notation of numbers; from here on it is one.
+    """
+    notation = compiled_pattern(forms.WHOLE.pattern).search if int in checks and str not in checks else None
 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
+        if notation is not None and isinstance(value, str) and notation(value):
+            value = holder[at] = parse_integer(value)
         found = checks.get(type(value))
         if found is not None:
             return found(value, holder, at, report)

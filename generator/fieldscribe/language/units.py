@@ -156,7 +156,7 @@ def _with_prefixes(symbol: str, one: Mapping[str, Any], prefixes: Mapping[str, A
 def _table() -> Mapping[str, Any]:
     path = Path(__file__).with_name("units.yaml")
     report = Report()
-    table = load(SourceFile(path.name, path.read_text("utf-8")), report)
+    (table,) = load(SourceFile(path.name, path.read_text("utf-8")), report)
     if table is None or report.has_errors:
         raise ValueError(f"units.yaml is broken: {report.findings}")
     return table

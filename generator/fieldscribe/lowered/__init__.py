@@ -1,7 +1,7 @@
-"""The lowered model: what every compiled language needs to know alike of a device, in numbers.
+"""The lowered model: what all compiled languages need to know of a device, worked out once, in numbers.
 
-It stands between the model and the views of C, Rust and Python: which integers a scale comes to and how wide they are,
-what the points hold that a rule needs, and where those are. A view asks it and turns the answer into its own language.
+It stands between the model and the views of C, Rust and Python: the integers of a scale and their widths, and what is
+known of the points that a rule needs. A view asks it and writes the answer in its own language.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "plan_of"]
 
 
 class Lowered:
-    """A device in numbers. `points` finds the points by item and by name, of variants the first by the latter."""
+    """A device in numbers. `points` finds points by item, and by name (of variants the first)."""
 
     def __init__(self, device: Device) -> None:
         self.device = device
@@ -28,15 +28,15 @@ class Lowered:
         self._rules: dict[Linear, Rule] = {}
 
     def rule(self, linear: Linear) -> Rule:
-        """A rule with what is known of its factors; many points share it."""
-        found = self._rules.get(linear)
-        if found is None:
-            found = self._rules[linear] = rule_of(linear, self.points)
-        return found
+        """The lowered rule, shared by all points that have the same."""
+        lowered = self._rules.get(linear)
+        if lowered is None:
+            lowered = self._rules[linear] = rule_of(linear, self.points)
+        return lowered
 
 
 _kept: list[Lowered] = []
-"""The device that was lowered last: the targets of a run ask for it one after the other."""
+"""The device that was lowered last: the targets of a run ask for the same device one after the other."""
 
 
 def lower(device: Device) -> Lowered:

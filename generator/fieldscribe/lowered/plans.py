@@ -1,4 +1,4 @@
-"""The integers of a scale that is known at compile time, and how wide they are."""
+"""The integers of a scale that is known at compile time, and their widths."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ if TYPE_CHECKING:
     from fieldscribe.model import Linear, Point
 
 EXACT_FLOAT = 1 << 24
-"""Every integer up to here is a binary32 number."""
+"""Every integer up to this one is a binary32 number."""
 
 
 class Plan(NamedTuple):
-    """The integers of a scale: `to_raw` makes a raw number of a count, `to_value` a value of a raw number.
+    """The integers of a scale: `to_raw` is the line from counts to raw numbers, `to_value` from raw numbers to values.
 
     `raws` are the raw numbers of the type. `counts` are the counts whose raw numbers lie in the outer limits,
-    `numerator` is the largest that decoding to a value meets, `beyond` the raw numbers whose counts fit; each `_wide`
-    says that 32 bits do not suffice. `fits_float` says that binary32 holds every integer that values meet.
+    `numerator` is the largest integer on the way from a raw number to its value. `beyond` are the raw numbers whose
+    counts fit, None for all. Each `_wide` says that 32 bits are not enough. `fits_float` says that binary32 holds every
+    integer on the way to and from values.
     """
 
     to_raw: Line
@@ -44,7 +45,7 @@ def plan_of(point: Point, low: int, high: int) -> Plan:
 
 @lru_cache(maxsize=4096)
 def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
-    """Proves the widths by computing what the extreme arguments meet.
+    """Prove the widths: compute the integers that occur for the extreme arguments.
 
     Every step is linear in its argument, so each intermediate is largest at one end of the arguments. Code divides with
     rounding, for which it adds up to half the divisor to the size of the numerator: each proof leaves room for all of
@@ -72,13 +73,13 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
 
 
 def _usable(to_raw: Line, counts: tuple[int, int], limits: tuple[int, int]) -> tuple[int, int]:
-    """The counts that their type holds and whose numerators 64 bits hold; beyond are special codes alone."""
+    """The counts that fit their type and whose numerators fit 64 bits; only special codes lie beyond."""
     most = (INT64[1] - abs(to_raw.add)) // abs(to_raw.factor)
     return max(counts[0], limits[0], -most), min(counts[1], limits[1], most)
 
 
 def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
-    """The raw numbers between which counts are computed in 64 bits; None where that is all that the type holds.
+    """The raw numbers whose counts are computed in 64 bits; None if those are all of the type.
 
     A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: both sides of
     `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is multiplied or divided, the smallest number
@@ -108,6 +109,6 @@ def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
 
 
 def _fits_float(rule: Linear, low: int, high: int) -> bool:
-    """Whether binary32 holds the constants of encoding, and a raw number that is one beyond its limits."""
+    """Whether binary32 holds the constants of encoding, and the raw numbers next to the limits."""
     largest = max(abs(low), abs(high)) + 1
     return max(abs(rule.ratio.numerator), rule.ratio.denominator, largest) <= EXACT_FLOAT

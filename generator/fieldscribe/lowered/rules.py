@@ -1,4 +1,4 @@
-"""Rules that other points have a part in, with what is known of those points."""
+"""Rules that depend on other points, with what is known of those points."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 Band = tuple[int, int]
 
 _MANTISSA = 1 << 24
-"""No mantissa of a binary32 number is larger."""
+"""The limit of the mantissa of a binary32 number."""
 
 
 @dataclass(frozen=True, slots=True)
 class Operand:
     """A factor of a rule, with what is known of its point.
 
-    `held` are the raw numbers that the point's type holds. `exponents` are those for which ten to it is defined, None
-    for other factors. `codes` are the special codes, which are no quantities. The number of a `floating` one is its
-    value, a mantissa of 24 bits times a power of two; else it is raw * slope + intercept, which lies between `ends`.
+    `held` are the least and greatest raw number of its type. `exponents` are the raw numbers for which a power of ten
+    is defined; None for other factors. `codes` are its special codes, which are no quantities. A `floating` factor is a
+    value, a mantissa of 24 bits times a power of two; any other is raw * slope + intercept, which lies between `ends`.
     """
 
     point: str
@@ -41,18 +41,18 @@ class Operand:
 
     @property
     def largest(self) -> int:
-        """No number of the operand (of a floating one, no mantissa) is larger in size."""
+        """The greatest magnitude of the operand; of a floating one, of its mantissa."""
         return max(abs(self.ends[0]), abs(self.ends[1]), 1)
 
     @property
     def over(self) -> bool:
-        """Whether the rule is divided by it."""
+        """Whether the rule divides by the operand."""
         return self.power < 0
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """result = argument * ratio * product(operands) + offset; `steps` are the operands as code takes them in."""
+    """result = argument * ratio * product(operands) + offset; `steps`: the operands in the order of generated code."""
 
     ratio: Fraction
     offset: Fraction
@@ -61,8 +61,8 @@ class Rule:
 
     @property
     def coded(self) -> tuple[tuple[str, Band], ...]:
-        """The special codes for which nothing can be computed, with the point that holds them."""
-        by_point = {one.point: one.codes for one in self.operands}
+        """The special codes of each operand's point: while it holds one, the rule cannot be computed."""
+        by_point = {operand.point: operand.codes for operand in self.operands}
         return tuple((name, band) for name, codes in by_point.items() for band in codes)
 
 

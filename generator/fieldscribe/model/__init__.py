@@ -1,4 +1,4 @@
-"""The neutral model of a device: frozen, typed, every record and set expanded. It knows no target and no YAML."""
+"""The neutral model of a device: frozen, typed, with all records and sets expanded. It knows no target and no YAML."""
 
 from fieldscribe.model.device import (
     Block,

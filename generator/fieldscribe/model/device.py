@@ -1,4 +1,4 @@
-"""A whole device, and all of it that is no point: its bus, groups, messages, commands, worked examples, errata."""
+"""A whole device, and its parts other than points: bus, groups, messages, commands, worked examples, errata."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ class Erratum:
     taken: str
     why: str
     certainty: str
-    facts: tuple[str, ...] = ()
-    """The keys of what is printed, where that is given as facts and not in words alone."""
+    facts: tuple[tuple[str, str], ...] = ()
+    """The printed facts by their keys; empty if the erratum is only told in words."""
 
 
 @dataclass(frozen=True, slots=True)
 class Own:
-    """Facts that one family alone knows; the folder of the family says which."""
+    """Facts of one family; its folder defines them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +69,9 @@ class Frame:
 class Role:
     """What one byte of a message carries.
 
-    `constant` (number: the byte itself), `unit`, `address` and `raw` (number: how far the byte lies above bit 0),
-    `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
-    bytes of the message that are combined).
+    `kind` is `constant` (`number` is the byte itself), `unit`, `address` or `raw` (`number` is the distance of the byte
+    from bit 0), `multiplexer`, `word` (`number` is 2 * word of the frame, plus 1 for its low byte), or `xor` (`number`
+    is the mask of the bytes that are combined).
     """
 
     kind: str
@@ -111,7 +111,7 @@ class Telegram:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A named constant write. `value` is None where any value does; `wears` is how many writes the memory stands."""
+    """A named constant write. `value` is None if any value will do; `wears` is how many writes the memory survives."""
 
     name: str
     title: Titles
@@ -130,8 +130,8 @@ class Code:
     """A number of the protocol with a name: a function or an exception.
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
-    once; None is what the protocol says. `answers` are the codes of the other kind that belong to it: of a request its
-    positive responses, of a response or an error the requests that may get it; `refusals` the negative responses.
+    once; None means as the protocol says. `answers` of a request are its positive responses, of a response or an error
+    the requests that it may answer; `refusals` are the negative responses of a request.
     """
 
     number: int
@@ -145,7 +145,7 @@ class Code:
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A read of consecutive addresses that respects limits and holes: `points` are the points that it brings."""
+    """A read of consecutive addresses within the limits and between the gaps; it reads `points`."""
 
     space: str
     function: int
@@ -156,7 +156,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the family's frames need to know of this device; `own` is what this family alone knows."""
+    """What the frames need to know of the device; `own` are the facts that only its family has."""
 
     framings: tuple[str, ...]
     units: tuple[int, int]
@@ -170,9 +170,9 @@ class Bus:
     own: Own | None = None
 
     def codes(self, section: str) -> tuple[Code, ...]:
-        """The numbered codes under a key of `bus`, whether all families have it or this one alone."""
-        found: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
-        return found
+        """The numbered codes under a key of `bus`, also under a key of this family only."""
+        codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
+        return codes
 
     @property
     def usual_unit(self) -> int:
@@ -194,7 +194,7 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Device:
-    """One product with one register map. `digest` covers what matters to code, and nothing else."""
+    """One product with one register map. `digest` covers the facts that generated code depends on, and no others."""
 
     id: str
     version: str

@@ -1,4 +1,4 @@
-"""One object for all that is equal, so that what follows from it is worked out once."""
+"""Keeps one object of all equal ones, so that facts derived from it are worked out once."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 class Interner:
-    """The shapes of a device's points, and what they allow, each once."""
+    """The shapes and limits of a device's points, each kept once."""
 
     def __init__(self) -> None:
         self._shapes: dict[Shape, Shape] = {}

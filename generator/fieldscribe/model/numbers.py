@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 Titles = Mapping[str, str]
-"""Text for people by language code; `en` is always there."""
+"""Text for people by language code; `en` is always present."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ TYPES: Mapping[str, TypeInfo] = {
     "f64": TypeInfo(64, False, True),
     "text": TypeInfo(16, False, False),
 }
-"""All wire types; of a text the width is that of one word, and `Shape.text` says how many characters it has."""
+"""All wire types; the width of a text is that of one word, and `Shape.text` has the number of its characters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +50,10 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class Special:
-    """A special code: raw numbers low..high that are no quantity; with `no_value` they say that there is none.
+    """A special code: raw numbers low..high that are no quantity; `no_value` if they mean that there is no value.
 
-    It is written only if `writable`; `hexadecimal` says that the manual writes it so. `own` is False for a code that a
-    type, a group or a format gives to many points.
+    It may be written only if `writable`; `hexadecimal` if the manual prints it so. `own` is False for a code that many
+    points get from a type, a group or a format.
     """
 
     low: int
@@ -65,14 +65,10 @@ class Special:
     hexadecimal: bool = False
     own: bool = True
 
-    def holds(self, raw: int) -> bool:
-        """Whether a raw number is this code."""
-        return self.low <= raw <= self.high
-
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Characters in words, two a word, the first in the high byte of the first word; padded with spaces."""
+    """A text: two characters in each word, the first in the high byte of the first word, padded with spaces."""
 
     characters: int
     encoding: str
@@ -80,7 +76,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Digits:
-    """A word whose decimal digits each mean something; `enum` names the numbers that a digit may be."""
+    """A word whose decimal digits have separate meanings; `enum` names the numbers that each digit may have."""
 
     count: int
     enum: Enum
@@ -88,7 +84,7 @@ class Digits:
 
 @dataclass(frozen=True, slots=True)
 class Fixed:
-    """Bits of a word that are written as a constant, always: those in `mask` get their value from `bits`."""
+    """Bits of a word that are always written as a constant: the bits in `mask` have the values in `bits`."""
 
     mask: int
     bits: int
@@ -98,7 +94,7 @@ class Fixed:
 class Flag:
     """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit; bits count from 0.
 
-    `active` is the value of a single bit that means the name is true (0 for inverted bits). `values` names the numbers.
+    `active` is the value of a single bit while its name is true (0 for inverted bits). `values` names the numbers.
     """
 
     low: int

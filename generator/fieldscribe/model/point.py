@@ -1,4 +1,4 @@
-"""A point: its identity over a shape that it shares with others."""
+"""A point: its identity, and the shape that it shares with others."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Fact = TypeVar("Fact")
 
 
 class _Shared(Generic[Fact]):
-    """A fact that a point has from its shape: whoever asks a point need not know which facts are shared."""
+    """A fact of the shape as an attribute of the point: its users need not know which facts are shared."""
 
     __slots__ = ("_of",)
 
@@ -50,7 +50,7 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is: for what purpose, in which space, at which words (the high part first), by which function."""
+    """A place of a point: purpose, space, addresses (of the high part first) and function."""
 
     purpose: str
     space: str
@@ -60,11 +60,13 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One addressable datum: what tells it from others, and the shape and the numbers of its limits.
+    """One addressable datum: its identity, its shape and its limits.
 
-    `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
-    manual prints no address. `bits` (high, low) is where in its word it lies, None for whole words. `steps` gives
-    (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
+    `name` is unique except for variants: points of the same name differ in `variant` ("axis=value"). `places` is empty
+    if the manual prints no address. `bits` are its (high, low) bits of the word, None for whole words. `default` is the
+    factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
+    floating-point number has only the first. `steps` has pairs (from raw, step in raw). `generated` is False for a
+    point that is only documented; `reason` says why.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Point:
     unit: Unit
     allowed: Allowed
     default: Fraction | None
+    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
     record: str | None
     set: int | None
@@ -100,13 +103,14 @@ class Point:
     index: int | None = None
     changes_with: tuple[str, ...] = ()
     untyped: str | None = None
-    """What stands in place of a type: the manual's words for what no type says; empty where it does not settle it."""
+    """What the manual says in place of a type; empty if it leaves the type open; None if the point has a type."""
 
     type = _Shared(lambda shape: shape.type)
     width = _Shared(lambda shape: shape.width)
     access = _Shared(lambda shape: shape.access)
     scale = _Shared(lambda shape: shape.scale)
     decimals = _Shared(lambda shape: shape.decimals)
+    display = _Shared(lambda shape: shape.display)
     encodes_values = _Shared(lambda shape: shape.encodes_values)
     most_raw = _Shared(lambda shape: shape.most_raw)
     enum = _Shared(lambda shape: shape.enum)
@@ -129,45 +133,45 @@ class Point:
 
     @property
     def raw_only(self) -> bool:
-        """Whether nobody says what the words mean, but where they are: they are reached raw, by their address."""
+        """Whether only its address is known, not the meaning of its words: it is read and written raw."""
         return not (self.generated or self.reserved) and self.access != "none" and bool(self.places)
 
     @property
     def words(self) -> int:
-        """How many 16-bit words (or single bits) the point takes; without a type, as many as the manual prints."""
+        """How many 16-bit words (or single bits) the point takes; without a type, as many as addresses are printed."""
         return self.shape.words if self.untyped is None else max(1, len(self.addresses))
 
     @property
     def outer(self) -> tuple[int, int]:
-        """The least and greatest raw number that may ever be written; what the bits hold where nothing is said."""
+        """The least and greatest raw number that may ever be written; without limits, what the bits can hold."""
         least, greatest = self.shape.least, self.shape.greatest
         low, high = self.allowed.outer or (least, greatest)
         return max(low, least), min(high, greatest)
 
     @property
     def addresses(self) -> tuple[int, ...]:
-        """The words where the point is read (or, if it cannot be read, written), the high part first; may be empty."""
+        """The addresses where the point is read (or else written), the high part first; may be empty."""
         return self.places[0].addresses if self.places else ()
 
     @property
     def address(self) -> int | None:
-        """The lowest address, which a request names; None when the manual prints none."""
+        """The lowest address, which requests name; None if the manual prints none."""
         return min(self.addresses) if self.addresses else None
 
     @property
     def write_place(self) -> Place | None:
-        """Where the point is written: mostly where it is read; None when the manual prints no address."""
+        """The place where the point is written, which mostly is where it is read; None without an address."""
         return next(
             (place for place in self.places if place.purpose == "write"), self.places[0] if self.places else None
         )
 
     def special(self, raw: int) -> Special | None:
-        """The special code that a raw number is, if it is one."""
+        """The special code with that raw number, if there is one."""
         return next((code for code in self.shape.specials if code.low <= raw <= code.high), None)
 
     @property
     def item(self) -> str:
-        """The name of generated items: the name, with the variant's value behind it."""
+        """The name in generated code: its name, and behind it the value of its variant."""
         return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
 
     @property

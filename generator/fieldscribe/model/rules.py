@@ -1,4 +1,4 @@
-"""Scales and limits: exact linear rules, which other points may have a part in."""
+"""Scales and limits: exact linear rules, which may depend on other points."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that.
+    """A run-time factor: (raw * slope + intercept) of a point, or ten to the power of that; `power` is 1 or -1.
 
-    `exponents` are the raw numbers for which ten to it is defined; None before the points are complete.
+    `exponents` are the raw numbers that may be an exponent; None until all points are resolved.
     """
 
     point: str
@@ -40,7 +40,7 @@ class Linear:
 
 @dataclass(frozen=True, slots=True)
 class ScaleCase:
-    """raw = value by `rule`; holds always (`point` is None) or when the raw number of `point` equals `raw`."""
+    """raw = `rule`(value). It holds always if `point` is None, else while the raw number of `point` equals `raw`."""
 
     point: str | None
     raw: int | None
@@ -49,7 +49,7 @@ class ScaleCase:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A raw limit that other points set: the rule applied to 1, rounded half away from zero.
+    """A raw limit that depends on other points: the rule applied to 1, rounded half away from zero.
 
     It does not apply while a point holds a raw number in one of the bands (low, high) of `unless`; `least` and
     `greatest` bound it always.
@@ -61,7 +61,7 @@ class Limit:
     greatest: int
 
     def outermost(self, *, low: bool) -> int:
-        """The number that the limit never goes beyond, as the lower or the upper end of an interval."""
+        """The outermost raw number that the limit can be, as the lower or the upper end of an interval."""
         return self.least if low else self.greatest
 
 
@@ -77,13 +77,13 @@ class Interval:
 
     @property
     def outer(self) -> tuple[int, int]:
-        """The ends, those that other points set as far out as they can be."""
+        """The ends; limits that depend on other points as far out as they can be."""
         low, high = self.low, self.high
         return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
 
     @property
     def fixed(self) -> tuple[int, int] | None:
-        """The ends, if no other point sets one of them."""
+        """The ends; None if one of them depends on other points."""
         return (self.low, self.high) if isinstance(self.low, int) and isinstance(self.high, int) else None
 
 
@@ -91,8 +91,8 @@ class Interval:
 class Allowed:
     """Which raw numbers may be written: a union of intervals in ascending order.
 
-    `listed` says that the author wrote single numbers. For f32 and f64 the numbers are values in the unit, and `units`
-    holds them instead. Many points allow the same; what follows is worked out once, as it is of a shape.
+    `listed` says that the author wrote single numbers. For f32 and f64, `units` holds the limits instead, as values in
+    the unit. Points that allow the same share one object, so that derived facts are worked out once.
     """
 
     intervals: tuple[Interval, ...]
@@ -107,17 +107,17 @@ class Allowed:
 
     @cached_property
     def fixed(self) -> tuple[tuple[int, int], ...]:
-        """The intervals that no other point has a part in."""
+        """The intervals that depend on no other point."""
         return tuple(interval.fixed for interval in self.intervals if interval.fixed is not None)
 
     @property
     def moves(self) -> bool:
-        """Whether other points set a limit."""
+        """Whether a limit depends on other points."""
         return len(self.fixed) < len(self.intervals)
 
     @cached_property
     def arguments(self) -> tuple[str, ...]:
-        """The points that the limits need at run time: their factors, and those whose codes lift them."""
+        """The points that the limits need at run time: as factors, or because their codes lift a limit."""
         names: dict[str, None] = {}
         for interval in self.intervals if self.moves else ():
             for bound in (interval.low, interval.high):
@@ -127,5 +127,5 @@ class Allowed:
         return tuple(names)
 
     def holds(self, raw: int) -> bool:
-        """Whether a raw number may be allowed: limits that other points set count as far out as they can be."""
+        """Whether a raw number can be allowed: limits that depend on other points count as far out as they can be."""
         return any(low <= raw <= high for low, high in (interval.outer for interval in self.intervals))

@@ -1,8 +1,8 @@
-"""The rule that many points share: what their raw numbers are, whatever each is called and wherever it lies."""
+"""What many points share: everything about their raw numbers, but not their names and addresses."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Shape:
-    """What the raw numbers of points are: their type, what they mean, and who may write them.
+    """What the raw numbers of points are: their type, their meaning, and whether they can be read and written.
 
     `width` is how many bits the raw number has: all of the type, or those of a group of bits in a word. `scale` is None
-    where the raw number is the value. `decimals` k fixes the unit of the integer path, 10^-k units; it is None where no
-    64-bit integer holds the counts, and there are none then. `encodes_values` is False where raw numbers, or what a
-    scale multiplies them to, exceed 53 bits: values are decoded only. `most_raw` is how large a raw number may be for a
-    scale that other points decide, where the type goes beyond: larger ones overflow. `specials` are never computed
-    with; `specials_of` names what gives those that are not the point's own to many points (a type, a group, a format).
+    where the raw number is the value. `decimals` k fixes the unit of the integer path, 10^-k units; it is None if the
+    counts do not fit 64 bits, and then the point has no integer path. `encodes_values` is False if raw numbers or the
+    products of the scale exceed 53 bits: then values are only decoded. `most_raw` is the greatest raw number that a
+    run-time scale can compute with, if the type holds larger ones: those are an overflow. `specials` are no quantities;
+    `specials_of` names the type, group or format that those come from which the point shares with others.
+    `display` is the number of decimals that people see, None if nothing says it; no computation depends on it.
 
-    Resolving keeps one shape of each kind; what follows from it is worked out once and kept with it.
+    Equal shapes are one object, so that the facts derived below are worked out once.
     """
 
     type: str
@@ -41,9 +42,10 @@ class Shape:
     fixed: Fixed | None = None
     encodes_values: bool = True
     most_raw: int | None = None
+    display: int | None = field(default=None, repr=False)
 
     def __hash__(self) -> int:
-        """Titles have no hash: what usually tells two shapes apart has to do, and equality looks at the rest."""
+        """A hash of the facts that usually differ, because titles have no hash; equality compares all."""
         named = () if self.enum is None else (self.enum.name, self.enum.closed)
         return hash((self.type, self.width, self.access, self.scale, self.decimals, named, len(self.flags), self.fixed))
 
@@ -69,23 +71,23 @@ class Shape:
 
     @cached_property
     def held(self) -> tuple[int, int]:
-        """What the wire type holds at least and at most: of a bit group more than its own bits do."""
+        """The least and greatest number of the wire type; for a bit group that is more than its own bits hold."""
         bits, signed = self.info.bits, self.info.signed
         return (-(1 << (bits - 1)) if signed else 0, (1 << (bits - signed)) - 1)
 
     @cached_property
     def readable(self) -> bool:
-        """Whether the device answers with the point."""
+        """Whether the point can be read."""
         return "r" in self.access
 
     @cached_property
     def writable(self) -> bool:
-        """Whether the device takes the point."""
+        """Whether the point can be written."""
         return "w" in self.access
 
     @cached_property
     def shared_codes(self) -> str:
-        """What gives all special codes to many points; empty where some are the point's own."""
+        """The name of the codes that many points share, if they are all that this point has; else empty."""
         return "" if any(code.own for code in self.specials) else self.specials_of
 
     @cached_property
@@ -104,7 +106,7 @@ class Shape:
 
     @cached_property
     def fixed_scale(self) -> Linear | None:
-        """The rule of a scale that no other point has a part in."""
+        """The rule of a scale that depends on no other point; else None."""
         return self.scale[0].rule if self.scale is not None and not self.scale_arguments else None
 
     @cached_property

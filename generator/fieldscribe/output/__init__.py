@@ -1,4 +1,4 @@
-"""Files on disk: planned as a whole, written only if they changed, whole or not at all, and only over what is ours.
+"""Files on disk: planned for a whole device, written only if they changed, atomically, and only over files of our own.
 
 Nothing outside the output folder is ever touched, whatever a manifest or a link in the folder says.
 """

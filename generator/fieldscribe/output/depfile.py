@@ -1,4 +1,4 @@
-"""A make rule from outputs to inputs, as make and ninja read it."""
+"""A rule for make and ninja: the outputs depend on the inputs."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Write the rule, whole or not at all. Raises OSError."""
-    made = " ".join(map(_escaped, outputs))
+    """Write the rule atomically. Raises OSError."""
+    outputs_escaped = " ".join(map(_escaped, outputs))
     needed = " \\\n  ".join(map(_escaped, inputs))
-    _put(Path(os.path.realpath(place)), f"{made}: {needed}\n".encode("utf-8", "surrogateescape"))
+    _put(Path(os.path.realpath(place)), f"{outputs_escaped}: {needed}\n".encode("utf-8", "surrogateescape"))
 
 
 def _escaped(path: Path) -> str:
-    """The path with blanks, `#` and `$` escaped; what else could end a line or a rule is refused."""
+    """The path with blanks, `#` and `$` escaped; a path that could end the line or the rule is refused."""
     text = str(path)
     if any(ord(char) < 0x20 or char == "\x7f" for char in text):
         raise UnfitFileError(EINVAL, f"make cannot name the path {text!a}: rename it")
@@ -39,6 +39,6 @@ def _put(place: Path, data: bytes) -> None:
     if stat.S_ISREG(status.st_mode):
         replace(place, data, f".{place.name}.new")
     elif stat.S_ISCHR(status.st_mode):
-        place.write_bytes(data)  # /dev/null, /dev/stdout
+        place.write_bytes(data)  # a device such as /dev/null cannot be replaced
     else:
         raise UnfitFileError(EINVAL, str(kind_of(status)), str(place))

@@ -1,6 +1,6 @@
 """All devices of a run: loaded, then compared with the output folder or written to it, one after the other.
 
-A device with an error, in its description or in any one target, or with a file of others in its way, is left as it is.
+The outputs of a device stay as they are if its description or a target has an error or a foreign file is in the way.
 """
 
 from __future__ import annotations
@@ -30,46 +30,46 @@ class Generation:
     targets: tuple[str, ...]
     report: Report
     debug: Callable[[BaseException], None]
-    """Is shown each internal error."""
+    """Called with each internal error."""
     devices: dict[str, tuple[Path, Device]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
-        """Take in the devices without errors; a second description of one is an error."""
+        """Load the devices without errors; two descriptions of the same device are an error."""
         from fieldscribe.pipeline import is_new, load_device
 
         known: dict[str, Path] = {}
         for device_file in device_files:
             try:
                 device = load_device(device_file, self.report, self.inputs)
-            except Exception as error:  # the other devices are written
+            except Exception as error:  # a bug with one device must not stop the others
                 self._report_bug(device_file, "the compiler", error)
                 continue
             if device is not None and is_new(device, device_file, known, self.report):
                 self.devices[device.id] = device_file, device
 
     def list_outputs(self) -> None:
-        """Note what there would be."""
-        for device, made in self._made():
-            self.result.wanted.update(_paths(device, made))
+        """Note all outputs, without a look at the folder."""
+        for device, files in self._made():
+            self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
-        """Note what is stale. What was current when it was read has to be so at the end, or somebody is writing."""
+        """Note what is stale. Files that changed while we compared are stale too: somebody is writing them."""
         from fieldscribe.output.manifests import Manifests
         from fieldscribe.output.plan import changed_since, plan_of
 
         manifests, result = Manifests(self.out), self.result
-        for device, made in self._made():
-            plan = plan_of(self.out, manifests, device.id, made)
-            result.wanted.update(_paths(device, made))
+        for device, files in self._made():
+            plan = plan_of(self.out, manifests, device.id, files)
+            result.wanted.update(_paths(device, files))
             result.stale.update(plan.stale)
             result.kept.update(plan.kept)
             result.states.update(plan.unchanged)
         result.stale.update(changed_since(self.out, result.states))
 
     def write(self, waiting: Callable[[], None], memory: Memory | None, *, force: bool) -> None:
-        """Write what changed, while no other run writes to the folder. Raises OSError."""
+        """Write what changed, under the lock of the folder. Raises OSError."""
         from fieldscribe.output.lock import only_run
 
         if not self.devices:
@@ -85,20 +85,20 @@ class Generation:
         from fieldscribe.output.writing import carry_out
 
         manifests, result = Manifests(self.out), self.result
-        for device, made in self._made():
-            plan = plan_of(self.out, manifests, device.id, made, force=force)
+        for device, files in self._made():
+            plan = plan_of(self.out, manifests, device.id, files, force=force)
             if plan.refused:
                 self._report_refused(plan)
                 continue
             result.states.update(carry_out(self.out, manifests, plan))
             result.digests.update(plan.digests)
-            result.wanted.update(_paths(device, made))
+            result.wanted.update(_paths(device, files))
             result.written.update(plan.write)
             result.removed.update(plan.remove)
             result.kept.update(plan.kept)
 
     def _made(self) -> Iterator[tuple[Device, Made]]:
-        """Each device with all its files; one with a target that fails has none at all, and a finding."""
+        """Each device with all its files; a device with a failing target is left out and gets a finding."""
         from fieldscribe.pipeline import TargetError, outputs
         from fieldscribe.targets import knows
 
@@ -106,26 +106,26 @@ class Generation:
             if unknown := [target for target in self.targets if not knows(target, device)]:
                 self._report_unknown(device_file, device, unknown)
                 continue
-            made: Made = {target: {} for target in self.targets}
+            files: Made = {target: {} for target in self.targets}
             try:
                 for target, path, text in outputs(device, self.targets):
-                    made[target][path] = text.encode()
+                    files[target][path] = text.encode()
             except (TargetError, UnicodeEncodeError) as error:
                 where = f"target {error}" if isinstance(error, TargetError) else "a text"
                 self._report_bug(device_file, where, error.__cause__ or error)
                 continue
-            yield device, made
+            yield device, files
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):
             removable = not (self.out / path).is_dir()
-            way = "move it away, or replace it with `--force`" if removable else "move it away"
-            hint = f"{way}; nothing of {plan.device} was written"
+            advice = "move it away, or replace it with `--force`" if removable else "move it away"
+            hint = f"{advice}; nothing of {plan.device} was written"
             place = Span(shown(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 
     def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
-        """Targets that cannot say a device of its family."""
+        """Report targets that cannot be generated for the device's family."""
         named = f"target {targets[0]} does" if len(targets) == 1 else f"targets {', '.join(targets)} do"
         message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
         hint = "choose others with --target"
@@ -134,15 +134,15 @@ class Generation:
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """An internal error is a finding of its device."""
         self.debug(error)
-        said = f"{type(error).__name__}: {str(error)[:120]}"
-        message = f"internal error in {where}: {said}; nothing of this device was written"
+        bug = f"{type(error).__name__}: {str(error)[:120]}"
+        message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
         self.report.error("internal-error", message, Span(shown(device_file), 1, 1), hint)
 
 
-def _paths(device: Device, made: Made) -> Iterator[str]:
+def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:
     from fieldscribe.output.manifests import manifest_path
 
     yield manifest_path(device.id)
-    for files in made.values():
+    for files in files_of_targets.values():
         yield from files

@@ -1,8 +1,8 @@
 """One run at a time writes to an output folder.
 
-The lock is on an empty file in that folder, where all users of it meet whatever their caches are. The system lets go of
-it when a run ends, however it ends; the file itself is removed, by this run or, after one that was killed, by the next.
-Where the system cannot lock files, who creates the file has the lock, and one that is ten minutes old was left behind.
+An empty file in that folder is locked, because all runs see it whatever their caches are. The system releases the lock
+when a run ends, however it ends; the file is removed by this run, or by the next if this one is killed.
+Where the system cannot lock files, creating the file takes the lock, and a file older than ten minutes is abandoned.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 NAME = ".fieldscribe-lock"
 PATIENCE = 60.0
-"""Seconds that a run waits for another."""
+"""How many seconds a run waits for another."""
 
 _PAUSE = 0.05
 _TELL_AFTER = 0.5
 _LEFT_BEHIND = 600.0
 _VANISHED = 5
-"""So often the folder may go away between being made and being used; then it is one that holds no files."""
+"""How often another run may remove the folder before we can use it; after that we give up."""
 _BUSY = (errno.EACCES, errno.EAGAIN, errno.EDEADLK, getattr(errno, "EDEADLOCK", errno.EDEADLK))
 _FLAGS = os.O_RDWR
 for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
@@ -38,8 +38,8 @@ for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"
 
 @contextmanager
 def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE) -> Iterator[None]:
-    """No other run writes to the folder meanwhile. `waiting` is told once if there is one. Raises OSError."""
-    made = not out.is_dir()
+    """Hold the lock of the folder; `waiting` is called once if another run has it. Raises OSError."""
+    created = not out.is_dir()
     place = out / NAME
     handle = _acquired(place, waiting, patience)
     try:
@@ -47,13 +47,13 @@ def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE)
             yield
     finally:
         _release(place, handle)
-        if made:
+        if created:
             with suppress(OSError):
-                out.rmdir()  # nothing was written
+                out.rmdir()  # succeeds only if nothing was written
 
 
 def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
-    start, told, vanished = time.monotonic(), False, 0
+    start, has_told, vanished = time.monotonic(), False, 0
     while True:
         try:
             handle = _tried(place)
@@ -67,14 +67,14 @@ def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
         if waited > patience:
             message = f"another run has been writing there for {patience:.0f} seconds"
             raise TimeoutError(errno.ETIMEDOUT, message, str(place.parent))
-        if waited > _TELL_AFTER and not told:
+        if waited > _TELL_AFTER and not has_told:
             waiting()
-            told = True
+            has_told = True
         time.sleep(_PAUSE)
 
 
 def _tried(place: Path) -> int | None:
-    """The open file if its lock is ours now."""
+    """The open lock file if we got its lock, else None."""
     handle, created = _opened(place)
     if handle is None:
         return None
@@ -92,7 +92,7 @@ def _tried(place: Path) -> int | None:
 
 
 def _opened(place: Path) -> tuple[int | None, bool]:
-    """The lock file, and whether it was created now; None if it went away meanwhile. What is no lock is refused."""
+    """The open lock file, and whether we created it; None if it vanished. Raises OSError for any other file."""
     place.parent.mkdir(parents=True, exist_ok=True)
     try:
         return os.open(place, _FLAGS | os.O_CREAT | os.O_EXCL, 0o666), True
@@ -108,15 +108,15 @@ def _existing(place: Path) -> int | None:
             raise UnfitFileError(errno.EEXIST, f"{kind}: move it away", str(place))
         with suppress(PermissionError):
             return os.open(place, _FLAGS)
-        return os.open(place, _FLAGS & ~os.O_RDWR)  # another user's, which may be locked all the same
+        return os.open(place, _FLAGS & ~os.O_RDWR)  # of another user: a lock needs no right to write
     except (FileNotFoundError, PermissionError) as error:
         if isinstance(error, PermissionError) and os.name != "nt":
             raise
-        return None  # Windows denies to open what is about to be removed
+        return None  # on Windows a file that is being removed cannot be opened
 
 
 def _locked(handle: int) -> bool | None:
-    """Whether the system gave us the lock; None if it has none for this file."""
+    """Whether we got the lock; None if the system cannot lock this file."""
     try:
         import fcntl
     except ImportError:
@@ -141,7 +141,7 @@ def _locked_as_on_windows(handle: int) -> bool | None:
 
 
 def _left_behind(place: Path, handle: int) -> bool:
-    """Without locks of the system: an old file is taken out of the way, so that the next try creates a new one."""
+    """Without system locks: remove an abandoned file, so that the next try can create it."""
     if time.time() - os.fstat(handle).st_mtime > _LEFT_BEHIND:
         with suppress(OSError):
             place.unlink()
@@ -149,7 +149,7 @@ def _left_behind(place: Path, handle: int) -> bool:
 
 
 def _is_there(place: Path, handle: int) -> bool:
-    """Whether the file that is held is still the one that others would find."""
+    """Whether the path still leads to the file that we opened."""
     try:
         return os.path.samestat(os.lstat(place), os.fstat(handle))
     except OSError:
@@ -163,7 +163,7 @@ def _release(place: Path, handle: int) -> None:
             place.unlink()
             removed = True
     except OSError:
-        removed = False  # Windows removes no open file
+        removed = False  # Windows cannot remove an open file
     os.close(handle)
     if not removed:
         with suppress(OSError):
@@ -172,7 +172,7 @@ def _release(place: Path, handle: int) -> None:
 
 @contextmanager
 def _ending_in_order() -> Iterator[None]:
-    """SIGTERM ends this run by unwinding, so that it leaves neither its lock nor half a file."""
+    """Turn SIGTERM into an exception, so that the lock and half-written files are cleaned up."""
     try:
         before = signal.signal(signal.SIGTERM, _stop)
     except ValueError:  # not in the main thread

@@ -1,6 +1,6 @@
-"""Remembers what the last run read and wrote, so that a run on unchanged input ends before anything heavy is imported.
+"""Remembers what the last run read and wrote, so that a run on unchanged input ends before the compiler is imported.
 
-It lies in the user's cache folder: checksums of the inputs as they were compiled, of the compiler, and the state of the
+The user's cache folder holds checksums of the inputs as they were compiled and of the compiler, and the state of the
 outputs as they were left. Any difference means that the run is done in full. `generate --check` never asks it.
 """
 
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
     from fieldscribe.reading import Inputs, State
 
 PACKAGE = Path(__file__).resolve().parents[1]
-"""The compiler itself: every file below it counts as input."""
+"""The compiler itself; every file below counts as an input."""
 
 _MOST_BYTES = 64 << 20
 _SETTLED = 2_000_000_000
-"""Nanoseconds after which a file's times are believed: two changes within one tick of a clock look like one."""
+"""Nanoseconds after which a file's times are trusted: two changes within one tick of the clock look like one."""
 
 
 class Memory:
-    """What is remembered of runs that make these targets of these descriptions in this folder."""
+    """The memory of runs with these targets, descriptions and output folder."""
 
     def __init__(self, out: Path, targets: Iterable[str], device_files: Iterable[Path]) -> None:
         self._out = out
@@ -45,7 +45,7 @@ class Memory:
         self._compiler = _compiler()
 
     def outputs(self) -> list[str] | None:
-        """The outputs of the last run, if it read the same and none of them was touched since; else None."""
+        """The outputs of the last run, if its inputs are unchanged and no output was touched since; else None."""
         if self._place is None:
             return None
         try:
@@ -53,7 +53,7 @@ class Memory:
             memory = json.loads(content.data)
             inputs: dict[str, str] = memory["inputs"]
             outputs: dict[str, Any] = memory["outputs"]
-            if memory["compiler"] != self._compiler or not all(_holds(*one) for one in inputs.items()):
+            if memory["compiler"] != self._compiler or not all(_holds(*entry) for entry in inputs.items()):
                 return None
             young = [path for path, left in outputs.items() if self._changed(path, left["state"], content.state[2])]
             if not all(_holds(self._out / path, outputs[path]["sha256"]) for path in young):
@@ -65,7 +65,7 @@ class Memory:
         return list(outputs)
 
     def keep(self, inputs: Inputs, states: Mapping[str, State], digests: Mapping[str, str]) -> None:
-        """Remember what was read and how the outputs were left; does nothing where there is no place for it."""
+        """Remember the inputs and the state of the outputs; does nothing without a cache folder."""
         if self._place is None or _compiler() != self._compiler:
             return
         document = {
@@ -77,7 +77,7 @@ class Memory:
             replace(self._place, json.dumps(document).encode(), f"{self._place.stem}.new")
 
     def _changed(self, path: str, left: list[int], remembered: int) -> bool:
-        """Whether an output is too young for its times to be believed. Raises _TouchedError if it was touched."""
+        """Whether an output is too young for its times to be trusted. Raises _TouchedError if it was touched."""
         state = state_of(os.stat(self._out / path))
         if list(state) != left:
             raise _TouchedError
@@ -85,7 +85,7 @@ class Memory:
 
 
 class _TouchedError(Exception):
-    """An output is not as it was left."""
+    """An output was changed since the last run."""
 
 
 def _holds(path: str | Path, digest: str) -> bool:
@@ -93,7 +93,7 @@ def _holds(path: str | Path, digest: str) -> bool:
 
 
 def _compiler() -> str:
-    """A checksum of the compiler's files by their states: they are not edited without one changing."""
+    """A checksum over the states of the compiler's files: every edit changes one of them."""
     summed = sha256(f"{__version__}\0{sys.version}\0".encode())
     for root in (PACKAGE, templates_dir()):
         for folder, folders, files in os.walk(root):

@@ -1,4 +1,4 @@
-"""What writing a device would change in an output folder; nothing is touched here."""
+"""What writing a device would change in an output folder. Only looks, touches nothing."""
 
 from __future__ import annotations
 
@@ -36,51 +36,52 @@ class Plan:
     targets: Targets
     """The device's files as the manifest will record them."""
     pending: bytes
-    """The manifest for the time in which the files are written."""
+    """The manifest that stands while the files are written."""
     write: dict[str, bytes] = field(default_factory=dict)
     remove: list[str] = field(default_factory=list)
     unchanged: dict[str, State] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
-    """What stands in the way, and why it may not be replaced."""
+    """Foreign files in the way, with the reason why they may not be replaced."""
     kept: list[str] = field(default_factory=list)
-    """What nobody needs any more, but somebody has changed."""
+    """Files of ours that are no longer generated, but stay because somebody edited them."""
 
     @property
     def digests(self) -> dict[str, str]:
-        """The checksums of the files, and of the manifest."""
-        found = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
+        """The checksums of all files, with the manifest's, by path."""
+        digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
         text = manifest_text(self.device, self.targets)
-        return {**found, manifest_path(self.device): sha256(text.encode()).hexdigest()}
+        return {**digest_of_path, manifest_path(self.device): sha256(text.encode()).hexdigest()}
 
     @property
     def stale(self) -> list[str]:
-        """What is missing, differs or should be gone."""
+        """All paths that are missing, differ or should be gone."""
         return sorted({*self.write, *self.remove, *self.refused})
 
 
-def plan_of(out: Path, manifests: Manifests, device: str, made: Made, *, force: bool = False) -> Plan:
-    """What writing these targets of a device would change; with `force` files of others may be replaced."""
+def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made, *, force: bool = False) -> Plan:
+    """What writing these targets of a device would change; `force` allows to replace foreign files."""
     before = manifests.of(device)
     now: Targets = {
-        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()} for target, files in made.items()
+        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()}
+        for target, files in files_of_targets.items()
     }
     plan = Plan(device, {**before, **now}, manifest_text(device, _both(before, now)).encode())
     planner = _Planner(out, manifests, plan, force)
-    for files in made.values():
+    for files in files_of_targets.values():
         for path, data in files.items():
             planner.add(path, data)
-    planner.add_left_over(made)
+    planner.add_left_over(files_of_targets)
     planner.add(manifest_path(device), manifest_text(device, plan.targets).encode())
     return plan
 
 
 def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
-    """Which of the files were touched after they were found to be as they should be."""
+    """The files that were touched after they had been found up to date."""
     return [path for path, state in states.items() if _state(out / path) != state]
 
 
 def inside(out: Path, path: str) -> Path:
-    """The place of an output. Raises UnsafePathError."""
+    """The full path of an output. Raises UnsafePathError if it lies outside the output folder."""
     place, root = out / path, os.path.realpath(out)
     folder = os.path.realpath(place.parent)
     if place.name == ".." or not f"{folder}{os.sep}".startswith(f"{root.rstrip(os.sep)}{os.sep}"):
@@ -89,7 +90,7 @@ def inside(out: Path, path: str) -> Path:
 
 
 class _Planner:
-    """Compares one output after the other with what is in its place."""
+    """Compares the outputs, one by one, with the files in the folder."""
 
     def __init__(self, out: Path, manifests: Manifests, plan: Plan, force: bool) -> None:
         self._out = out
@@ -98,7 +99,7 @@ class _Planner:
         self._force = force
 
     def add(self, path: str, data: bytes) -> None:
-        """This is what should be there."""
+        """Plan a file that should be there."""
         try:
             place = inside(self._out, path)
             state = _same(place, data)
@@ -116,13 +117,13 @@ class _Planner:
         else:
             self._plan.refused[path] = reason
 
-    def add_left_over(self, made: Made) -> None:
-        """Files that an earlier run wrote for these targets, that nobody wants now and nobody else shares."""
+    def add_left_over(self, files_of_targets: Made) -> None:
+        """Plan to remove what an earlier run wrote for these targets, unless it is generated again or shared."""
         device = self._plan.device
-        wanted = {path for files in made.values() for path in files}
-        known = {path for target in made for path in self._manifests.of(device).get(target, ())}
+        wanted = {path for files in files_of_targets.values() for path in files}
+        known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
         for path in sorted(known - wanted):
-            if not self._manifests.is_shared(path, device, made) and os.path.lexists(self._out / path):
+            if not self._manifests.is_shared(path, device, files_of_targets) and os.path.lexists(self._out / path):
                 (self._plan.remove if self._is_ours(path) else self._plan.kept).append(path)
 
     def _is_ours(self, path: str) -> bool:
@@ -132,7 +133,7 @@ class _Planner:
             return False
 
     def _in_the_way(self, path: str, place: Path) -> str | None:
-        """Why what is there may not be replaced; None if it may, or if nothing is there."""
+        """Why the present file may not be replaced; None if it may, or if there is none."""
         try:
             kind = kind_of(os.lstat(place))
             if kind is not None:
@@ -158,7 +159,7 @@ def _state(place: Path) -> State | None:
 
 
 def _same(place: Path, data: bytes) -> State | None:
-    """The file's state if it holds just that."""
+    """The state of the file if it has exactly this content."""
     try:
         if os.stat(place).st_size != len(data):
             return None
@@ -171,7 +172,7 @@ def _same(place: Path, data: bytes) -> State | None:
 
 
 def _both(before: Targets, now: Targets) -> Targets:
-    """What the files have and what they are about to have."""
+    """The files with their present and their future checksums."""
     merged = {target: dict(files) for target, files in before.items()}
     for target, files in now.items():
         known = merged.setdefault(target, {})

@@ -1,4 +1,4 @@
-"""What became of the files of a run."""
+"""What a run did to its files."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Result:
-    """What became of all devices: relative paths by what happened to them."""
+    """The relative paths of all outputs, sorted by what happened to them."""
 
     wanted: set[str] = field(default_factory=set)
-    """All files that now should be there."""
+    """All files that should be there."""
     written: set[str] = field(default_factory=set)
     removed: set[str] = field(default_factory=set)
     stale: set[str] = field(default_factory=set)
     kept: set[str] = field(default_factory=set)
     states: dict[str, State] = field(default_factory=dict)
-    """How the files are that are as they should be."""
+    """The states of the files that are up to date."""
     digests: dict[str, str] = field(default_factory=dict)
 
     @property
     def left(self) -> int:
-        """How many files were as they should be; of one that several devices share one may have been the writer."""
+        """How many files were up to date. A shared file that one device wrote and another found so does not count."""
         return len(self.wanted - self.written - self.stale)

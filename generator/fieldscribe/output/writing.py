@@ -1,4 +1,4 @@
-"""Carries out a plan: each file is replaced in one step, and at every moment a manifest knows which files are ours."""
+"""Carries out a plan: each file is replaced atomically, and at every moment a manifest knows which files are ours."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ for _name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
 
 
 def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
-    """Write and remove what the plan says; the state in which each file was left. Raises OSError."""
+    """Write and remove what the plan says; returns the final state of each file. Raises OSError."""
     for folder in {(out / path).parent for path in (*plan.unchanged, *plan.write)}:
-        (folder / _NEW).unlink(missing_ok=True)  # of a run that was killed
+        (folder / _NEW).unlink(missing_ok=True)  # left by a killed run
     states = dict(plan.unchanged)
     record = manifest_path(plan.device)
     if record in plan.write:
         replace(inside(out, record), plan.pending)
-    for path, data in plan.write.items():  # the manifest is the last one
+    for path, data in plan.write.items():  # the manifest comes last
         states[path] = replace(inside(out, path), data)
     for path in plan.remove:
         inside(out, path).unlink(missing_ok=True)
@@ -39,7 +39,7 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
 
 
 def replace(place: Path, data: bytes, by_way_of: str = _NEW) -> State:
-    """Put a file there, whole or not at all, by way of one beside it; its state. Raises OSError."""
+    """Replace a file atomically by way of a temporary file beside it; returns its state. Raises OSError."""
     place.parent.mkdir(parents=True, exist_ok=True)
     new = place.parent / by_way_of
     new.unlink(missing_ok=True)

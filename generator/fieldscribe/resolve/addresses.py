@@ -10,6 +10,7 @@ from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number
 from fieldscribe.model import TYPES, Place
+from fieldscribe.resolve.elements import ALONE
 from fieldscribe.resolve.numbering import Numberings
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import formula_value, integer
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.elements import Element
     from fieldscribe.resolve.scope import Scope
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
@@ -110,7 +110,7 @@ class Places:
         if first is None:
             return None
         alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
-        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("takes", 1))
+        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
         return tuple(range(first, first + (1 if alone else words)))
 
     def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
@@ -120,8 +120,8 @@ class Places:
         if raw is None or characters is None or "characters" in draft.failed:
             return None
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
-        first = self._number(draft, first_text.strip()) if dots else self._address(draft)
-        final = self._number(draft, last_text.strip()) if dots else None
+        first = self._end(draft, first_text) if dots else self._address(draft)
+        final = self._end(draft, last_text) if dots else None
         if first is None or (dots and final is None):
             return None
         if final is None:
@@ -138,6 +138,11 @@ class Places:
             return None
         return found
 
+    def _end(self, draft: Draft, text: str) -> int | None:
+        """The first or the last word of a text, as its row writes it."""
+        number = self._number(draft, text.strip())
+        return None if number is None else self._placed(draft, number)
+
     def _said(self, draft: Draft) -> object:
         """What the point says under `at`; None if the manual prints no address, or after a finding."""
         layer = draft.layer("at")
@@ -153,9 +158,8 @@ class Places:
         raw = self._said(draft)
         if raw is None:
             return None
-        if isinstance(raw, Map):
-            return self._by_rule(draft, raw)
-        return raw if isinstance(raw, int) else self._number(draft, str(raw))
+        number = raw if isinstance(raw, int) else self._number(draft, str(raw))
+        return None if number is None else self._placed(draft, number)
 
     def _number(self, draft: Draft, text: str) -> int | None:
         """A number, or a formula of `base`."""
@@ -173,39 +177,34 @@ class Places:
         known = "`base` is where a record is used: it is known in the points of a record only" if not base else ""
         return self._whole(text, base, span, known)
 
-    def _by_rule(self, draft: Draft, raw: Map) -> int | None:
-        """The address of one element by the group's rule; without a rule it is the number."""
-        element = draft.element
-        if element is None or element.at is not raw:
-            message = "an address by rule belongs to the point itself"
-            hint = "write the number on the wire, or give the point its own row"
-            self.report.error("bad-number", message, draft.span("at"), hint)
-            return None
-        group = draft.group
+    def _placed(self, draft: Draft, number: int) -> int | None:
+        """The address that the group's rule gives for a number; without a rule it is the number."""
+        group, element = draft.group, draft.element
         rule: str | None = group.get("addressing")
         if rule is not None:
-            return self._ruled(draft, element, rule)
-        if "addressing" in group.broken:
-            return None
+            return self._ruled(draft, rule, (element or ALONE).values(number))
+        if element is None or "addressing" in group.broken:
+            return None if "addressing" in group.broken else number
         indexed = draft.get("space") in self.scope.family.indexed
         if indexed and element.index is not None and element.index > _LAST_INDEX:
             message = f"the index {element.index} does not fit beside the address"
-            key = "indices" if "indices" in raw else "index"
-            self.report.error("address-outside-space", message, raw.span(key), f"indices are 0..{_LAST_INDEX}")
+            span = draft.span("indices" if "indices" in element.counted else "index")
+            self.report.error("address-outside-space", message, span, f"indices are 0..{_LAST_INDEX}")
             return None
         if element.set_number is not None or (element.index is not None and not indexed):
             message = "nothing says how the address follows from the number, the set and the index"
             hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
-            self.report.error("missing-key", message, draft.span("at"), hint)
+            rows = "; sets that follow no rule have rows: `sets: {2: {at: …}}`" if "sets" in element.counted else ""
+            self.report.error("missing-key", message, draft.span("at"), hint + rows)
             return None
-        return element.number
+        return number
 
-    def _ruled(self, draft: Draft, element: Element, rule: str) -> int | None:
+    def _ruled(self, draft: Draft, rule: str, values: Mapping[str, Fraction]) -> int | None:
         """What the group's rule gives; what is wrong with the rule is one finding, not one for each element."""
         span = draft.group.span("addressing")
         if id(draft.group) in self._wrong_rules:
             return None
-        exact = formula_value(rule, element.values, span, self.report, _RULE_KNOWS)
+        exact = formula_value(rule, values, span, self.report, _RULE_KNOWS)
         if exact is None:
             self._wrong_rules.add(id(draft.group))
             return None
@@ -236,10 +235,6 @@ class Places:
                 hint = "add `at: …`, or `at: ~` if the manual prints none"
                 self.report.error("missing-key", "the record stands at no address", use.span("name"), hint)
             return None
-        if isinstance(use["at"], Map):
-            message = "a record stands at one number on the wire"
-            self.report.error("bad-number", message, use.span("at"), "use the record once for each number")
-            return None
         base = integer(use["at"], use.span("at"), self.report)
         return None if base is None else {"base": Fraction(base)}
 
@@ -255,7 +250,7 @@ class Places:
         """A finding for a word that its space or telegram does not have."""
         if space == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
-            hint = "`at` counts the words of the whole telegram from 0; correct it, or `words` of the telegram"
+            hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
         elif single:
             message = f"the address {address} lies outside 0..{last}"
             hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"

@@ -29,10 +29,10 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
             known = " and ".join(one.name for one in families() if one.commands_in is not None)
             scope.report.error("family-key", f"commands are for the family {known}", raw.span("name"), hint)
             continue
-        if name in result or name in ("no", "yes"):
+        if name in result or name in ("no", "yes", "choice"):
             first = [(places[name], "first declared here")] if name in places else []
             message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"
-            hint = "rename one of them" if first else "`keeps` knows yes, no and names of commands"
+            hint = "rename one of them" if first else "these are the words of `keeps`: give it another name"
             scope.report.error("duplicate-name", message, raw.span("name"), hint, first)
             continue
         command = _command(scope, bus, raw)

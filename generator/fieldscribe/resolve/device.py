@@ -15,8 +15,8 @@ from fieldscribe.resolve.scope import Scope, source_of, titles
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 
 def build_device(subject: Subject) -> tuple[Device, Device]:

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 _INHERITED = inherited(GROUP)
 """What a group says for its points."""
 
+_RIVALS = (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
+"""Two ways to say one fact: the nearer layer wins, whichever it says."""
+
 
 @dataclass(slots=True, eq=False)
 class Draft:
@@ -51,6 +54,10 @@ class Draft:
         for layer in reversed(self.layers):
             keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
+            for pair in _RIVALS:
+                for said, rival in (pair, pair[::-1]):
+                    if said in keys and rival not in keys:
+                        where.pop(rival, None)
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):
@@ -75,6 +82,12 @@ class Draft:
         if words is not None and (typed is None or self._rank(words) <= self._rank(typed)):
             return str(words["untyped"])
         return "" if typed is not None and typed["type"] is None else None
+
+    @property
+    def keeps(self) -> str | None:
+        """What happens to a written value, or the command that keeps it: the word of the nearer layer."""
+        said: str | None = self.get("keep_with", self.get("keeps"))
+        return said
 
     def _rank(self, layer: Map) -> int:
         """Whose word it is: own facts come before those of formats and of the group."""
@@ -114,11 +127,10 @@ class Draft:
 
 
 def groups(scope: Scope) -> Iterator[Map]:
-    """The mappings that hold points: the entries of `groups` and each part with `group`."""
-    for file in scope.files:
-        yield from file.get("groups", ())
-        if "group" in file and "space" in file:
-            yield file
+    """The documents that are a group: what their points share, and these."""
+    for document in scope.files:
+        if "group" in document and "space" in document:
+            yield document
 
 
 def humanised(name: str) -> str:

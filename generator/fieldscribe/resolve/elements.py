@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.language.nodes import Map
     from fieldscribe.model import Titles
+    from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.scope import Scope
 
 MOST_ELEMENTS = 4096
@@ -24,24 +25,22 @@ _INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One of the points that a row with `at: {number: …}` stands for; `at` is that mapping.
+    """One of the points that a row stands for: `counted` are those of `sets` and `indices` that the row says.
 
     `set_number` and `index` are None where the row has no sets or indices; `sets` and `indices` count them.
     """
 
-    at: Map
-    number: int
     set_number: int | None
     sets: int
     index: int | None
     indices: int
     suffix: str
+    counted: tuple[str, ...]
 
-    @property
-    def values(self) -> Mapping[str, Fraction]:
+    def values(self, number: int) -> Mapping[str, Fraction]:
         """What an addressing rule may name; a point outside sets and arrays is in set 1, at index 1."""
         return {
-            "number": Fraction(self.number),
+            "number": Fraction(number),
             "index": Fraction(1 if self.index is None else self.index),
             "set": Fraction(1 if self.set_number is None else self.set_number),
             "sets": Fraction(self.sets),
@@ -61,7 +60,7 @@ class Element:
         words = [
             (words, number)
             for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
-            if key in self.at and number is not None and self.suffix
+            if key in self.counted and number is not None and self.suffix
         ]
         if not words:
             return title
@@ -73,18 +72,25 @@ def set_title(title: Titles, number: int) -> Titles:
     return {language: f"{text} ({_said([(_SET_WORDS, number)], language)})" for language, text in title.items()}
 
 
-def elements_of(scope: Scope, at: Map) -> list[Element]:
+ALONE = Element(None, 1, None, 1, "", ())
+"""What a row stands for that says neither sets nor indices."""
+
+
+def elements_of(scope: Scope, row: Draft) -> list[Element]:
     """All points that the row stands for, set by set, in each set index by index; none after a finding."""
-    number = integer(at["number"], at.span("number"), scope.report)
-    sets, indices = _axis(scope, at, "sets", "set"), _axis(scope, at, "indices", "index")
-    if number is None or sets is None or indices is None:
+    rows = isinstance(row.get("sets"), Map)  # each set has one of its own
+    sets = _Axis(1, (None,), "") if rows else _axis(scope, row, "sets", "set")
+    indices = _axis(scope, row, "indices", "index")
+    if sets is None or indices is None:
         return []
     if len(sets.used) * len(indices.used) > MOST_ELEMENTS:
         message = f"these are {len(sets.used) * len(indices.used)} points"
-        scope.report.error("too-many-items", message, at.span("number"), f"one row has at most {MOST_ELEMENTS}")
+        key = "sets" if sets.word else "indices"
+        scope.report.error("too-many-items", message, row.span(key), f"one row has at most {MOST_ELEMENTS}")
         return []
+    counted = tuple(key for key in ("sets", "indices") if row.layer(key) is not None and not (rows and key == "sets"))
     return [
-        Element(at, number, one, sets.count, each, indices.count, sets.suffix(one) + indices.suffix(each))
+        Element(one, sets.count, each, indices.count, sets.suffix(one) + indices.suffix(each), counted)
         for one in sets.used
         for each in indices.used
     ]
@@ -102,16 +108,17 @@ class _Axis:
         return f"_{self.word}_{number}" if self.word else ""
 
 
-def _axis(scope: Scope, at: Map, many: str, one: str) -> _Axis | None:
+def _axis(scope: Scope, row: Draft, many: str, one: str) -> _Axis | None:
     """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
-    alone: int | None = at.get(one)
-    if many not in at:
+    alone: int | None = row.get(one)
+    said = row.get(many)
+    if said is None:
         return _Axis(1, (alone,), "")
-    span, text = at.span(many), str(at[many])
+    span, text = row.span(many), str(said)
     if ".." in text:
         found = interval(text, span, scope.report)
     else:
-        count = integer(at[many], span, scope.report)
+        count = integer(said, span, scope.report)
         found = None if count is None else (1, count)
     if found is None:
         return None
@@ -125,7 +132,7 @@ def _axis(scope: Scope, at: Map, many: str, one: str) -> _Axis | None:
         return _Axis(high - low + 1, tuple(used), one)
     if not low <= alone <= high:
         message = f"there is no {one} {alone} in {low}..{high}"
-        scope.report.error("wrong-choice", message, at.span(one), f"correct `{one}` or `{many}`")
+        scope.report.error("wrong-choice", message, row.span(one), f"correct `{one}` or `{many}`")
         return None
     return _Axis(high - low + 1, (alone,), "")
 

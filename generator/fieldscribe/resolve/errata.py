@@ -73,7 +73,7 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             said(raw["taken"]),
             str(raw["why"]),
             raw["certainty"],
-            tuple(map(str, raw["printed"])) if isinstance(raw["printed"], Map) else (),
+            _facts(raw["printed"]),
         )
         result.append(OpenErratum(text, raw, set()))
     return result
@@ -125,9 +125,13 @@ def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
 
 def said(value: Any) -> str:
     """What is printed or taken, in one line."""
-    if isinstance(value, Map):
-        return "; ".join(f"{key.replace('_', ' ')} {_one(one, key)}" for key, one in value.items())
-    return str(value)
+    facts = _facts(value)
+    return "; ".join(f"{key.replace('_', ' ')} {one}" for key, one in facts) if facts else str(value)
+
+
+def _facts(value: Any) -> tuple[tuple[str, str], ...]:
+    """Each fact by its key; nothing where words alone are given."""
+    return tuple((str(key), _one(one, key)) for key, one in value.items()) if isinstance(value, Map) else ()
 
 
 def _one(value: Any, key: str) -> str:

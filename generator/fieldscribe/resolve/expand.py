@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 MOST_POINTS = 100_000
 """The most points of a device: rows that stand for many could otherwise fill the memory."""
 
-_SECOND_SET, _LAST_SET = 2, 999
+_LAST_SET = 999
+_AXES = frozenset(("sets", "indices", "set", "index"))
+"""What says that a row stands for several points, or for one of several."""
 _OWN = own(POINT)
 """What a further set does not take from the point it repeats (the title is extended instead)."""
 _OF_RECORDS = inherited(USE)
@@ -44,58 +46,79 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     if "record" in point:
         yield from _record(scope, group, point)
         return
-    if isinstance(point.get("at"), Map):
+    rows = point.get("sets")
+    if not isinstance(rows, Map) and not _AXES.isdisjoint(point):
         yield from _elements(scope, group, point)
         return
-    if "each" in point and "at" not in point.broken:
+    if "each" in point and _AXES.isdisjoint(point.broken):
         message = f"`{point['name']}` has no elements that could differ"
-        hint = "`each` belongs to `at: {number: …, indices: …}`"
+        hint = "`each` belongs to a count of `sets`, or to `indices`"
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
-    name = point["name"]
-    layers = (point, *_format(scope, point))
-    title = titles(point.get("title"), humanised(name))
-    sets: Map | None = point.get("sets")
-    yield from _variants(
-        scope, Draft(name, layers, group, point, title, set_number=1 if sets else None, enum_name=name)
-    )
-    for number, override in _further(scope, sets) if sets is not None else ():
-        own_title = titles(override.get("title")) or set_title(title, number)
-        own_name = f"{name}_set_{number}"
-        enum_name = own_name if "enum" in override else name
+    title = titles(point.get("title"), humanised(point["name"]))
+    draft = Draft(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
+    if rows is None:
+        yield from _variants(scope, draft)
+    else:
+        yield from _sets(scope, draft, rows)
+
+
+def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
+    """The point in its own set, and in those that have rows of their own."""
+    if "indices" in first.own:
+        message = f"`{first.name}` repeats in indices, and in sets that have rows of their own"
+        hint = "write a point with its `indices` for each set"
+        scope.report.error("two-meanings", message, first.own.key_span("indices"), hint)
+    first.set_number = first.get("set", 1)
+    first.element = _alone(scope, first)
+    yield from _variants(scope, first)
+    for number, override in _further(scope, rows, first.set_number):
+        own_title = titles(override.get("title")) or set_title(first.title, number)
+        own_name = f"{first.name}_set_{number}"
+        enum_name = own_name if "enum" in override else first.name
         repeated = Draft(
             own_name,
-            (override, *layers),
-            group,
+            (override, *first.layers),
+            first.group,
             override,
             own_title,
             set_number=number,
             enum_name=enum_name,
             hidden=_OWN,
         )
+        repeated.element = _alone(scope, repeated)
         yield from _variants(scope, repeated)
 
 
-def _further(scope: Scope, sets: Map) -> Iterator[tuple[int, Map]]:
+def _further(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tuple[int, Map]]:
     """The further sets by number; a number that is none, or is given twice, is a finding."""
     seen: set[int] = set()
-    for key in sets:
-        number, span = parse_integer(key), sets.key_span(key)
-        if not _SECOND_SET <= number <= _LAST_SET:
-            hint = f"the point itself is set 1; the further sets are {_SECOND_SET}..{_LAST_SET}"
-            scope.report.error("wrong-choice", f"there is no further set {number}", span, hint)
+    for key in rows:
+        number, span = parse_integer(key), rows.key_span(key)
+        if number == own_set:
+            hint = "say by `set` which set the point's own row is, if it is not the first; name the others here"
+            scope.report.error("wrong-choice", f"the set {number} is the point itself", span, hint)
+        elif number > _LAST_SET:
+            scope.report.error("wrong-choice", f"there is no set {number}", span, f"sets are 0..{_LAST_SET}")
         elif number in seen:
             scope.report.error("duplicate-name", f"the set {number} is given twice", span, "say it once")
         else:
             seen.add(number)
-            yield number, sets[key]
+            yield number, rows[key]
+
+
+def _alone(scope: Scope, draft: Draft) -> Element | None:
+    """The one element that a row stands for where it says its own set or index; None if it says none."""
+    if draft.get("index") is None and (draft.get("set") is None or isinstance(draft.get("sets"), Map)):
+        return None
+    elements = elements_of(scope, draft)
+    return elements[0] if len(elements) == 1 else None
 
 
 def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
-    """The points that a row with a number, sets and indices stands for."""
-    if "sets" in point:
-        hint = "say it once, under `at`; what differs goes under `each`"
-        scope.report.error("two-meanings", "the sets are said twice", point.key_span("sets"), hint)
-    elements = elements_of(scope, point["at"])
+    """The points that a row with sets and indices stands for."""
+    title = titles(point.get("title"), humanised(point["name"]))
+    layers = (point, *_format(scope, point))
+    elements = elements_of(scope, Draft(point["name"], layers, group, point, title))
     each: Map = point.get("each") or Map(point.file, point.at)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
@@ -112,8 +135,6 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
             message = f"`{point['name']}` has no element {key}"
             hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
             scope.report.error("unknown-element", message, each.key_span(key), hint)
-    title = titles(point.get("title"), humanised(point["name"]))
-    layers = (point, *_format(scope, point))
     for element in elements:
         own = tuple(overrides[key] for key in element.keys if key in overrides)
         name = point["name"] + element.suffix
@@ -161,7 +182,7 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
 
 
 def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> Draft:
-    return Draft(
+    varied = Draft(
         draft.name,
         (override, *draft.layers),
         draft.group,
@@ -171,19 +192,20 @@ def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> 
         record=draft.record,
         set_number=draft.set_number,
         use=draft.use,
-        element=_own_element(scope, override) or draft.element,
+        element=draft.element,
         enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
         hidden=draft.hidden - override.keys(),
     )
-
-
-def _own_element(scope: Scope, override: Map) -> Element | None:
-    """The one element that a variant stands at, where it says its own number and index."""
-    at = override.get("at")
-    if not isinstance(at, Map):
-        return None
-    elements = elements_of(scope, at)
-    return elements[0] if len(elements) == 1 and not elements[0].suffix else None
+    said = next((key for key in ("set", "index") if key in override), None)
+    if said is None:
+        return varied
+    if draft.suffix:
+        message = f"the row of `{draft.own['name']}` stands for several points, and its variant for one of them"
+        hint = "give the variant a row of its own"
+        scope.report.error("two-meanings", message, override.key_span(said), hint)
+        return varied
+    varied.element = _alone(scope, varied)
+    return varied
 
 
 def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
@@ -204,8 +226,8 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"
             scope.report.error("record-cycle", message, point.span("record"), "write its points out")
-        elif "sets" in point or "each" in point or isinstance(point.get("at"), Map):
-            key = next(key for key in ("sets", "each", "at") if key in point)
+        elif "each" in point or not _AXES.isdisjoint(point):
+            key = next(key for key in ("sets", "indices", "set", "index", "each") if key in point)
             message = "the points of a record cannot repeat in sets or indices"
             scope.report.error("record-key", message, point.key_span(key), "use the record once for each of them")
         else:

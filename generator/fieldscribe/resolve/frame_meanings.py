@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
+from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import number_text
 
@@ -60,12 +61,12 @@ class _Said:
         """The raw number of a name, or of a value in the unit; None after a finding."""
         if isinstance(value, bool):
             return int(value)
-        if isinstance(value, str) and not value[:1].isdigit():
-            known = _names(point)
-            if known:
-                if value not in known:
-                    self.scope.unknown("entry", value, self.said.span(word), known)
-                return known.get(value)
+        known = _names(point) if isinstance(value, str) and not value[:1].isdigit() else {}
+        if value in known:
+            return known[value]
+        if known and not is_whole_number(value):
+            self.scope.unknown("entry", value, self.said.span(word), known)
+            return None
         fault = self._fault(point)
         if fault is not None:
             hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"

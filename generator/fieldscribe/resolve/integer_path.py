@@ -24,6 +24,9 @@ the size of the numerator, and the divisor is held to this bound as the numerato
 _WORD = 1 << 63
 """No constant of a scale is as large: each stands in the code as an integer of 64 bits with a sign."""
 
+_WIDE = 1 << 127
+"""What integers of 128 bits with a sign hold."""
+
 _EXACT = 1 << 53
 """Up to here every integer is a binary64 number."""
 
@@ -92,6 +95,19 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
     encodes = all(_survives(case.rule, one, chosen=chosen) for case, one in zip(cases, needs, strict=True))
     decimals = _decimals(draft, cases, bounds, needs)
     return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
+
+
+def shows(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
+    """Whether code computes every value with so many decimals by integers alone.
+
+    Where other points choose the rule, the numerator has 64 bits if there are counts, and 40 more for the decimals stay
+    below 128. Of a fixed scale any raw number of the type may come.
+    """
+    if _is_chosen(cases):
+        return counted
+    needs = _needs(cases[0].rule, max(map(abs, bounds.holds[draft])), bounds)
+    power: int = 10**decimals
+    return 2 * max(needs.numerator, needs.constant) * power < _WIDE
 
 
 def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:

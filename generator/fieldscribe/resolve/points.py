@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Interner, Linear, Place, Point, ScaleCase, Shape, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Interner, Place, Point, ScaleCase, Shape, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
+from fieldscribe.resolve.defaults import default_of
+from fieldscribe.resolve.display import display_of
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import Paths, paths_of
@@ -20,16 +21,13 @@ from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.telegrams import SPACE
-from fieldscribe.resolve.values import integer, number
+from fieldscribe.resolve.values import integer
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.telegrams import Telegrams
-
-
-_MOST_NAMES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +98,7 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
     shape, allowed, paths = _meaning(scope, draft, word, places.access(draft, word.space), ranges)
     place = places.place(draft, word.space, word.type, word.bits)
     reason = _reason(draft, place is not None, shape.access, raw_alone=paths.raw_alone)
+    default, default_raw = default_of(scope, draft, shape)
     return Point(
         name=draft.name,
         variant=draft.variant,
@@ -114,12 +113,13 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
         note=titles(get("note")),
         unit=_unit(scope, draft),
         allowed=interner.allowed(allowed),
-        default=None if draft.text else _default(scope, draft, shape),
+        default=default,
+        default_raw=default_raw,
         steps=_steps(scope, draft),
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
-        keeps=get("keeps") if shape.writable else None,
+        keeps=_keeps(scope, draft) if shape.writable else None,
         conditions=tuple(get("conditions", ())) if shape.writable else (),
         when=existence_of(scope, draft, ranges.bounds.scales),
         since=get("since"),
@@ -168,7 +168,8 @@ def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges
         digits=digits,
         fixed=fixed_of(scope, draft, word.bits, word.width) if "w" in access else None,
     )
-    return shape, allowed, paths
+    shown = display_of(draft, shape, ranges.bounds)
+    return shape if shown is None else replace(shape, display=shown), allowed, paths
 
 
 def _first(place: Place, word: Word) -> int:
@@ -205,10 +206,19 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif draft.untyped is None and "takes" in draft.own and not draft.failed & {"type", "untyped"}:
-        hint = "its type says how many words it takes: leave `takes` out"
-        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
+    elif draft.untyped is None and "length" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `length` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("length"), hint)
     return draft.untyped
+
+
+def _keeps(scope: Scope, draft: Draft) -> str | None:
+    """What keeps a written value; a finding where one layer says it twice."""
+    kept, command = draft.layer("keeps"), draft.layer("keep_with")
+    if kept is not None and kept is command:
+        message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
+        scope.report.error("two-meanings", message, kept.key_span("keep_with"), hint)
+    return draft.keeps
 
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
@@ -218,23 +228,6 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
         scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, unit_hint(str(symbol), scope.units))
         draft.failed.add("unit")
     return found or PLAIN
-
-
-def _default(scope: Scope, draft: Draft, shape: Shape) -> Fraction | None:
-    """The factory setting in the unit; of an enum, and of special codes under a fixed scale, also by name."""
-    raw, enum, cases = draft.get("default"), shape.enum, shape.scale
-    for entry in enum.entries if enum is not None else ():
-        if entry.name == raw:
-            return Fraction(entry.raw)
-    rule = cases[0].rule if cases is not None else Linear(Fraction(1), Fraction(0), ())
-    for special in shape.specials if not rule.factors and len(cases or ()) < 2 and not draft.floating else ():
-        if special.name == raw and special.low == special.high:
-            return (special.low - rule.offset) / rule.ratio
-    if isinstance(raw, str) and enum is not None and raw.isidentifier():
-        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
-        scope.report.error("bad-number", f"`{raw}` is no name of this enum", draft.span("default"), hint)
-        return None
-    return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 
 def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:

@@ -10,6 +10,7 @@ from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 
@@ -157,8 +158,7 @@ def titles(value: Map | str | None, otherwise: str = "") -> Titles:
 def first_line(value: object) -> int | None:
     """The line where something begins: of `780..790` the first."""
     if isinstance(value, str):
-        start = value.partition("..")[0]
-        return int(start) if start.isdecimal() else None
+        return parse_integer(value.partition("..")[0])
     return value if isinstance(value, int) else None
 
 

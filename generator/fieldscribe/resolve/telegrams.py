@@ -49,7 +49,7 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
             name=name,
             title=titles(raw.get("title"), humanised(name)),
             direction=raw["direction"],
-            words=raw["words"],
+            words=raw["length"],
             message=raw.get("message"),
             source=source_of(scope, raw),
         )
@@ -107,9 +107,9 @@ def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
         return 0
     words, multiplexed = message.words, any(role.kind == "multiplexer" for role in message.roles)
     most = words * (_MULTIPLEXED if multiplexed else 1)
-    if raw["words"] > most:
-        text = f"the frames of `{name}` carry at most {most} words, the telegram has {raw['words']}"
-        hint = "its layout needs `words`, and a `multiplexer` where there are several frames"
+    if raw["length"] > most:
+        text = f"the frames of `{name}` carry at most {most} words, the telegram has {raw['length']}"
+        hint = "its layout needs `telegram`, and a `multiplexer` where there are several frames"
         scope.report.error("too-many-items", text, span, hint)
         return 0
     return words if multiplexed else 0

@@ -1,4 +1,4 @@
-"""The languages that a device is compiled to. A target is a module here, a folder of templates and a line below."""
+"""The languages that a device is compiled to. A target is a folder here, a folder of templates and a line below."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ TARGETS = (
 def target(name: str) -> Target:
     """The target of that name; its module is imported when first asked for."""
     module: Any = import_module(f"fieldscribe.targets.{name}")
-    made: Target = module
-    return made
+    target_module: Target = module
+    return target_module
 
 
 def knows(name: str, device: Device) -> bool:
-    """Whether a target can say a device: whether the family offers what the target needs of it."""
+    """Whether a target can be generated for a device: whether its family has the part that the target needs."""
     return not target(name).NEEDS_FAMILY or family(device.family).part(f"targets.{name}") is not None

@@ -1,4 +1,4 @@
-"""Names in generated code: each target lists all that a device gets in it, and what in the description each is of."""
+"""Names in generated code: each target lists all identifiers of a device, and their owners in the description."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ if TYPE_CHECKING:
 
 
 class Owner(NamedTuple):
-    """A thing in the description that names stand for: its kind, its name there, and the thing that it is a part of.
+    """A thing in the description that has names in generated code: its kind, its own name, and what it is a part of.
 
     Kinds are `device`, `variant`, `group`, `command`, `message`, `telegram`, `exception`, `function`, `response`,
     `special codes` that many points share, `enum` with its parts (`entry`), and `point` (by item) with its own: `flag`
-    and its `value`, special `code`, `old name`, `numbering`. What a target needs for itself is of the kind `target`,
-    and its name says in words what it is.
+    and its `value`, special `code`, `old name`, `numbering`. What a target itself needs has the kind `target`, and its
+    name is a description in words.
     """
 
     kind: str
@@ -23,11 +23,11 @@ class Owner(NamedTuple):
 
 
 Named = tuple[Owner, "Sequence[str]"]
-"""A thing with names in a namespace that is told before."""
+"""A thing with its names, in a namespace that the context says."""
 
 
 class Names(NamedTuple):
-    """The names that a thing gets in one namespace of a target, which is told as messages say it."""
+    """The names that a thing gets in one namespace of a target; `namespace` is worded as in messages."""
 
     namespace: str
     owner: Owner
@@ -44,7 +44,7 @@ class Clash(NamedTuple):
 
 
 def clashes(listed: Iterable[Names]) -> Iterator[Clash]:
-    """Each name that two things would get in one namespace."""
+    """Each name that two things would both get in one namespace."""
     spaces: dict[str, dict[str, Owner]] = {}
     for namespace, owner, names in listed:
         owners = spaces.setdefault(namespace, {})

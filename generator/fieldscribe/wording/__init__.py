@@ -1,7 +1,7 @@
-"""How facts of a point are said to people: ranges, scales and units as exact text, one wording for all outputs.
+"""The facts of a point as texts for people: ranges, scales, units. All outputs use the same wording.
 
-The texts are plain: whoever places them in markup or code encodes them (text.py). Another point appears as `name.raw`
-(its raw number), or as `name` (its value) where `points` is given and the value is what the rule means.
+The texts are plain; targets escape them (text.py). Another point is called `name.raw` for its raw number, or `name` for
+its value where `points` is given and the rule uses the value.
 """
 
 from __future__ import annotations
@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import SAME
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.text import line
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
@@ -18,6 +19,11 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
+
+
+def label(point: Point) -> str:
+    """How a point is called in answers: code and name."""
+    return f"{line(point.code)} {point.item}" if point.code else point.item
 
 
 def address_text(address: int) -> str:
@@ -88,17 +94,34 @@ def access_text(access: str) -> str:
 def value_text(point: Point, raw: int) -> str:
     """The value of a raw number, without its unit; empty where other points decide it or raw is a bit pattern."""
     rule = None if point.info.floating else fixed_rule(point)
-    return "" if rule is None else shown(raw, rule)
+    if rule is None:
+        return ""
+    if point.display is not None:
+        return rounded(raw * rule.factor + rule.add, rule.divisor, point.display)
+    return shown(raw, rule)
+
+
+def display_text(point: Point) -> str:
+    """With how many decimals people see the value: `shown with 2 decimals`; empty where nobody says it."""
+    return f"shown with {decimals_text(point)}" if point.display is not None else ""
+
+
+def decimals_text(point: Point) -> str:
+    """How many that are: `2 decimals`; empty where nobody says it."""
+    if point.display is None:
+        return ""
+    return f"{point.display or 'no'} decimal{'' if point.display == 1 else 's'}"
 
 
 def meaning_text(point: Point, raw: int) -> str:
-    """What a raw number means: the name of a special code or of an enum, else value and unit; empty for itself."""
+    """What a raw number means: a special code, an entry, or value and unit; empty where the number is the value."""
     special = point.special(raw)
     if special is not None:
         return special.name
     if point.enum is not None:
-        return next((one.name for one in point.enum.entries if one.raw == raw), "")
-    return "" if point.scale is None and not point.unit.symbol else with_unit(value_text(point, raw), point)
+        return next((entry.name for entry in point.enum.entries if entry.raw == raw), "")
+    itself = point.scale is None and not point.unit.symbol and not point.display
+    return "" if itself else with_unit(value_text(point, raw), point)
 
 
 def resolution_text(point: Point) -> str:
@@ -116,7 +139,7 @@ def resolution_text(point: Point) -> str:
 
 
 def width_texts(point: Point) -> tuple[str, ...]:
-    """What a scaled point does not have because its numbers are too wide: sentences without a stop."""
+    """What a scaled point lacks because its numbers are too wide: sentences without a full stop."""
     if point.form != "scaled" or not point.generated:
         return ()
     counts = ("no integer path: its counts need more than 64 bits",) if point.decimals is None else ()
@@ -132,7 +155,7 @@ def steps_text(point: Point) -> str:
 
 
 def scale_text(point: Point, points: Points | None = None) -> str:
-    """How a raw number becomes the value: `raw x 0.1 Hz`; empty where the raw number is the value or a bit pattern."""
+    """How the value follows from the raw number: `raw x 0.1 Hz`; empty where it is the raw number or a bit pattern."""
     if point.scale is None:
         plain = point.form == "integer" and point.unit.symbol and point.generated
         return f"raw x 1 {point.unit.symbol}" if plain else ""
@@ -145,7 +168,7 @@ def scale_text(point: Point, points: Points | None = None) -> str:
 
 
 def range_text(point: Point, points: Points | None = None) -> str:
-    """Which values may be written, in the unit: `0..400 Hz`; empty where only the raw numbers can be said."""
+    """Which values may be written, in the unit: `0..400 Hz`; empty where only raw numbers are known."""
     if _is_unbounded(point):
         return ""
     if point.info.floating:
@@ -162,7 +185,7 @@ def raw_range_text(point: Point) -> str:
 
 
 def _is_unbounded(point: Point) -> bool:
-    """Whether nothing is known of the numbers: no type, and no range that the manual prints."""
+    """Whether nothing limits the numbers: the point has no type, and the manual prints no range."""
     return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
@@ -197,9 +220,9 @@ def special_meaning(special: Special) -> str:
 def codes_text(point: Point, mark: str = "") -> str:
     """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
     named = []
-    for one in point.specials:
-        written = " (may be written)" if one.writable and point.writable else ""
-        named.append(f"{mark}{special_numbers(one, point.width)}{mark} {mark}{one.name}{mark}{written}")
+    for special in point.specials:
+        written = " (may be written)" if special.writable and point.writable else ""
+        named.append(f"{mark}{special_numbers(special, point.width)}{mark} {mark}{special.name}{mark}{written}")
     return f"Special code{'s' if len(named) > 1 else ''}: {', '.join(named)}" if named else ""
 
 
@@ -221,15 +244,13 @@ def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
 
 
 def default_text(point: Point, *, unit: bool = True) -> str:
-    """The factory setting, mostly with its unit, or the name of the special code that it is; empty if there is none."""
+    """The factory setting with its unit, or the name of its special code; empty if there is none."""
+    raw = point.default_raw
+    special = None if raw is None else point.special(raw)
+    if special is not None:
+        return special.name
     if point.default is None:
-        return ""
-    rule = fixed_rule(point)
-    if point.specials and rule is not None and not point.info.floating:
-        raw = rule.argument(point.default)
-        special = point.special(raw.numerator) if raw.denominator == 1 else None
-        if special is not None:
-            return special.name
+        return "" if raw is None else f"raw {raw}"
     number = number_text(point.default)
     return with_unit(number, point) if unit else number
 
@@ -253,7 +274,7 @@ def flag_meaning(flag: Flag) -> str:
 
 
 def flag_value_text(entry: Entry) -> str:
-    """What a number of a flag means: `0 = not ready`; with its name where it has one of its own."""
+    """What a number of a flag means: `0 = not ready`, or `0 = stop (Stop)` where it has a name of its own."""
     return f"{entry.raw} = {title_text(entry.title)}" if entry.name in ("zero", "one") else entry_text(entry)
 
 
@@ -265,7 +286,7 @@ def keeps_text(device: Device, point: Point) -> str:
         return "by the task that writes it: RAM alone, or EEPROM too"
     if point.keeps in ("no", "yes"):
         return "no, lost when switched off" if point.keeps == "no" else "yes, each write wears the memory"
-    command = next((one for one in device.commands if one.name == point.keeps), None)
+    command = next((command for command in device.commands if command.name == point.keeps), None)
     if command is None:
         return f"by {point.keeps}"
     value = "any value" if command.value is None else str(command.value)

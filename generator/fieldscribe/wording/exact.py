@@ -8,6 +8,7 @@ from math import gcd
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import SAME, value_line
+from fieldscribe.arithmetic.rounding import nearest
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.lines import Line
@@ -29,13 +30,17 @@ def exact(numerator: int, denominator: int = 1) -> str:
     places = _decimal_places(denominator)
     if places is None:
         return f"{numerator}/{denominator}"
-    digits = str(abs(numerator) * 10**places // denominator).rjust(places + 1, "0")
-    return f"{'-' if numerator < 0 else ''}{digits[:-places]}.{digits[-places:]}"
+    return _decimal(numerator * 10**places // denominator, places)
 
 
 def number_text(number: Fraction) -> str:
     """An exact fraction as text, see `exact`."""
     return exact(number.numerator, number.denominator)
+
+
+def rounded(numerator: int, denominator: int, decimals: int) -> str:
+    """The number with so many decimals, to nearest, halves away from zero: `50.00`; what rounds to zero has no sign."""
+    return _decimal(nearest(numerator * 10**decimals, denominator), decimals)
 
 
 @lru_cache(maxsize=65536)
@@ -66,7 +71,7 @@ def plus_text(start: str, numerator: int, denominator: int) -> str:
 
 
 def fixed_rule(point: Point) -> Line | None:
-    """Values from raw numbers, where no other point has a part in it; None else, and where the rule is unknown."""
+    """The rule from raw numbers to values; None where it depends on other points or is unknown."""
     if point.scale is None:
         return SAME if point.generated or not point.unit.symbol else None
     return None if point.fixed_scale is None else value_line(point.fixed_scale)
@@ -79,6 +84,13 @@ def value_multiple(factor: Factor, point: Point) -> Fraction | None:
         return None
     multiply, add, divide = rule
     return Fraction(factor.slope * divide, multiply) if factor.intercept * multiply == factor.slope * add else None
+
+
+def _decimal(count: int, places: int) -> str:
+    """A count of 10^-places as a decimal."""
+    digits = str(abs(count)).rjust(places + 1, "0")
+    point = "." if places else ""
+    return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
 
 
 def _decimal_places(denominator: int) -> int | None:

@@ -1,4 +1,4 @@
-"""Rules and limits in words: what `wording` says of scales and ranges."""
+"""The texts for scales, ranges and conditions."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
     from fieldscribe.existence import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
-"""Points by name, for wording that looks at the points a limit refers to."""
+"""Points by name: the texts of rules that refer to points look there for units and names."""
 
 _TURNED = str.maketrans("<>", "><")
 
 
 def shown(raw: int, line: Line) -> str:
-    """The raw number as the line shows it."""
+    """The result of the line for a raw number, as text."""
     return exact(raw * line.factor + line.add, line.divisor)
 
 
 def inverse_text(rule: Linear, points: Points | None = None) -> str:
-    """How the argument of a rule follows from its result, called `raw`: `raw x 0.1 - 0.25`."""
+    """The inverse of a rule, with `raw` for its result: `raw x 0.1 - 0.25`."""
     multiply, add, divide = value_line(rule)
     ratio = Fraction(multiply, divide)
     if not rule.factors:
@@ -34,44 +34,47 @@ def inverse_text(rule: Linear, points: Points | None = None) -> str:
         return plus_text(text, common.numerator, common.denominator)
     moved = plus_text("raw", -rule.offset.numerator, rule.offset.denominator)
     start = times_text(f"({moved})" if rule.offset else moved, ratio.numerator, ratio.denominator)
-    return _with_factors(start, [(_factor_text(one, points), -one.power) for one in rule.factors])
+    return _with_factors(start, [(_factor_text(factor, points), -factor.power) for factor in rule.factors])
 
 
 def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> str:
-    """All intervals in one wording, the unit behind the last number; what lifts a limit is said at the end."""
+    """All intervals in one text, with the unit behind the last number and the exceptions of limits at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
     parts, remarks = [], []
-    for one in intervals:
-        ends = [_bound_text(one.low, True, point, line, points), _bound_text(one.high, False, point, line, points)]
-        parts.append(_span_text(one, ends, falling, listed))
-        remarks += [_lifted_text(end, side, line) for side, end in (("low", one.low), ("high", one.high))]
+    for interval in intervals:
+        ends = [
+            _bound_text(interval.low, True, point, line, points),
+            _bound_text(interval.high, False, point, line, points),
+        ]
+        parts.append(_span_text(interval, ends, falling, listed))
+        remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
     if unit and parts:
         parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
 
 
 def condition_text(condition: Condition | None, points: Points | None = None) -> str:
-    """When a point exists: `model == large and speed.raw > 600`; empty for always."""
-    return " or ".join(clause_text(one, points) for one in condition.clauses) if condition is not None else ""
+    """When a point exists: `model == large and speed.raw > 600`; empty if always."""
+    return " or ".join(clause_text(clause, points) for clause in condition.clauses) if condition is not None else ""
 
 
 def clause_text(clause: Clause, points: Points | None = None) -> str:
-    """Comparisons that hold together, in values where `points` are given."""
-    return " and ".join(_comparison_text(one, points) for one in clause)
+    """Comparisons joined by `and`; with values instead of raw numbers where `points` are given."""
+    return " and ".join(_comparison_text(comparison, points) for comparison in clause)
 
 
-def _comparison_text(one: Comparison, points: Points | None) -> str:
-    numbers = [each for each in one.than if isinstance(each, int)]
+def _comparison_text(comparison: Comparison, points: Points | None) -> str:
+    numbers = [raw for raw in comparison.than if isinstance(raw, int)]
     if not numbers:
-        return _test_text(one.of, one.test, [str(each) for each in one.than])
-    point = None if points is None else points.get(one.of)
+        return _test_text(comparison.of, comparison.test, [str(text) for text in comparison.than])
+    point = None if points is None else points.get(comparison.of)
     line = None if point is None else fixed_rule(point)
     if point is None or line is None:
-        return _test_text(f"{one.of}.raw", one.test, [str(each) for each in numbers])
+        return _test_text(f"{comparison.of}.raw", comparison.test, [str(raw) for raw in numbers])
     names = {} if point.enum is None else {entry.raw: entry.name for entry in point.enum.entries}
-    test = one.test.translate(_TURNED) if line.factor < 0 else one.test
-    return _test_text(one.of, test, [names.get(each) or shown(each, line) for each in numbers])
+    test = comparison.test.translate(_TURNED) if line.factor < 0 else comparison.test
+    return _test_text(comparison.of, test, [names.get(raw) or shown(raw, line) for raw in numbers])
 
 
 def _test_text(name: str, test: str, than: list[str]) -> str:
@@ -99,7 +102,7 @@ def _bound_text(bound: Bound, is_low: bool, point: Point, line: Line, points: Po
 
 
 def _lifted_text(bound: Bound, side: str, line: Line) -> str:
-    """While which numbers of other points a limit does not apply, and which one stands instead."""
+    """The exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
     if isinstance(bound, int) or not bound.unless:
         return ""
     cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
@@ -122,7 +125,7 @@ def _limit_text(limit: Limit, line: Line, points: Points | None) -> str:
         if constant is not None:
             ratio *= constant**factor.power
         factors.append((factor.point if constant is not None else _factor_text(factor), factor.power))
-    factors.sort(key=lambda one: -one[1])
+    factors.sort(key=lambda factor: -factor[1])
     if factors and factors[0][1] == 1:
         start = times_text(factors.pop(0)[0], ratio.numerator, ratio.denominator)
     else:
@@ -136,7 +139,7 @@ def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
 
 def _factor_text(factor: Factor, points: Points | None = None) -> str:
     if points and factor.point in points and points[factor.point].info.floating:
-        return factor.point  # its value, for its raw number is a bit pattern
+        return factor.point  # its value: the raw number is only a bit pattern
     text = f"{factor.point}.raw"
     if factor.slope != 1 or factor.intercept:
         text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"

@@ -555,6 +555,11 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         others                                                                                   \
     }
 
+#define FIELDSCRIBE_DISPLAY(macro)                                                               \
+    if (fieldscribe_asks(v, "display")) {                                                        \
+        fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DISPLAY_DECIMALS));              \
+    }
+
 #define FIELDSCRIBE_FIXED(macro)                                                                 \
     if (fieldscribe_asks(v, "fixed")) {                                                          \
         fieldscribe_is_number(v, "mask", (uint64_t)(macro##_FIXED_MASK));                        \

@@ -13,13 +13,13 @@ typedef struct fieldscribe_blocks {
     const char *group;
     const fieldscribe_modbus_reading *blocks;
     size_t count;
-    size_t rows; /* of the table, of which `count` has to be the number */
 } fieldscribe_blocks;
 
 /* The tables of a device. */
 typedef struct fieldscribe_tables {
     const fieldscribe_modbus_profile *profile;
     const fieldscribe_blocks *blocks;
+    uint16_t most; /* the items of the largest block */
 } fieldscribe_tables;
 
 static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_vector *v)
@@ -40,19 +40,33 @@ static inline fieldscribe_modbus_framing fieldscribe_framing(fieldscribe_vector 
     return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
 }
 
+/* The request of a block. */
+static inline fieldscribe_modbus_request fieldscribe_request_of(uint8_t function, uint16_t address, uint16_t count)
+{
+    const fieldscribe_modbus_reading block = {function, address, count};
+    return fieldscribe_modbus_read(1U, &block);
+}
+
 /* A point is found in a block that reaches beyond it, and in none that ends or begins within it, or has other items. */
 static inline bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
 {
     uint16_t values[FIELDSCRIBE_ROOM];
+    const uint8_t function = point->function;
     const uint16_t before = (uint16_t)(point->address == 0U ? 0U : 1U);
+    const uint16_t first = (uint16_t)(point->address - before);
     const uint16_t count = (uint16_t)(before + point->count);
-    const fieldscribe_modbus_reading block = {point->function, (uint16_t)(point->address - before), count};
-    const fieldscribe_modbus_reading late = {point->function, (uint16_t)(point->address + 1U), count};
-    const fieldscribe_modbus_reading other = {(uint8_t)(point->function ^ 1U), block.address, count};
+    const fieldscribe_modbus_request block = fieldscribe_request_of(function, first, count);
+    const fieldscribe_modbus_request less = fieldscribe_request_of(function, first, (uint16_t)(count - 1U));
+    const fieldscribe_modbus_request late = fieldscribe_request_of(function, (uint16_t)(point->address + 1U), count);
+    const fieldscribe_modbus_request other = fieldscribe_request_of((uint8_t)(function ^ 1U), first, count);
     const fieldscribe_modbus_reply whole = {values, FIELDSCRIBE_ROOM, count, 0U};
     const fieldscribe_modbus_reply cut = {values, FIELDSCRIBE_ROOM, (uint16_t)(count - 1U), 0U};
+    const fieldscribe_modbus_reply nowhere = {NULL, FIELDSCRIBE_ROOM, count, 0U};
     return fieldscribe_modbus_words_in(&block, &whole, point) == values + before &&
+        fieldscribe_modbus_words_in(&less, &cut, point) == NULL &&
         fieldscribe_modbus_words_in(&block, &cut, point) == NULL &&
+        fieldscribe_modbus_words_in(&less, &whole, point) == NULL &&
+        fieldscribe_modbus_words_in(&block, &nowhere, point) == NULL &&
         fieldscribe_modbus_words_in(&late, &whole, point) == NULL &&
         fieldscribe_modbus_words_in(&other, &whole, point) == NULL;
 }
@@ -123,11 +137,22 @@ static inline bool fieldscribe_exchange(
         fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &numbered, bytes, sizeof bytes, &length);
     fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
     fieldscribe_sends(v, sent, bytes, length);
+    numbered.values = NULL; /* an answer is held against the request alone */
     length = fieldscribe_hex(received, bytes, sizeof bytes);
     status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, &reply);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
     fieldscribe_is_awaited(v, framing, &numbered, bytes, length, status);
     return status == FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Writes words, which nobody looks at any more when the answer comes. */
+static inline void fieldscribe_writes(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count)
+{
+    uint16_t echoed[FIELDSCRIBE_ROOM];
+    const fieldscribe_modbus_request request =
+        fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), what, words, count);
+    (void)fieldscribe_exchange(v, place, &request, echoed);
 }
 
 #define FIELDSCRIBE_COMMAND(command, constant, number)                                           \
@@ -168,13 +193,11 @@ static inline bool fieldscribe_exchange(
 #define FIELDSCRIBE_WRITE(frame, kind, raw_type)                                                 \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
-        const fieldscribe_modbus_request request = fieldscribe_modbus_write(                     \
-            (uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words, (frame).write.count);   \
+        const size_t count = (frame).write.count;                                                \
         fieldscribe_fill(words, sizeof words);                                                   \
         FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                               \
-        fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
-        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+        fieldscribe_untouched(v, words + count, sizeof words - count * sizeof words[0]);         \
+        fieldscribe_writes(v, 0U, &(frame).write, words, count);                                 \
     }
 
 #define FIELDSCRIBE_WRITE_TEXT(frame, total)                                                     \
@@ -182,9 +205,6 @@ static inline bool fieldscribe_exchange(
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         uint16_t given[total] = {0U};                                                            \
         uint16_t reading[total] = {0U};                                                          \
-        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
-        const fieldscribe_modbus_request request =                                               \
-            fieldscribe_modbus_write((uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, words, total); \
         size_t at;                                                                               \
         fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, total) == (total));          \
         for (at = 0U; at < (total); ++at) {                                                      \
@@ -196,20 +216,18 @@ static inline bool fieldscribe_exchange(
         fieldscribe_untouched(v, words, sizeof words);                                           \
         fieldscribe_agree(v, fieldscribe_put_text(&(frame).text, reading, total, words, total)); \
         fieldscribe_untouched(v, words + (total), sizeof words - (total) * sizeof words[0]);     \
-        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+        fieldscribe_writes(v, 0U, &(frame).write, words, total);                                 \
     }
 
 /* A group of bits: its word is read, and goes back with other bits. */
 #define FIELDSCRIBE_UPDATE(frame, kind, raw_type)                                                \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
-        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
-        fieldscribe_modbus_request request = fieldscribe_modbus_read(unit, &(frame).read);       \
+        const fieldscribe_modbus_request request = fieldscribe_modbus_read(unit, &(frame).read); \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                           \
-            request = fieldscribe_modbus_write(unit, &(frame).update, words, 1U);                \
-            (void)fieldscribe_exchange(v, 1U, &request, echoed);                                 \
+            fieldscribe_writes(v, 1U, &(frame).update, words, 1U);                               \
         }                                                                                        \
     }
 
@@ -368,6 +386,19 @@ static void fieldscribe_run_limit(fieldscribe_vector *v)
     FIELDSCRIBE_LIMIT("tcp_bytes", FIELDSCRIBE_MODBUS_TCP_MOST)
 }
 
+/* The items of the largest block of all groups. */
+static inline uint16_t fieldscribe_largest(const fieldscribe_blocks *group)
+{
+    uint16_t most = 0U;
+    size_t at;
+    for (; group->group != NULL; ++group) {
+        for (at = 0U; at < group->count; ++at) {
+            most = group->blocks[at].count > most ? group->blocks[at].count : most;
+        }
+    }
+    return most;
+}
+
 static void fieldscribe_run_block(fieldscribe_vector *v)
 {
     static const char *const spaces[] = {"", "coil", "discrete", "holding", "input"};
@@ -383,7 +414,8 @@ static void fieldscribe_run_block(fieldscribe_vector *v)
     }
     block = &group->blocks[index];
     request = fieldscribe_modbus_read(1U, block);
-    fieldscribe_agree(v, group->count == group->rows && request.unit == 1U && request.values == NULL &&
+    fieldscribe_agree(v, fieldscribe_tables_of(v)->most == fieldscribe_largest(fieldscribe_tables_of(v)->blocks));
+    fieldscribe_agree(v, request.unit == 1U && request.values == NULL &&
         request.function == block->function && request.address == block->address && request.count == block->count);
     fieldscribe_is_text(v, "space", block->function >= 1U && block->function <= 4U ? spaces[block->function] : NULL);
     fieldscribe_is_number(v, "function", block->function);

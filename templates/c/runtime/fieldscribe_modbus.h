@@ -5,28 +5,35 @@
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
- * Reading a point over a serial line; `words` has as many as the point, and `frame` room for the longest answer:
+ * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer:
  *
- *     uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+ *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
+ *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
  *     uint16_t words[1];
  *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
- *     request = fieldscribe_modbus_read(unit, &hitachi_l200_base_frequency_frame.read);
- *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, &length);
- *     send(frame, length);
+ *     request = fieldscribe_modbus_read(unit, &point->read);
+ *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
+ *     discard();      (what has come in: one byte of noise would spoil this answer and all behind it)
+ *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
  *     got = 0U;
  *     while ((left = fieldscribe_modbus_left(
- *                 &profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, sizeof frame, got)) > 0U) {
- *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *                 &profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, got)) > 0U) {
+ *         got += receive(buffer + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
- *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply);
- *     fits = fieldscribe_take_u16(hitachi_l200_base_frequency_frame.layout, words, reply.count, &raw);
+ *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, got, &reply);
+ *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
  *
- * Reading a block, in the same way: point = fieldscribe_modbus_words_in(&block, &reply, &frame.read) for each of its
- * points, then fieldscribe_take_u16(frame.layout, point, frame.read.count, &raw), which is false where it was NULL.
+ * Whatever went wrong: wait until the line is silent before you ask again, or a late answer is taken for the next one.
  *
- * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u16(frame.layout, raw, words, count)
- * puts any that fits into the words, then fieldscribe_modbus_write(unit, &frame.write, words, count). Nobody answers
- * what goes to all units: nothing is left to be received, so skip the parsing.
+ * Reading a block (..._BLOCK_MOST words hold any of the device), in the same way: for each of its points,
+ * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), then
+ * fieldscribe_take_u16(point->layout, in, point->read.count, &raw), which is false where `in` is NULL.
+ *
+ * Writing one: ..._encode says whether the number may be written, and a special code (..._INACTIVE) is such a raw
+ * number as it stands; fieldscribe_put_u16(point->layout, raw, words, count) puts any that fits into the words, then
+ * fieldscribe_modbus_write(unit, &point->write, words, count). Its answer is parsed, too: OK says that the device took
+ * it, and the reply may be {NULL, 0U, 0U, 0U}. Nobody answers what goes to all units: nothing is left to be received,
+ * so skip the parsing.
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  */
 #include "fieldscribe.h"
@@ -166,27 +173,46 @@ typedef struct fieldscribe_modbus_reply {
     uint8_t exception;
 } fieldscribe_modbus_reply;
 
-/* What is asked for: words, or bits, or that something is written; so a program links what it asks for alone. */
-typedef struct fieldscribe_modbus_kind fieldscribe_modbus_kind;
-extern const fieldscribe_modbus_kind fieldscribe_modbus_words;
-extern const fieldscribe_modbus_kind fieldscribe_modbus_bits;
-extern const fieldscribe_modbus_kind fieldscribe_modbus_written;
+typedef struct fieldscribe_modbus_request fieldscribe_modbus_request;
+
+/* Puts a request into a frame, from the unit to the end of its data. */
+typedef fieldscribe_modbus_status (*fieldscribe_modbus_putting)(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+
+/* Takes an answer, whose `pdu` starts at the function, that of the request, and has `size` bytes (at least 2). */
+typedef fieldscribe_modbus_status (*fieldscribe_modbus_taking)(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply);
 
 /*
  * A request, as fieldscribe_modbus_read, _write and _send make it. `values` has `given` items, at least `count` for
- * functions that write: words, or 0 and 1 for coils. For 08h, which is written, too, `address` is the sub-function (0)
- * and values[0] the test data. `transaction` is used by TCP alone.
+ * functions that write: words, or 0 and 1 for coils; 05h, 06h and 08h carry `first`, which was the first of them. For
+ * 08h, which is written, too, `address` is the sub-function (0) and `first` the test data. `transaction` is used by TCP
+ * alone. It brings what it needs to be put and answered, so that a program links what it asks for alone.
  */
-typedef struct fieldscribe_modbus_request {
+struct fieldscribe_modbus_request {
     uint16_t transaction;
+    uint16_t first;
     uint8_t unit;
     uint8_t function;
     uint16_t address;
     uint16_t count;
     const uint16_t *values;
     size_t given;
-    const fieldscribe_modbus_kind *kind;
-} fieldscribe_modbus_request;
+    fieldscribe_modbus_putting put;
+    fieldscribe_modbus_taking take;
+};
+
+/* What requests are put and answered with: reads of words and of bits, and writes. */
+fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
+fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request, const uint8_t *pdu,
+    size_t size, fieldscribe_modbus_reply *reply);
+fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request, const uint8_t *pdu,
+    size_t size, fieldscribe_modbus_reply *reply);
+fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request, const uint8_t *pdu,
+    size_t size, fieldscribe_modbus_reply *reply);
 
 /* Functions that read coils or discrete inputs. */
 static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
@@ -198,20 +224,22 @@ static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_read(
     uint8_t unit, const fieldscribe_modbus_reading *what)
 {
-    const fieldscribe_modbus_request request = {0U, unit, what->function, what->address, what->count, NULL, 0U,
-        fieldscribe_modbus_reads_bits(what->function) ? &fieldscribe_modbus_bits : &fieldscribe_modbus_words};
+    const fieldscribe_modbus_request request = {0U, 0U, unit, what->function, what->address, what->count, NULL, 0U,
+        &fieldscribe_modbus_put_reading,
+        fieldscribe_modbus_reads_bits(what->function) ? &fieldscribe_modbus_take_bits : &fieldscribe_modbus_take_words};
     return request;
 }
 
 /*
- * The request that writes a point, with `given` words (or coils), which no frame is built of if they are too few. They
- * stay the caller's and are read when the frame is built.
+ * The request that writes a point, with `given` words (or coils), which no frame is built of if they are too few. One
+ * alone (05h, 06h, 08h) is copied; several stay the caller's and are read when the frame is built, and never after.
  */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_request fieldscribe_modbus_write(
     uint8_t unit, const fieldscribe_modbus_writing *what, const uint16_t *values, size_t given)
 {
-    const fieldscribe_modbus_request request = {
-        0U, unit, what->function, what->address, what->count, values, given, &fieldscribe_modbus_written};
+    const uint16_t first = ((values != NULL) && (given > 0U)) ? values[0] : 0U;
+    const fieldscribe_modbus_request request = {0U, first, unit, what->function, what->address, what->count, values,
+        given, &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
     return request;
 }
 
@@ -228,7 +256,8 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_m
 
 /*
  * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
- * never more than fit; 0 when it is whole, and where nobody answers.
+ * never more than fit; 0 when it is whole, and where nobody answers. As soon as an answer says how long it is, that
+ * counts, so that one of another length than was asked for is received as a whole, and refused.
  */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
@@ -263,8 +292,8 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
-/* The words of a point, or its coils, in what a block brought; NULL when that does not hold all of them. */
-FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+/* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
+FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
 
 /* The checksum of RTU frames; its low byte travels first. */
@@ -284,17 +313,6 @@ FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/*
- * What kinds of requests do in their own ways: put their data into a frame, from the unit on, and take that of an
- * answer, whose `pdu` starts at the function, that of the request, and has `size` bytes (at least 2).
- */
-struct fieldscribe_modbus_kind {
-    fieldscribe_modbus_status (*put)(const fieldscribe_modbus_profile *profile,
-        const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used);
-    fieldscribe_modbus_status (*take)(const fieldscribe_modbus_request *request, const uint8_t *pdu, size_t size,
-        fieldscribe_modbus_reply *reply);
-};
 
 uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
 {
@@ -330,9 +348,9 @@ static bool fieldscribe_modbus_reads(uint8_t function)
 static uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
 {
     if (request->function == 0x05U) {
-        return (request->values[0] != 0U) ? 0xFF00U : 0x0000U;
+        return (request->first != 0U) ? 0xFF00U : 0x0000U;
     }
-    return request->values[0];
+    return request->first;
 }
 
 /* What the device knows of a function; NULL when it does not know it. */
@@ -375,13 +393,16 @@ static fieldscribe_modbus_status fieldscribe_modbus_allows_values(const fieldscr
 {
     const uint8_t function = request->function;
     uint16_t at;
-    if ((request->given == 0U) || (request->given < request->count)) {
+    if ((request->values == NULL) || (request->given == 0U) || (request->given < request->count)) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
     if ((function == 0x08U) && (request->address != 0U)) {
         return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
     }
-    if ((function == 0x05U) || (function == 0x0FU)) {
+    if ((function == 0x05U) && (request->first > 1U)) {
+        return FIELDSCRIBE_MODBUS_BAD_VALUE;
+    }
+    if (function == 0x0FU) {
         for (at = 0U; at < request->count; ++at) {
             if (request->values[at] > 1U) {
                 return FIELDSCRIBE_MODBUS_BAD_VALUE;
@@ -442,7 +463,7 @@ static void fieldscribe_modbus_put_head(const fieldscribe_modbus_request *reques
     fieldscribe_modbus_put(&buffer[4], number);
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
+fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
     fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FUNCTION;
@@ -460,7 +481,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_reading(const fieldscrib
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
+fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
     const uint8_t function = request->function;
@@ -493,12 +514,12 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_writing(const fieldscrib
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* The request from the unit to the end of its data; one that nobody made by its functions has no kind. */
+/* The request from the unit to the end of its data; one that none of the functions above made has no way there. */
 static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
-    return (request->kind == NULL) ? FIELDSCRIBE_MODBUS_BAD_FUNCTION
-                                   : request->kind->put(profile, request, buffer, size, used);
+    return (request->put == NULL) ? FIELDSCRIBE_MODBUS_BAD_FUNCTION
+                                  : request->put(profile, request, buffer, size, used);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
@@ -538,7 +559,13 @@ fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_
     return status;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request,
+/* How many values there is room for in a reply. */
+static size_t fieldscribe_modbus_room(const fieldscribe_modbus_reply *reply)
+{
+    return (reply->values == NULL) ? 0U : reply->room;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const uint16_t count = request->count;
@@ -547,7 +574,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe
     if ((size != (2U + (size_t)bytes)) || ((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (reply->room < count) {
+    if (fieldscribe_modbus_room(reply) < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
@@ -557,7 +584,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_words(const fieldscribe
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request,
+fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const uint16_t count = request->count;
@@ -571,7 +598,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_
     if ((count > most) || (((uint32_t)count + 7U) < most)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
-    if (reply->room < count) {
+    if (fieldscribe_modbus_room(reply) < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
@@ -582,7 +609,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_bits(const fieldscribe_
 }
 
 /* What was written comes back, or how many items were. */
-static fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request,
+fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
@@ -599,26 +626,18 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_
     if ((fieldscribe_modbus_get(pdu + 1) != request->address) || (fieldscribe_modbus_get(pdu + 3) != number)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if ((!several) && (reply->room > 0U)) {
-        reply->values[0] = request->values[0];
+    if ((!several) && (fieldscribe_modbus_room(reply) > 0U)) {
+        reply->values[0] = request->first;
         reply->count = 1U;
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-const fieldscribe_modbus_kind fieldscribe_modbus_words = {
-    &fieldscribe_modbus_put_reading, &fieldscribe_modbus_take_words};
-const fieldscribe_modbus_kind fieldscribe_modbus_bits = {
-    &fieldscribe_modbus_put_reading, &fieldscribe_modbus_take_bits};
-const fieldscribe_modbus_kind fieldscribe_modbus_written = {
-    &fieldscribe_modbus_put_writing, &fieldscribe_modbus_take_echo};
-
 /* Reads an answer from its function on. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
-    return (request->kind == NULL) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION
-                                   : request->kind->take(request, pdu, size, reply);
+    return (request->take == NULL) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION : request->take(request, pdu, size, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
@@ -720,14 +739,30 @@ uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profi
     return fieldscribe_modbus_around(framing) + fieldscribe_modbus_answer(request);
 }
 
+/* The bytes of the answer that has come as far as a refusal is long, by what it says; else those that are expected. */
+static uint32_t fieldscribe_modbus_told(
+    fieldscribe_modbus_framing framing, uint8_t function, const uint8_t *buffer, uint32_t expected)
+{
+    uint32_t whole = expected;
+    if (framing == FIELDSCRIBE_MODBUS_TCP) {
+        whole = 6U + (uint32_t)fieldscribe_modbus_get(buffer + 4);
+    } else if ((buffer[1] & 0x80U) != 0U) {
+        whole = 5U;
+    } else if ((buffer[1] == function) && fieldscribe_modbus_reads(function)) {
+        whole = 5U + (uint32_t)buffer[2];
+    } else {
+        /* as long as what was written asks for */
+    }
+    return whole;
+}
+
 uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size, size_t length)
 {
     const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U; /* the shortest answer */
-    const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
     uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
-    if ((whole > refusal) && ((length < refusal) || ((buffer[code] & 0x80U) != 0U))) {
-        whole = refusal;
+    if (whole != 0U) {
+        whole = (length < refusal) ? refusal : fieldscribe_modbus_told(framing, request->function, buffer, whole);
     }
     if (whole > size) {
         whole = (uint32_t)size;
@@ -735,14 +770,15 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
-const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_reading *block,
+const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point)
 {
     uint32_t before;
-    if ((point->function != block->function) || (point->address < block->address) || (point->count > reply->count)) {
+    if ((reply->values == NULL) || (reply->count != request->count) || (point->function != request->function) ||
+        (point->address < request->address) || (point->count > reply->count)) {
         return NULL;
     }
-    before = (uint32_t)point->address - block->address;
+    before = (uint32_t)point->address - request->address;
     return (before > ((uint32_t)reply->count - point->count)) ? NULL : &reply->values[before];
 }
 

@@ -8,25 +8,33 @@
  *
  * Reading a parameter over a serial line; `sent` and `heard` are words of process data:
  *
+ *     const fieldscribe_uss_rw *const point = &siemens_mm4_maximum_frequency_frame;
+ *     uint8_t buffer[FIELDSCRIBE_USS_MOST];
+ *     uint16_t words[2];
  *     const fieldscribe_uss_words process = {sent, link.pzd};
  *     fieldscribe_uss_reply reply = {heard, link.pzd, 0U, 0U, 0U, 0U};
- *     request = fieldscribe_uss_read(unit, &siemens_mm4_maximum_frequency_frame.read);
- *     status = fieldscribe_uss_build(&profile, &link, &request, &process, frame, sizeof frame, &length);
- *     send(frame, length);
+ *     request = fieldscribe_uss_read(unit, &point->read);
+ *     status = fieldscribe_uss_build(&profile, &link, &request, &process, buffer, sizeof buffer, &length);
+ *     discard();      (what has come in: one byte of noise would spoil this answer and all behind it)
+ *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
  *     got = 0U;
- *     while ((left = fieldscribe_uss_left(&link, frame, sizeof frame, got)) > 0U) {
- *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *     while ((left = fieldscribe_uss_left(&link, buffer, sizeof buffer, got)) > 0U) {
+ *         got += receive(buffer + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
- *     status = fieldscribe_uss_parse(&profile, &link, &request, frame, got, &reply);
- *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_maximum_frequency_frame.read, words, count);
- *     fits = fieldscribe_take_u32(siemens_mm4_maximum_frequency_frame.layout, words, count, &raw);
+ *     status = fieldscribe_uss_parse(&profile, &link, &request, buffer, got, &reply);
+ *     status = fieldscribe_uss_words_of_reply(&reply, &point->read, words, FIELDSCRIBE_COUNT(words));
+ *     fits = fieldscribe_take_u32(point->layout, words, FIELDSCRIBE_COUNT(words), &raw);
  *
- * Writing one: ..._encode says whether the number may be written, fieldscribe_put_u32(frame.layout, raw, words, count)
- * puts any that fits into the words, then fieldscribe_uss_write(unit, &frame.write, words, count).
+ * Whatever went wrong: wait until the line is silent before you ask again, or a late answer is taken for the next one.
+ *
+ * Writing one: ..._encode says whether the number may be written, and the macro of a special code is such a raw number
+ * as it stands; fieldscribe_put_u32(point->layout, raw, words, count) puts any that fits into the words, then
+ * fieldscribe_uss_write(unit, &point->write, words, count), which copies them. Its answer is parsed, too: OK says that
+ * the device took it.
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
  *
- * A point of the process data: point = fieldscribe_uss_words_heard(&frame.heard, heard, link.pzd), then
- * fieldscribe_take_s16(frame.layout, point, frame.heard.words, &raw), which is false where it was NULL; the same with
+ * A point of the process data: in = fieldscribe_uss_words_heard(&point->heard, heard, link.pzd), then
+ * fieldscribe_take_s16(point->layout, in, point->heard.words, &raw), which is false where `in` is NULL; the same with
  * `sent` and put.
  */
 #include "fieldscribe.h"
@@ -235,7 +243,8 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_reply_length(const fieldscribe_uss_
 
 /*
  * How many bytes of the answer are still to be waited for when `length` of them have come into a buffer of `size`, and
- * never more than fit; 0 when it is whole. Nobody answers a broadcast: do not wait.
+ * never more than fit; 0 when it is whole. As soon as an answer says how long it is, that counts, so that one of
+ * another length than the link has is received as a whole, and refused. Nobody answers a broadcast: do not wait.
  */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
     const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length);
@@ -260,7 +269,7 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_words_of_reply(
 FIELDSCRIBE_CHECKED static inline const uint16_t *fieldscribe_uss_words_heard(
     const fieldscribe_uss_heard *where, const uint16_t *process, size_t count)
 {
-    if ((where->words > count) || (where->position > (count - where->words))) {
+    if ((process == NULL) || (where->words > count) || (where->position > (count - where->words))) {
         return NULL;
     }
     return &process[where->position];
@@ -269,7 +278,7 @@ FIELDSCRIBE_CHECKED static inline const uint16_t *fieldscribe_uss_words_heard(
 FIELDSCRIBE_CHECKED static inline uint16_t *fieldscribe_uss_words_sent(
     const fieldscribe_uss_sent *where, uint16_t *process, size_t count)
 {
-    if ((where->words > count) || (where->position > (count - where->words))) {
+    if ((process == NULL) || (where->words > count) || (where->position > (count - where->words))) {
         return NULL;
     }
     return &process[where->position];
@@ -310,7 +319,7 @@ fieldscribe_uss_request fieldscribe_uss_write(
 {
     fieldscribe_uss_request request = {unit, what->task, what->parameter, what->index, what->width, 0U};
     size_t at;
-    if (count < what->width) {
+    if ((words == NULL) || (count < what->width)) {
         request.width = FIELDSCRIBE_USS_TOO_FEW_WORDS;
         return request;
     }
@@ -376,6 +385,12 @@ static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, u
     return at < profile->pkw_count;
 }
 
+/* How many words of process data there are to send. */
+static size_t fieldscribe_uss_count(const fieldscribe_uss_words *process)
+{
+    return (process->words == NULL) ? 0U : process->count;
+}
+
 /* Whether the device can be set to so many words of process data, and `count` is how many there are. */
 static bool fieldscribe_uss_allows_pzd(
     const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
@@ -415,19 +430,20 @@ static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const ui
 {
     const size_t most = (size < FIELDSCRIBE_USS_MOST) ? size : FIELDSCRIBE_USS_MOST;
     const size_t around = 4U + head_bytes; /* with start, length, address and check */
+    const size_t count = fieldscribe_uss_count(process);
     size_t used;
     size_t at;
-    if ((most < around) || (process->count > ((most - around) / 2U))) {
+    if ((most < around) || (count > ((most - around) / 2U))) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
-    used = around + (2U * process->count);
+    used = around + (2U * count);
     buffer[0] = 0x02U;
     buffer[1] = (uint8_t)((used - 2U) & 0xFFU);
     buffer[2] = address;
     for (at = 0U; at < head_bytes; ++at) {
         buffer[3U + at] = head[at];
     }
-    for (at = 0U; at < process->count; ++at) {
+    for (at = 0U; at < count; ++at) {
         fieldscribe_uss_put(buffer + 3U + head_bytes + (2U * at), process->words[at]);
     }
     buffer[used - 1U] = fieldscribe_uss_check(buffer, used - 1U);
@@ -439,7 +455,8 @@ fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *prof
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const fieldscribe_uss_words *process,
     uint8_t *buffer, size_t size, size_t *length)
 {
-    const fieldscribe_uss_status status = fieldscribe_uss_allows(profile, link, request, process->count);
+    const fieldscribe_uss_status status =
+        fieldscribe_uss_allows(profile, link, request, fieldscribe_uss_count(process));
     uint32_t value = request->value;
     uint8_t head[8];
     *length = 0U;
@@ -464,7 +481,7 @@ fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_pro
     uint8_t head[8];
     size_t at;
     *length = 0U;
-    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, process->count)) {
+    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, fieldscribe_uss_count(process))) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
     for (at = 0U; at < 4U; ++at) {
@@ -563,7 +580,7 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
     if (bytes[2] != request->unit) {
         return FIELDSCRIBE_USS_WRONG_UNIT;
     }
-    if (reply->room < link->pzd) {
+    if (((reply->process == NULL) ? 0U : reply->room) < link->pzd) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
     if (link->pkw != 0U) {
@@ -589,7 +606,7 @@ uint32_t fieldscribe_uss_left(
     const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length)
 {
     uint32_t whole = fieldscribe_uss_reply_length(link);
-    if ((length >= 2U) && (link->pkw == FIELDSCRIBE_USS_VARIABLE)) {
+    if ((length >= 2U) && (buffer[0] == 0x02U)) {
         whole = 2U + (uint32_t)buffer[1];
     }
     if (whole > size) {
@@ -606,7 +623,7 @@ fieldscribe_uss_status fieldscribe_uss_words_of_reply(
     if (reply->width != what->width) {
         return FIELDSCRIBE_USS_WRONG_RESPONSE;
     }
-    if (count < reply->width) {
+    if ((words == NULL) || (count < reply->width)) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
     for (at = reply->width; at > 0U; --at) {

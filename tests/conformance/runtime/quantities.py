@@ -53,6 +53,28 @@ def check_scaled(package: Package) -> None:
             _point(package, runtime.Scaled(runtime.U64, runtime.Rule(), decimals=0)).decode_count, 1 << 63)  # fmt: skip
 
 
+def check_texts(package: Package) -> None:
+    """A value as people see it: what the device holds for it, with the decimals of the description."""
+    runtime = package.runtime
+    form = runtime.Scaled(runtime.S16, runtime.Rule(num=8), decimals=1)
+    codes = runtime.Codes({"off": -5}, writable=("off",))
+    for around in (form, runtime.WithWritableCodes(form, codes)):
+        point = _point(package, around, display=2)
+        assert (point.text(50), point.text(0.13), point.text(-0.124)) == ("50.00 V", "0.13 V", "-0.13 V")
+        assert (point.told(1), point.told_exactly(1), point.told(1 << 15)) == ("0.13 V", "0.125 V", "raw 32768")
+        assert repr(point).endswith(", shown with 2 decimals>")
+        refuses(runtime.RangeError, "one: 40000 is outside -32768..32767", point.text, 5000)
+        refuses(runtime.NotANumberError, "one: the value is NaN", point.text, math.nan)
+        assert refusal(point.text, "x").status == "wrong_type"
+    assert (point.text(point.special.off), point.text(point.decode(-5))) == ("off", "off")
+    plain = _point(package, form)
+    assert (plain.text(50), plain.told(1)) == ("50 V", "0.125 V")
+    assert repr(_point(package, form, display=1)).endswith(", shown with 1 decimal>")
+    floating = _point(package, runtime.Floating(runtime.F64), display=0)
+    assert (floating.text(2.5), floating.text(-0.4), floating.text(1e22)) == ("3 V", "0 V", "1" + 22 * "0" + " V")
+    refuses(runtime.RangeError, "one: inf is no value of this point", floating.text, math.inf)
+
+
 def check_exact(package: Package) -> None:
     """Where the other languages cannot compute a scale exactly, it overflows."""
     runtime = package.runtime

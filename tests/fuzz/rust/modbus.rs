@@ -31,7 +31,7 @@ fn main() {
                 words.extend(["ok".to_owned(), "0".to_owned()]);
                 words.extend(reply.items().map(|item| item.to_string()));
             }
-            Err(ReplyError::Exception(code)) => words.extend(["exception".to_owned(), code.to_string()]),
+            Err(ReplyError::Exception { code, .. }) => words.extend(["exception".to_owned(), code.to_string()]),
             Err(error) => words.extend([error.name().to_owned(), "0".to_owned()]),
         }
         say(&mut out, &words);

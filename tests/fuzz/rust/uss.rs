@@ -18,7 +18,7 @@ fn main() {
         let found = request.parse(&kitchen_uss::PROFILE, link, &frame);
         let (status, response, error) = match found {
             Ok(reply) => ("ok", reply.response(), 0),
-            Err(ParseError::Refused(error)) => ("refused", 7, error),
+            Err(ParseError::Refused { error, .. }) => ("refused", 7, error),
             Err(error) => (error.name(), 0, 0),
         };
         let (width, value) = match found.map_or(Value::Nothing, |reply| reply.value()) {

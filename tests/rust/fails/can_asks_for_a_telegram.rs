@@ -1,4 +1,5 @@
 // error: E0277
+// says: `client.receive::<P>()` waits for it
 // Nobody answers when a point of a telegram is asked for as a parameter.
 
 use fieldscribe_runtime::can::{Client, Transport};

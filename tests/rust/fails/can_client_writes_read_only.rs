@@ -1,4 +1,5 @@
 // error: E0277
+// says: is only read
 // A client of a CAN device offers no write of what is only read.
 
 use fieldscribe_runtime::can::{Client, Transport};

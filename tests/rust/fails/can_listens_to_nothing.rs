@@ -1,4 +1,5 @@
 // error: E0277
+// says: client.listening(Receiver::<Measured>::new(unit))
 // A client without a receiver cannot wait for the words of a telegram.
 
 use fieldscribe_runtime::can::{Client, Transport};

@@ -1,4 +1,5 @@
 // error: E0277
+// says: is only read
 // The client offers no write of such a point either.
 
 use fieldscribe_runtime::client::{Client, Transport};

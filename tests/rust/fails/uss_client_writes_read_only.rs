@@ -1,4 +1,5 @@
 // error: E0277
+// says: is only read
 // A client of a drive offers no write of what is only read.
 
 use fieldscribe_runtime::client::Transport;

@@ -1,4 +1,5 @@
 // error: E0277
+// says: is no parameter, but a point of the process data
 // Process data are no parameter.
 
 use fieldscribe_runtime::uss::Request;

@@ -1,4 +1,5 @@
 // error: E0277
+// says: is not sent in the process data
 // What the drive sends is not set.
 
 use fieldscribe_runtime::client::Transport;

@@ -1,4 +1,5 @@
 // error: E0277
+// says: is not written: the device does not take it
 // A point that the device does not take has no request that writes it.
 
 use fieldscribe_runtime::modbus::Request;

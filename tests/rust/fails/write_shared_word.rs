@@ -1,4 +1,5 @@
 // error: E0277
+// says: `client.update::<P>(value)` reads the word
 // A group of bits is not written as if the word were its own.
 
 use fieldscribe_runtime::modbus::Request;

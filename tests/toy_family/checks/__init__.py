@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, no_frame
+from fieldscribe.checks.frames_agree import Seen, report_no_frame
 
 from toy_family.facts import of_bus
 from toy_family.frames import tone_of
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
     from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.subject import Subject
 
 
 _MOST = 1000
@@ -30,7 +30,7 @@ def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
     del seen
     tone = tone_of(one.frame.printed)
     if tone is None:
-        return no_frame(subject, one, "this rings nothing")
+        return report_no_frame(subject, one, "this rings nothing")
 
     def carries(point: Point) -> int | None:
         return tone if point.addresses == (tone,) else None

@@ -219,12 +219,12 @@ fn errors() {
         ReceiveError::name,
         &[
             (
-                ReceiveError::Missing,
+                ReceiveError::Missing(None),
                 "missing",
                 "the frame with the word never came",
             ),
             (
-                ReceiveError::Torn,
+                ReceiveError::Torn(None),
                 "torn",
                 "the words may belong to different moments",
             ),
@@ -245,21 +245,24 @@ fn errors() {
             "the device has no such unit number",
         ),
         (
-            ClientError::Telegram(ReceiveError::Missing),
+            ClientError::Telegram(ReceiveError::Missing(None)),
             "the frame with the word never came",
         ),
-        (ClientError::Transport(Lost), "nothing came"),
-        (ClientError::NoAnswer, "the device does not answer"),
+        (ClientError::Transport(Lost, None), "nothing came"),
+        (ClientError::NoAnswer(None), "the device does not answer"),
         (
-            ClientError::EchoMismatch(7),
+            ClientError::EchoMismatch(7, None),
             "the device answered 7 to a write",
         ),
     ];
     for (error, shown) in errors {
         assert_eq!(chain(&error), [shown]);
+        let error = error.of::<Word>();
+        assert_eq!(error.point(), Some("Word"));
+        assert_eq!(chain(&error), [format!("Word: {shown}")]);
     }
     assert_eq!(chain(&ReceiveError::Point(REFUSED)).len(), 1);
-    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
+    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
 }
 
 fn frames() {
@@ -343,9 +346,15 @@ fn receivers() {
     let mut receiver = Receiver::<Measured>::new(5);
     assert_eq!(
         (receiver.taken(), receiver.word(0)),
-        (0, Err(ReceiveError::Missing))
+        (0, Err(ReceiveError::Missing(None)))
     );
-    assert_eq!(receiver.raw::<Speed>(), Err(ReceiveError::Missing));
+    let missing = ReceiveError::Missing(Some("Speed"));
+    assert_eq!(receiver.raw::<Speed>(), Err(missing));
+    assert_eq!(missing.point(), Some("Speed"));
+    assert_eq!(
+        chain(&missing),
+        ["Speed: the frame with the word never came"]
+    );
     assert!(!receiver.came_since::<Speed>(0));
     assert!(!receiver.take(&part(2, [1, 2, 3])));
     assert!(!receiver.take(&Frame::new(0x404, part(0, [1, 2, 3]).bytes())));
@@ -357,11 +366,15 @@ fn receivers() {
     );
     assert_eq!(
         [3, 6, 7].map(|one| receiver.word(one)),
-        [Err(ReceiveError::Missing); 3]
+        [Err(ReceiveError::Missing(None)); 3]
     );
     assert_eq!(
         (receiver.raw::<Speed>(), receiver.value::<Speed>()),
         (Ok(0x0304), Ok(0x0304))
+    );
+    assert_eq!(
+        (receiver.count::<Speed>(), receiver.count_with::<Speed>(())),
+        (Ok([0x0304]), Ok([0x0304]))
     );
     assert_eq!(
         (
@@ -392,7 +405,7 @@ fn receivers() {
 /// The high word is in the frame 1, the low one in the frame 0.
 fn torn_words() {
     let (low, high) = (|word| part(0, [0, 0, word]), |word| part(1, [word, 0, 0]));
-    let torn = Err(ReceiveError::Torn);
+    let torn = Err(ReceiveError::Torn(Some("Hours")));
     for (frames, found) in [
         (vec![low(7), high(1)], torn),
         (vec![high(1), low(7)], torn),
@@ -549,18 +562,21 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
             assert_eq!(
                 $wait(client.write::<Word>(9)),
-                Err(ClientError::EchoMismatch(8))
+                Err(ClientError::EchoMismatch(8, Some("Word")))
             );
             assert_eq!($wait(client.write_with::<Long>(0x0003_0004, ())), Ok(()));
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
             assert_eq!(
                 $wait(client.write_word(0x0030, 1)),
-                Err(ClientError::Transport(Lost))
+                Err(ClientError::Transport(Lost, None))
             );
             assert_eq!($wait(client.write::<Word>(0xFFFF)), Err(wrong));
             assert_eq!($wait(client.update::<Group>(0xFFFF)), Err(wrong));
             client.transport().came.clear();
-            assert_eq!($wait(client.read_word(0x0102)), Err(ClientError::NoAnswer));
+            assert_eq!(
+                $wait(client.read_word(0x0102)),
+                Err(ClientError::NoAnswer(None))
+            );
             client.transport().stale = [noise; 2].into();
             assert_eq!($wait(client.read_raw::<Word>()), Ok(7));
             assert_eq!(client.listener().0.len(), 4 + 3 + 2 + 2);
@@ -569,15 +585,15 @@ macro_rules! conversations {
             let bus = Bus::new(&[(change(0x0102, 9), vec![frame(&DONE, 0, 0)])]);
             let mut client = $client::new(bus, &BRIEF, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
-            let none = ClientError::Build(BuildError::NoMessage);
+            let none = ClientError::Build(BuildError::NoMessage, Some("Word"));
             assert_eq!($wait(client.read::<Word>()), Err(none));
             let bus = Bus::new(&[(change(0x0102, 9), vec![])]);
             let mut client = $client::new(bus, &SILENT, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
             let mut client = $client::new(Bus::default(), &PROFILE, 10);
-            let bad = ClientError::Build(BuildError::BadUnit);
+            let bad = ClientError::Build(BuildError::BadUnit, Some("Word"));
             assert_eq!($wait(client.read::<Word>()), Err(bad));
-            let lost = ClientError::Transport(Lost);
+            let lost = ClientError::Transport(Lost, None);
             assert_eq!($wait(client.listen()), Err(lost));
             let bus = Bus::new(&[
                 (asked(0x0102), vec![answered(0x0102, 7)]),
@@ -598,7 +614,8 @@ macro_rules! conversations {
             assert!(client.into_transport().steps.is_empty());
             let bus = Bus::new(&[(asked(0x0102), vec![noise; 10_000])]);
             let mut client = $client::new(bus, &PROFILE, 5);
-            assert_eq!($wait(client.read::<Word>()), Err(ClientError::NoAnswer));
+            let none = ClientError::NoAnswer(Some("Word"));
+            assert_eq!($wait(client.read::<Word>()), Err(none));
         }
 
         fn $telegrams() {
@@ -621,7 +638,7 @@ macro_rules! conversations {
             ]);
             let receiver = Receiver::<Measured>::new(5);
             let mut client = $client::new(bus, &PROFILE, 5)
-                .listening(receiver)
+                .listening(receiver.clone())
                 .patient(4);
             assert_eq!($wait(client.receive::<Speed>()), Ok(5));
             assert_eq!(client.listener().raw::<Speed>(), Ok(5));
@@ -629,8 +646,14 @@ macro_rules! conversations {
             let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive::<Speed>()), Err(wrong));
             assert_eq!($wait(client.receive::<Hours>()), Ok(0x0001_FFFF));
-            let torn = ClientError::Telegram(ReceiveError::Missing);
+            let torn = ClientError::Telegram(ReceiveError::Missing(Some("Speed")));
             assert_eq!($wait(client.patient(2).receive::<Speed>()), Err(torn));
+            let bus = Bus::hears(&[low(5), low(7)]);
+            let mut client = $client::new(bus, &PROFILE, 5).listening(receiver.clone());
+            assert_eq!($wait(client.receive_count::<Speed>()), Ok([5]));
+            assert_eq!($wait(client.receive_raw::<Speed>()), Ok(7));
+            let lost = Err(ClientError::Transport(Lost, Some("Speed")));
+            assert_eq!($wait(client.receive_count_with::<Speed>(())), lost);
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
             let client = $client::new(bus, &PROFILE, 5).listening((Log::default(), Log::default()));
             let mut client = client;
@@ -643,7 +666,7 @@ macro_rules! conversations {
             let mut client = $client::new(bus, &PROFILE, 5)
                 .listening(receiver)
                 .patient(3);
-            let torn = ClientError::Telegram(ReceiveError::Torn);
+            let torn = ClientError::Telegram(ReceiveError::Torn(Some("Hours")));
             assert_eq!($wait(client.receive::<Hours>()), Err(torn));
         }
     };

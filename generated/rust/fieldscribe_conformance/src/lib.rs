@@ -29,8 +29,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Flags, Point, PointInfo, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
+    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Displayed, Documented, Encodable,
+    Error, Flags, Point, PointInfo, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -798,6 +798,25 @@ pub fn place<P: Point>(vector: &Vector) -> Outcome {
 /// The symbol of a point's unit.
 pub fn symbol<P: Point>(vector: &Vector) -> Outcome {
     same(vector.text("symbol").as_str(), P::UNIT)
+}
+
+/// With how many decimals people see values.
+pub fn display<P: Point>(vector: &Vector) -> Outcome {
+    same(
+        vector.number("decimals"),
+        P::DISPLAY_DECIMALS.map(i128::from),
+    )?;
+    same(P::INFO.display_decimals, P::DISPLAY_DECIMALS)
+}
+
+/// What people see of a raw number.
+pub fn told<P: Displayed<Raw: Number>>(vector: &Vector, needs: P::Needs) -> Outcome {
+    let (status, text) = match P::told_with(vector.raw("raw"), needs) {
+        Ok(shown) => ("ok", Some(shown.to_string())),
+        Err(error) => (error.name(), None),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.said("text"), text)
 }
 
 /// The bits of a word that are always written as a constant.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Exact arithmetic: rounding to nearest with halves away from zero, checked steps, bits in words.
 
-use crate::{Error, Raw};
+use crate::{Error, Outside, Raw};
 
 macro_rules! round {
     ($name:ident, $integer:ty, $limit:literal) => {
@@ -128,17 +128,25 @@ pub const fn insert(word: u16, shift: u32, mask: u16, bits: u16) -> u16 {
     }
 }
 
-/// An exponent, if it is in `low..=high`, where its point may be.
+/// An exponent, the raw number of the point of that name, if it is in `low..=high`, where that may be.
 ///
 /// # Errors
-/// [`Error::Overflow`] if it is not.
+/// [`Error::BrokenFactor`] if it is not.
 #[inline]
-pub fn exponent(raw: impl Raw, low: i64, high: i64) -> Result<i64, Error> {
-    let raw = raw.to_i64();
-    if low <= raw && raw <= high {
-        Ok(raw)
+pub fn exponent(point: &'static str, raw: impl Raw, low: i64, high: i64) -> Result<i64, Error> {
+    let given = raw.to_i64();
+    if low <= given && given <= high {
+        Ok(given)
     } else {
-        Err(Error::Overflow(None))
+        Err(Error::BrokenFactor {
+            factor: Outside {
+                point,
+                given,
+                low,
+                high,
+            },
+            point: None,
+        })
     }
 }
 

@@ -3,12 +3,16 @@
 
 use core::fmt;
 
+/// Numbers of several bits that have names.
+pub type Names = &'static [(u64, &'static str)];
+
 /// A bit of a word that has a name, or several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Flag {
     name: &'static str,
     mask: u64,
     is_active_low: bool,
+    names: Names,
 }
 
 impl Flag {
@@ -19,6 +23,7 @@ impl Flag {
             name,
             mask,
             is_active_low: false,
+            names: &[],
         }
     }
 
@@ -29,7 +34,26 @@ impl Flag {
             name,
             mask,
             is_active_low: true,
+            names: &[],
         }
+    }
+
+    /// Bits that are a number, and the numbers that have names.
+    #[must_use]
+    pub const fn named(name: &'static str, mask: u64, names: Names) -> Self {
+        Self {
+            name,
+            mask,
+            is_active_low: false,
+            names,
+        }
+    }
+
+    /// The name of a number of the flag, if it has one.
+    #[must_use]
+    pub fn name_of(&self, number: u64) -> Option<&'static str> {
+        let found = self.names.iter().find(|one| one.0 == number);
+        found.map(|one| one.1)
     }
 
     /// The name in the description.
@@ -75,8 +99,8 @@ pub trait Flags: Copy {
     fn bits(self) -> u64;
 }
 
-/// Shows a word as its number, and behind it what is true and the numbers of several bits:
-/// `StatusWord(0x2031: ready, state=3)`.
+/// Shows a word as its number, and behind it what is true and what several bits say that are not 0:
+/// `StatusWord(0x2031: ready, state=running, trips=2)`.
 ///
 /// # Errors
 /// What the formatter says.
@@ -85,11 +109,15 @@ pub fn show<F: Flags>(word: F, formatter: &mut fmt::Formatter<'_>) -> fmt::Resul
     write!(formatter, "{}({bits:#06X}", F::NAME)?;
     let mut sign = ": ";
     for flag in F::FLAGS {
-        let is_single = flag.mask.is_power_of_two();
-        match flag.number(bits) {
-            0 if is_single => continue,
-            _ if is_single => write!(formatter, "{sign}{}", flag.name)?,
-            number => write!(formatter, "{sign}{}={number}", flag.name)?,
+        let number = flag.number(bits);
+        if number == 0 {
+            continue;
+        }
+        write!(formatter, "{sign}{}", flag.name)?;
+        match flag.name_of(number) {
+            Some(name) => write!(formatter, "={name}")?,
+            None if flag.mask.is_power_of_two() => {}
+            None => write!(formatter, "={number}")?,
         }
         sign = ", ";
     }

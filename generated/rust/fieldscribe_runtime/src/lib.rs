@@ -16,6 +16,7 @@ pub mod can;
 pub mod check;
 pub mod client;
 pub mod digits;
+mod display;
 mod error;
 pub mod flags;
 pub mod form;
@@ -33,14 +34,15 @@ pub mod text;
 pub mod uss;
 
 pub use client::{AsyncTransport, LocalTransport, Transport};
+pub use display::{Displayed, Shown};
 pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
 pub use form::Count;
 pub use info::{Access, PointInfo};
 pub use point::{
     group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, Point, Readable,
-    Scaled, Space, Whole, Writable,
+    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, NeedsNothing, Point,
+    Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Scales whose factors are read at run time.
 
-use crate::arithmetic::{quotient, to_f64};
+use crate::arithmetic::{div_round_i128, quotient, to_f64};
 use crate::pattern::{Magnitude, Quotient};
 use crate::{Error, Raw};
 
@@ -240,6 +240,21 @@ impl Rule {
         }
         let (num, den) = self.turned(raw, per_unit)?;
         divide(num, den).ok_or(Error::Overflow(None))
+    }
+
+    /// The same for what is shown, which may have more decimals than counts: by one division of 128 bits.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    pub(crate) fn shown_count(self, raw: i64, per_unit: i64) -> Result<i64, Error> {
+        if !self.whole {
+            return self.count_of(raw, per_unit);
+        }
+        let (num, den) = self.turned(raw, 1)?;
+        let dividend = i128::from(num).checked_mul(i128::from(per_unit));
+        let dividend = dividend.ok_or(Error::Overflow(None))?;
+        let count = div_round_i128(dividend, u128::from(den.unsigned_abs()));
+        i64::try_from(count).map_err(|_| Error::Overflow(None))
     }
 
     /// The rule applied to 1, rounded: a limit.

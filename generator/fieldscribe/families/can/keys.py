@@ -30,8 +30,8 @@ KEYS = (
     Key(
         "layout",
         MESSAGE,
-        "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `words`, or `xor 0..5`, "
-        "the high byte first.",
+        "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `telegram`, or "
+        "`xor 0..5`, the high byte first.",
         [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
         by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
         required=True,

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
 
-_HOW = "write a number, unit, address, raw, multiplexer, words, or xor 0..5"
-_WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "words": LENGTH}
+_HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
+_WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}
 _UNITS = 256
 _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
@@ -144,11 +144,11 @@ class _Part:
 
     def _carried(self) -> list[Role] | None:
         text, count = self.text, self.count
-        if count > _WIDEST[text] or (text == "words" and count % 2):
-            hint = "each word takes two bytes" if text == "words" else f"it takes at most {_WIDEST[text]}"
+        if count > _WIDEST[text] or (text == "telegram" and count % 2):
+            hint = "each word of it takes two bytes" if text == "telegram" else f"it takes at most {_WIDEST[text]}"
             self._refuse(f"`{text}` cannot take {count} bytes", hint)
             return None
-        if text == "words":
+        if text == "telegram":
             return [Role("word", number) for number in range(count)]
         if text == "multiplexer":
             return [Role("multiplexer", 0)]
@@ -194,7 +194,7 @@ def _sums_fit(scope: Scope, raw: Map, found: dict[int, Role]) -> bool:
     carried = [role for role in found.values() if role.kind not in ("constant", "xor")]
     twice = next((role.kind for role in carried if carried.count(role) > 1), None)
     if twice is not None:
-        message = f"`{'words' if twice == 'word' else twice}` stands in two places"
+        message = f"`{'telegram' if twice == 'word' else twice}` stands in two places"
         scope.report.error("duplicate-name", message, raw.span("layout"), "write its bytes as one interval")
         return False
     return True

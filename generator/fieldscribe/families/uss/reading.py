@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss.facts import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.telegrams import VARIABLE
 from fieldscribe.resolve.bus import codes_under, ends_of
 from fieldscribe.resolve.families import Reading
-from fieldscribe.resolve.values import integer
+from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -53,10 +54,10 @@ class UssReading(Reading):
         """Findings for what process data cannot be."""
         _known_way(scope, raw, before)
         bus = scope.bus
-        longest = "" if bus is None else str(bus.get("pzd", "")).rpartition("..")[2].strip()
-        if longest.isdecimal() and raw["words"] > int(longest):
-            text = f"`{raw['name']}` has {raw['words']} words, the process data at most {longest}"
-            scope.report.error("too-many-items", text, raw.span("words"), "correct `words`, or `pzd` under `bus`")
+        ends = None if bus is None or "pzd" not in bus else interval(str(bus["pzd"]), bus.span("pzd"), Report())
+        if ends is not None and raw["length"] > ends[1]:
+            text = f"`{raw['name']}` has {raw['length']} words, the process data at most {ends[1]}"
+            scope.report.error("too-many-items", text, raw.span("length"), "correct `length`, or `pzd` under `bus`")
 
 
 def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:

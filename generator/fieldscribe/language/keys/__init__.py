@@ -13,8 +13,6 @@ from fieldscribe.kinds import Items, Place
 from fieldscribe.language.keys import bus, files, frames, meaning, points, within
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from fieldscribe.families.contract import Family
     from fieldscribe.kinds import Key
 
@@ -44,9 +42,10 @@ for _key in TABLE:
         _AT.setdefault(_place, {})[_key.name] = _key
 
 
-def keys_of(place: Place) -> Mapping[str, Key]:
+def keys_of(place: Place) -> dict[str, Key]:
     """The keys that stand in a place, by name."""
-    return _AT.get(place, {})
+    own_keys = _AT.get(place, {})
+    return own_keys if place.may_be is None else keys_of(place.may_be) | own_keys
 
 
 def required(place: Place) -> tuple[str, ...]:
@@ -58,6 +57,9 @@ def needs(place: Place) -> dict[str, list[str]]:
     """The keys of a place that need others beside them."""
     known = keys_of(place)
     found = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
+    if place.may_be is not None:
+        first, *others = required(place.may_be)
+        found |= {name: [first, *found[name]] for name in keys_of(place.may_be)} | {first: others}
     return {name: needed for name, needed in found.items() if needed}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.families import FAMILIES
 from fieldscribe.kinds import NUMBER, Items, Key, Place, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import DEVICE, FILES, GROUP, GROUPS
+from fieldscribe.language.keys.places import DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
 
 _DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}])
@@ -53,52 +53,47 @@ HEADS = (
         one_of(*FAMILIES),
         required=True,
     ),
-    Key("group", GROUPS, NAME, required=(GROUP,), needs=("space",)),
+    Key("group", GROUP, NAME, required=True),
     Key(
         "points",
-        (*GROUPS, places.RECORD),
+        (GROUP, places.RECORD),
         "The points in the manual's order.",
         [[{"name": "base_frequency", "at": "1028h"}]],
         Items(places.POINT.shape),
-        required=(GROUP, places.RECORD),
-        needs=("group", "space"),
+        required=True,
     ),
     Key(
         "space",
-        GROUPS,
+        GROUP,
         "The address space of the group's points.",
         ["holding"],
         Text(40),
-        required=(GROUP,),
-        needs=("group",),
+        required=True,
         inherited=(GROUP,),
     ),
     Key(
         "telegram",
-        GROUPS,
+        GROUP,
         "The telegram whose words the points are, in the space `telegram`.",
         ["visualisation"],
         NAMED,
-        needs=("group",),
     ),
     Key(
         "addressing",
-        GROUPS,
-        "How addresses follow from `at: {number: …, sets: …, indices: …}`: a formula of number, index, set, sets, "
-        "indices.",
+        GROUP,
+        "How addresses follow from `at`, which is the `number`, and what stands beside it: a formula of number, index, "
+        "set, sets, indices.",
         ["number * 64 + (index - 1) * sets + (set - 1)"],
         Text(200),
-        needs=("group",),
     ),
     Key(
         "numbering",
-        GROUPS,
+        GROUP,
         "How the numbers that the manual prints follow from the wire address.",
         [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
         by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
-        needs=("group",),
     ),
-    Key("source", (*GROUPS, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
+    Key("source", (GROUP, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
 )
 """What stands first: the device, the group."""
 
@@ -161,13 +156,6 @@ SECTIONS = (
         "The other files of the folder, in reading order.",
         [["bus.yaml", "standard_a.yaml"]],
         Items(Shape("A file name.", ["bus.yaml"], Text(form=forms.PART_FILE)), 1),
-    ),
-    Key(
-        "groups",
-        DEVICE,
-        "Groups, for a device that fits into one file.",
-        [[{"group": "main", "space": "holding", "points": [{"name": "base_frequency", "at": "1028h"}]}]],
-        Items(GROUP.shape),
     ),
     Key(
         "units",

@@ -54,7 +54,10 @@ PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<any
 ANY = Form("", "a word", "any word is fine", "<any>")
 """Whatever is no key of the table and of no other form."""
 
-LINES = Form("^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$", "a line or lines", "lines are written 780, several lines 780..790")
+_LONG = _WHOLE.replace("{1,5}", "{1,18}")
+WHOLE = Form(f"^[-+]?{_LONG}$", "a whole number", "write a whole number: 4136, 0x1028, 1028h, H'33F, 0b0101")
+"""A whole number in a notation that YAML does not take for one."""
+LINES = Form(f"^{_LONG}(\\.\\.{_LONG})?$", "a line or lines", "lines are written 780, several lines 780..790")
 VERSION = Form("^[0-9]+\\.[0-9]+\\.[0-9]+$", "a version", "write three numbers: 1.0.0")
 BYTES = Form("^[0-9A-Fa-f\\s]+$", "bytes in hexadecimal", "write two digits for each byte: 05 06 10 28")
 SHA256 = Form(

@@ -20,7 +20,7 @@ KEYS = (
         DIRECTION,
         required=True,
     ),
-    Key("words", TELEGRAM, "How many words it has.", [69], Whole(1, 65536), required=True),
+    Key("length", TELEGRAM, "How many words it has.", [69], Whole(1, 65536), required=True),
     Key("message", TELEGRAM, "The message whose frames carry the words.", ["visualisation"], NAMED),
     Key("space", COMMAND, "The address space.", ["holding"], Text(40)),
     Key("at", COMMAND, "The address on the wire.", ["0900h"], Whole(), Text(64), required=True),

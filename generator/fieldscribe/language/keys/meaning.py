@@ -18,11 +18,11 @@ from fieldscribe.kinds import (
     one_of,
 )
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import FACTS, GROUP, GROUPS
+from fieldscribe.language.keys.places import FACTS, GROUP
 from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER
 from fieldscribe.model import TYPES
 
-_GROUPED = (*GROUPS, *FACTS)
+_GROUPED = (GROUP, *FACTS)
 
 KEYS = (
     Key(
@@ -32,7 +32,6 @@ KEYS = (
         ["s16", "u32"],
         one_of(*TYPES),
         NOTHING,
-        needs=("group",),
         inherited=(GROUP,),
     ),
     Key(
@@ -44,9 +43,9 @@ KEYS = (
         Text(80),
     ),
     Key(
-        "takes",
+        "length",
         FACTS,
-        "How many words a point takes that is `untyped`, or whose type is not settled; 1 unless said.",
+        "How many words a point has that is `untyped`, or whose type is not settled; 1 unless said.",
         [3],
         Whole(1, 125),
     ),
@@ -56,7 +55,6 @@ KEYS = (
         "The order of the words of a value of more than one word.",
         ["low first"],
         WORD_ORDER,
-        needs=("group",),
         inherited=(GROUP,),
     ),
     Key(
@@ -67,7 +65,6 @@ KEYS = (
         Text(500),
         Whole(),
         Items(PRINTED_NUMBER, 1),
-        needs=("group",),
         inherited=(GROUP,),
         of=NUMBERS,
     ),
@@ -90,7 +87,6 @@ KEYS = (
         Text(500),
         Items(places.CASE.shape, 1),
         NOTHING,
-        needs=("group",),
         inherited=(GROUP,),
         of=WHOLE_NUMBERS,
     ),
@@ -100,9 +96,9 @@ KEYS = (
         "The unit's symbol; more are declared under `units`.",
         ["Hz", "%"],
         Text(20),
-        needs=("group",),
         inherited=(GROUP,),
     ),
+    Key("display", _GROUPED, places.DISPLAY.shape, inherited=(GROUP,)),
     Key(
         "decimals",
         FACTS,
@@ -133,10 +129,9 @@ KEYS = (
             {"0FFF8h..0FFFFh": "reserved"},
         ],
         by(forms.NUMBER, places.SPECIAL_CODE.shape, least=1),
-        needs=("group",),
         of=NUMBERS,
     ),
-    Key("types", (places.DEVICE, *GROUPS), places.TYPES.shape, needs=("group",)),
+    Key("types", (places.DEVICE, GROUP), places.TYPES.shape),
     Key(
         "flags",
         FACTS,
@@ -169,12 +164,13 @@ KEYS = (
     Key(
         "default",
         FACTS,
-        "The factory setting in the unit; of an enum also by name.",
-        [50.0, "terminal"],
-        NUMBER,
+        "The factory setting as it travels: a raw number, or the name of an enum's number or of a special code.",
+        [500, "terminal"],
+        Whole(),
         Text(64),
         of=NUMBERS,
     ),
+    Key("default_in_units", FACTS, "The factory setting in the unit.", [50.0], NUMBER, Text(64), of=NUMBERS),
     Key(
         "steps",
         FACTS,

@@ -10,8 +10,9 @@ _PRIVATE = {forms.PRIVATE: ANYTHING}
 
 DEVICE = Place(
     "device_file",
-    "device.yaml",
-    "The first file of a description, device.yaml: what the device is, and what its parts are.",
+    "The head of device.yaml",
+    "What device.yaml starts with: what the device is, and which files its parts are. Parts may also follow below, "
+    "each after a line `---`.",
     [
         {
             "fieldscribe": 1,
@@ -26,18 +27,32 @@ DEVICE = Place(
     ],
     more=_PRIVATE,
 )
+GROUP = Place(
+    "group",
+    "A group, in a part",
+    "What the points of a part share, with its `points`: a part holds one group at most.",
+    [
+        {
+            "group": "standard_a",
+            "space": "holding",
+            "access": "rw",
+            "source": {"document": "manual", "section": "Gruppe A"},
+            "points": [],
+        }
+    ],
+    more=_PRIVATE,
+)
 PART = Place(
     "part_file",
     "A part",
-    "A file that device.yaml lists under `parts`: one group, or shared facts.",
+    "A document of a file that device.yaml lists under `parts`, or of device.yaml itself below `---`: one group (the "
+    "keys of the next table), shared facts, or both.",
     [
         {"group": "standard_a", "space": "holding", "points": []},
         {"enums": {"contact": {"0": "open", "1": "closed"}}},
     ],
     more=_PRIVATE,
-)
-GROUP = Place(
-    "group", "A group", "A group of points.", [{"group": "standard_a", "space": "holding", "points": []}], more=_PRIVATE
+    may_be=GROUP,
 )
 POINT = Place(
     "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
@@ -77,15 +92,6 @@ FORMAT = Place(
     "What a point means, to be shared by name.",
     [{"scale": "value = raw * 0.1", "unit": "%"}],
 )
-AT = Place(
-    "at",
-    "An address by rule, under `at`",
-    "The address on the wire; the words of a text in reading order (`739..732`); where addresses follow a rule, the "
-    "number with its sets and indices; ~ where the manual prints none.",
-    ["1028h", 4136, "739..732", {"number": 543, "sets": 4, "indices": 3}],
-    before=(Whole(), Text(200)),
-    after=(NOTHING,),
-)
 FIXED = Place(
     "fixed",
     "Fixed bits, under `fixed`",
@@ -100,6 +106,12 @@ DIGITS = Place(
     "The decimal digits of the word mean something each, the highest first: how many there are, and the names of their "
     "numbers.",
     [{"count": 4, "enum": "input_delay"}],
+)
+DISPLAY = Place(
+    "display",
+    "How a value is shown, under `display`",
+    "How a person should see a value. What is encoded, decoded and checked does not change.",
+    [{"decimals": 2}],
 )
 RECORD = Place(
     "record",
@@ -206,7 +218,7 @@ TELEGRAM = Place(
     "telegram",
     "A telegram",
     "A layout of words that is sent again and again.",
-    [{"name": "visualisation", "direction": "cyclic", "words": 69, "message": "visualisation"}],
+    [{"name": "visualisation", "direction": "cyclic", "length": 69, "message": "visualisation"}],
     more=_PRIVATE,
 )
 MESSAGE = Place(
@@ -254,7 +266,6 @@ ERRATUM = Place(
     more=_PRIVATE,
 )
 
-GROUPS = (PART, GROUP)
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
 """The point once more: only what differs."""
@@ -265,8 +276,8 @@ CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
 """What has a place in the manual beside points."""
 
 PLACES = (
-    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, AT, FIXED, DIGITS, RECORD, CASE, ENTRY),
-    *(SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
+    *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, DISPLAY, RECORD, CASE),
+    *(ENTRY, SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
     *(COMMAND, FRAME, ERRATUM),
 )
 """All that have a table of their own in KEYS.md, in its order."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.kinds import (
+    NOTHING,
     YES_NO,
     Items,
     Key,
@@ -15,10 +16,9 @@ from fieldscribe.kinds import (
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import (
     CITED,
+    DEVICE,
     FACTS,
-    FILES,
     GROUP,
-    GROUPS,
     MEMBER,
     POINT,
     POINTS,
@@ -42,7 +42,18 @@ WHICH = (
         NAMED,
         own=True,
     ),
-    Key("at", (POINT, SET, VARIANT, USE, MEMBER), places.AT.shape, own=True),
+    Key(
+        "at",
+        (POINT, SET, VARIANT, USE, MEMBER),
+        "The number on the wire; the words of a text in reading order (`739..732`); in a record counted from its "
+        "`base`; where the group has `addressing`, the number from which its rule starts; ~ where the manual prints "
+        "none.",
+        ["1028h", 4136, "739..732", "base + 6"],
+        Whole(),
+        Text(200),
+        NOTHING,
+        own=True,
+    ),
     Key(
         "members",
         (POINT, USE),
@@ -64,9 +75,39 @@ WHICH = (
     Key(
         "sets",
         POINT,
-        "The same point in further parameter sets, by number; the point itself is in set 1.",
-        [{"2": {"code": "A220", "at": "150Eh"}}],
+        "The parameter sets that the row stands for: a count from 1, or `0..3`, by the rule of the group; or further "
+        "sets by number, each with a row of its own. Each set named here gets `_set_N`; the point's own set is not "
+        "named, and keeps its name.",
+        [4, "0..3", {"2": {"code": "A220", "at": "150Eh"}}],
+        Whole(),
+        Text(40),
         by(forms.SET, SET.shape, least=1),
+        own=True,
+    ),
+    Key(
+        "indices",
+        POINT,
+        "The elements of the array that the row stands for: a count from 1, or `0..1`. Each gets `_index_N`.",
+        [3, "0..1"],
+        Whole(),
+        Text(40),
+        own=True,
+    ),
+    Key(
+        "set",
+        (POINT, VARIANT),
+        "The one set that the row stands for, without a suffix; beside `sets` with rows the point's own set, 1 unless "
+        "said.",
+        [2],
+        Whole(0, 999),
+        own=True,
+    ),
+    Key(
+        "index",
+        (POINT, SET, VARIANT),
+        "The one element of the array that the row stands for, without a suffix.",
+        [1],
+        Whole(0, 65535),
         own=True,
     ),
     Key(
@@ -85,8 +126,8 @@ WHICH = (
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
     Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1), own=True),
-    Key("title", (*FILES, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(places.DEVICE,), own=True),
-    Key("note", (*FILES, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
+    Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
+    Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key(
         "line",
         (*POINTS, USE, *_NAMED, places.BUS),
@@ -110,7 +151,7 @@ WHICH = (
 )
 """Which point it is, and where the manual says so."""
 
-_USED = (*GROUPS, *POINTS)
+_USED = (GROUP, *POINTS)
 _EVERYWHERE = (*_USED, USE)
 
 USING = (
@@ -120,17 +161,23 @@ USING = (
         "What a master may do: read, write, both, or nothing over this bus.",
         ["rw"],
         one_of("r", "w", "rw", "none"),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
         "keeps",
         _EVERYWHERE,
-        "Whether a written value survives power-off: no, yes (each write wears the memory), by the command of this "
-        "name, or as the caller chooses with each write (`choice`).",
+        "Whether a written value survives power-off: no, yes (each write wears the memory), or as the caller chooses "
+        "with each write (`choice`).",
+        ["yes"],
+        one_of("no", "yes", "choice"),
+        inherited=(GROUP, USE),
+    ),
+    Key(
+        "keep_with",
+        _EVERYWHERE,
+        "The command that makes a written value survive power-off, in place of `keeps`.",
         ["enter"],
-        Text(80),
-        needs=("group",),
+        NAMED,
         inherited=(GROUP, USE),
     ),
     Key(
@@ -139,7 +186,6 @@ USING = (
         "How often the value changes by itself, for polling and for run-time factors.",
         ["never"],
         one_of("never", "rarely", "always"),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -148,7 +194,6 @@ USING = (
         "What must hold for a write.",
         [["stopped"]],
         Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -157,7 +202,6 @@ USING = (
         "The point exists only if this holds; comparisons with and, or, not.",
         ["phases >= 2 and meter != none"],
         Text(500),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -166,7 +210,6 @@ USING = (
         "The first firmware that has it.",
         ["firmware 2.1.0"],
         Text(80),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -175,7 +218,6 @@ USING = (
         "The last firmware that has it.",
         ["firmware 3.7"],
         Text(80),
-        needs=("group",),
         inherited=(GROUP, USE),
     ),
     Key(
@@ -184,7 +226,6 @@ USING = (
         "The maker keeps this address to itself.",
         [True],
         YES_NO,
-        needs=("group",),
         inherited=(GROUP,),
     ),
 )

@@ -1,13 +1,13 @@
-"""The keys inside the facts of points: addresses by rule, enums, flags, special codes, what is printed and where."""
+"""The keys inside the facts of points: enums, flags, special codes, what is printed and where."""
 
 from __future__ import annotations
 
 from fieldscribe.kinds import NUMBER, YES_NO, Key, Place, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import (
-    AT,
     CASE,
     DIGITS,
+    DISPLAY,
     ENTRY,
     FLAG,
     LINES,
@@ -37,12 +37,15 @@ _CITED = (
 """The facts that `lines` can place."""
 
 KEYS = (
-    Key("number", AT, "The number of the parameter.", [543], Whole(), Text(64), required=True),
-    Key("sets", AT, "How many parameter sets there are: a count from 1, or `0..3`.", [4], Whole(), Text(40)),
-    Key("indices", AT, "How many elements the array has: a count from 1, or `0..1`.", [3, "0..1"], Whole(), Text(40)),
-    Key("set", AT, "This set alone.", [2], Whole(0, 999)),
-    Key("index", AT, "This element alone.", [1], Whole(0, 65535)),
     Key("count", DIGITS, "How many digits.", [4], Whole(1, 5), required=True),
+    Key(
+        "decimals",
+        DISPLAY,
+        "With how many decimals a value is shown, rounded to nearest, halves away from zero; zeros at its end stay.",
+        [2],
+        Whole(0, 12),
+        required=True,
+    ),
     Key("when", CASE, "A point compared with a constant.", ["unit_mode == 0"], Text(200), required=True),
     Key("rule", CASE, "The rule that then holds.", ["raw = value * 100"], Text(500), required=True),
     Key("quantity", ENTRY, "A quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),

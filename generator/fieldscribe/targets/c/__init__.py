@@ -1,4 +1,4 @@
-"""The C target: a header that stands alone for the points, one for the frames, and a conformance program."""
+"""The C target: a header of the points, a header of the frames, and a conformance program."""
 
 from __future__ import annotations
 

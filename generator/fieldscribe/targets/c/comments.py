@@ -1,4 +1,4 @@
-"""The comment above a point: what those who use the code must know, from names and numbers alone."""
+"""The comment above a point: what users of the code must know. It has names and numbers, no titles and notes."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from fieldscribe.wording import (
     codes_text,
     condition_text,
     default_text,
+    display_text,
     range_text,
     raw_range_text,
     resolution_text,
@@ -26,13 +27,13 @@ if TYPE_CHECKING:
 
 
 def comment_lines(point: Point, scope: HeaderScope, remark: str = "") -> tuple[str, ...]:
-    """Code, name, range, unit, step, access, space and default; what is rare; errata that change one of these."""
+    """Code, name, range, unit, step, access, space and default; rare facts; errata that changed one of these."""
     name = point.item.replace("_", " ")
     head = f"{point.code} {name}" if point.code else name
     words = c_comment(f"{head}: {'; '.join((*_facts(point, scope), *([remark] if remark else [])))}").split(" ")
-    one = f"/* {' '.join(words)} */"
-    if len(one) <= WIDTH:
-        return (one,)
+    single_line = f"/* {' '.join(words)} */"
+    if len(single_line) <= WIDTH:
+        return (single_line,)
     return ("/*", *filled(words, " ", " * "), " */")
 
 
@@ -41,8 +42,10 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield from filter(None, (_range(point), *_steps(point)))
     spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
     yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
-    if point.default is not None:
-        yield f"default {default_text(point)}"
+    if point.display is not None:
+        yield display_text(point)
+    if default := default_text(point):
+        yield f"default {default}"
     if point.when is not None:
         yield f"exists only when {condition_text(point.when, scope.points)}"
     yield from width_texts(point)
@@ -50,13 +53,13 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
         yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
-    errata = [one for one in point.errata if one in scope.errata]
+    errata = [erratum for erratum in point.errata if erratum in scope.errata]
     if errata:
         yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
 
 
 def _range(point: Point) -> str:
-    """Which values there are, in the unit; raw where only that can be said."""
+    """The range in the unit, or in raw numbers where values cannot be given."""
     if point.text is not None:
         return f"{point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
@@ -66,7 +69,7 @@ def _range(point: Point) -> str:
 
 
 def _steps(point: Point) -> Iterator[str]:
-    """What one count is, and what the device keeps where its steps are coarser."""
+    """The unit of one count, and the steps of the device where they are coarser."""
     if point.form != "scaled":
         return
     count = "" if point.decimals is None else with_unit(exact(1, 10**point.decimals), point)

@@ -1,4 +1,4 @@
-"""The functions of points that are numbers: check, encode and decode, each one expression over the cores."""
+"""The check, encode and decode functions of points that are numbers: each calls the cores in a single expression."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ INLINE = "static inline"
 
 
 def value_type(point: Point) -> str:
-    """The C type in which the value of an integer point is passed: wide enough to be out of range."""
+    """The C type in which an integer value is passed: wider than the point, so that it can be out of range."""
     if point.info.bits <= 16:
         return "int32_t"
     return "uint64_t" if point.type == "u64" else "int64_t"
 
 
 def is_rechecked(point: Point) -> bool:
-    """Whether a number between the outer limits may still not be written."""
+    """Whether a number between the outer limits may still be refused."""
     return len(point.allowed.intervals) > 1 or point.allowed.moves or fixes(point) or bool(point.specials)
 
 
@@ -58,10 +58,10 @@ class Writer:
         self.limits = (0, 0) if point.info.floating else point.outer
         self.reach = encoded_limits(point) if point.specials and not point.info.floating else self.limits
 
-    # ---- what all share
+    # ---- for points of every form
 
     def check(self) -> Function:
-        """May a raw number be written?"""
+        """The function that tells whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.scope))
         if self.point.allowed.moves and self.special is None:
@@ -73,7 +73,7 @@ class Writer:
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
     def _checked(self, number: str) -> str:
-        """The status of a raw number that follows from a value: a value is never a special code."""
+        """The status of writing a raw number that was computed from a value, which never means a special code."""
         status = f"{self.name}_check({number}{self.scope.passed(self.point.limit_arguments)})"
         if self.special is None or not self.special.written:
             return status
@@ -84,13 +84,13 @@ class Writer:
         return Function(function(STATUS, f"{self.name}_{tail}", parameters, *body), floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
-        """Keeps a number that may be written, where its value is inside."""
+        """A statement that stores `number` if `inside` holds and it may be written; else it returns `outside`."""
         status = self._checked(number) if is_rechecked(self.point) else "FIELDSCRIBE_OK"
         kept = f"fieldscribe_keep_{self.kind}({status}, {number}, raw)"
         return f"return {inside} ? {kept} : {outside};" if inside else f"return {kept};"
 
     def _whole(self, whole: str) -> tuple[str, ...]:
-        """Stores a whole number, looked at before where it may not be written."""
+        """Statements that store a whole number, with a check before where one is needed."""
         if not is_rechecked(self.point):
             return (f"return fieldscribe_store_{self.kind}({whole}, raw);",)
         number = cast(self.type, "whole.number").replace("(whole.number)", "whole.number")
@@ -99,7 +99,7 @@ class Writer:
         return f"const fieldscribe_whole whole = {whole};", store
 
     def _decode(self, tail: str, kind: str, number: str, *, floating: bool = False, fits: str = "") -> Function:
-        """Gives a number, or says why there is none."""
+        """A decode function; it returns a status if decoding can fail, else the number itself."""
         raw = f"{self.type} raw"
         if self.special is None and not fits:
             body = f"return {number};"
@@ -111,10 +111,10 @@ class Writer:
             keep = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {keep}" if self.special is not None else keep
         return Function(function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};"), floating)
 
-    # ---- a number that is its value
+    # ---- points whose raw number is the value
 
     def plain(self) -> Iterator[Function]:
-        """The raw number is the value."""
+        """The functions of a point whose raw number is the value."""
         point, kind = self.point, value_type(self.point)
         if point.writable:
             yield self.check()
@@ -139,10 +139,10 @@ class Writer:
     def _of_value(self, kind: str) -> str:
         return "(value != 0)" if self.type == "bool" else "value" if self.type == kind else f"({self.type})value"
 
-    # ---- a scale that is known
+    # ---- points with a constant scale
 
     def scaled(self) -> Iterator[Function]:
-        """A scale that is known at compile time."""
+        """The functions of a point whose scale is known at compile time."""
         point, scale = self.point, scaled(self.point, *self.reach)
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
@@ -165,7 +165,7 @@ class Writer:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
 
     def _outer(self) -> str:
-        """The limits of a whole number. Where a check follows, which knows them too, they are named."""
+        """The limits as two arguments: by their macros where a check follows, else as numbers."""
         named = is_rechecked(self.point) and self.reach == self.limits
         return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else ", ".join(map(bare, self.reach))
 
@@ -177,10 +177,10 @@ class Writer:
             return (f"return fieldscribe_round_{self.kind}({scale.steps}, {limits}, raw);",)
         return self._whole(f"fieldscribe_rounded{'_wide' if scale.wide else ''}({scale.steps}, {limits})")
 
-    # ---- a scale that other points decide
+    # ---- points whose scale depends on other points
 
     def ruled(self) -> Iterator[Function]:
-        """A scale that other points decide at run time."""
+        """The functions of a point whose scale depends on other points."""
         point, scope = self.point, self.scope
         if point.writable:
             yield self.check()
@@ -211,7 +211,7 @@ class Writer:
             yield self._by_rule("decode", "double *value", core, floating=True)
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
-        """The rule, in a function that has those arguments."""
+        """The call that gives the rule, in a function with these arguments."""
         name = rule_name(self.point, self.scope)
         self.scope.grouped = len(arguments) > 1
         passed = self.scope.passed(self.point.scale_arguments)
@@ -233,10 +233,10 @@ class Writer:
         parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
         return Function(function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};"), floating)
 
-    # ---- a pattern of floating point
+    # ---- points that are bit patterns of floating-point numbers
 
     def floating(self) -> Iterator[Function]:
-        """The raw number is the bit pattern of a floating-point number."""
+        """The functions of a point whose raw number is the bit pattern of a floating-point number."""
         point, bits = self.point, self.point.info.bits
         real = "fieldscribe_real" if bits == 32 else "double"
         if point.writable:
@@ -252,7 +252,7 @@ class Writer:
 
 
 def _spans(point: Point) -> str:
-    """Whether a pattern lies in one of the point's spans, in the order of the numbers."""
+    """The status of writing a bit pattern: whether its number lies in one of the point's intervals."""
     bits = point.info.bits
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]

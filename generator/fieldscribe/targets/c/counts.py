@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def linear(name: str, factor: int, add: int, cast: str) -> str:
-    """`name * factor + add`, without what does nothing."""
+    """`name * factor + add`, without a factor of 1 and an addend of 0."""
     start = f"({cast}){name}" if cast else name
     if factor == -1:
         start = f"-{start}"
@@ -36,22 +36,22 @@ def raw_of_count(plan: Plan) -> str:
     if add == 0:
         numbers = Numbers(*plan.counts, factor, divisor)
         narrow, wide = ("(int32_t)count", "count") if plan.count_wide else ("count", "(int64_t)count")
-        found = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
+        quotient = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
     else:
         numbers = _numerators(plan.counts, plan.to_raw)
-        found = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
-        found = found or _quotient(line, numbers, wide=True)
-    return found or f"fieldscribe_divide({line}, {divisor})"
+        quotient = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
+        quotient = quotient or _quotient(line, numbers, wide=True)
+    return quotient or f"fieldscribe_divide({line}, {divisor})"
 
 
 def _numerators(ends: tuple[int, int], line: Line) -> Numbers:
-    """What is divided for the arguments between two ends."""
+    """The numerators of the line's division, for the arguments between two ends."""
     low, high = sorted(end * line.factor + line.add for end in ends)
     return Numbers(low, high, 1, line.divisor)
 
 
 def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
-    """A number times num / den to the nearest integer without a division; empty where that is not proven."""
+    """An expression for number * num / den, rounded, without a division; empty if none is proven exact."""
     most = (INT64 if wide else INT32)[1]
     if numbers.size > most:
         return ""
@@ -61,15 +61,15 @@ def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
     tail, bits = "_wide" if wide else "", numbers.den.bit_length() - 1
     if numbers.den == 1 << bits and numbers.size * numbers.num + numbers.den <= most:
         return f"fieldscribe_halves{tail}({linear(number, numbers.num, 0, '')}, {bits}U)"
-    found = reciprocal(numbers, most)
-    if found is None:
+    factors = reciprocal(numbers, most)
+    if factors is None:
         return ""
-    much, little, fine, shift = found
+    much, little, fine, shift = factors
     return f"fieldscribe_nearly{tail}({number}, {much}, {little}, {fine}U, {shift}U)"
 
 
 def count_fits(plan: Plan) -> str:
-    """Whether the count of a raw number, which no range allows, needs no more than 64 bits."""
+    """A test whether the count of a raw number fits 64 bits; empty if all do. Numbers in the range always do."""
     if plan.beyond is None:
         return ""
     low, high = plan.beyond
@@ -79,7 +79,7 @@ def count_fits(plan: Plan) -> str:
 
 
 def count_of_raw(plan: Plan) -> tuple[str, bool]:
-    """The count of a raw number, and whether the expression has 64 bits."""
+    """The expression for the count of a raw number, and whether its type has 64 bits."""
     wide = plan.decode_wide
     if plan.to_raw.does_nothing:
         return "raw", wide

@@ -1,4 +1,4 @@
-"""The constants of a point: where it is, its limits and masks."""
+"""The macros of a point: its place, its limits and its masks."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
 
 
 def shares_values(point: Point) -> bool:
-    """Whether several flags have the same named numbers, which then belong to the point."""
+    """Whether several flags have the same named numbers: their macros are then named after the point."""
     wide = [tuple((entry.name, entry.raw) for entry in flag.values) for flag in point.flags if flag.width > 1]
     return len(wide) > 1 and len(set(wide)) == 1
 
@@ -60,7 +60,7 @@ def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
 
 
 def _raw_number(point: Point, macro: str) -> Iterator[Define]:
-    """What the words hold: characters, digits, or a number between the limits of what may be written."""
+    """The macros of the contents: the number of characters or digits, or the limits of the raw number."""
     if point.text is not None:
         yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
     elif point.digits is not None:
@@ -71,10 +71,12 @@ def _raw_number(point: Point, macro: str) -> Iterator[Define]:
         yield f"{macro}_RAW_MAX", signed(high)
     if point.form == "scaled" and point.decimals is not None:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
+    if point.display is not None:
+        yield f"{macro}_DISPLAY_DECIMALS", f"{point.display}"
 
 
 def _bits(point: Point, macro: str) -> Iterator[Define]:
-    """Where a bit group lies in its word, and which bits of the word are constant."""
+    """The macros of a bit group's place in its word, and of the constant bits of the word."""
     if point.fixed is not None:
         digits = 4 * point.words
         yield f"{macro}_FIXED_MASK", hexadecimal(point.fixed.mask, digits)
@@ -85,14 +87,14 @@ def _bits(point: Point, macro: str) -> Iterator[Define]:
 
 
 def _active_low(flag: Flag) -> bool:
-    """Whether the bit is 0 while what its name says is true."""
+    """Whether the bit is 0 while its name is true."""
     return flag.width == 1 and flag.active == 0
 
 
 def flag_defines(flag: Flag, point: Point, macro: str) -> list[Define]:
-    """The macros of a flag, and of its numbers where they are its own."""
+    """The macros of a flag, and of its named numbers unless they are named after the point."""
     name, ones = f"{macro}_{upper(flag.name)}", (1 << flag.width) - 1
-    remark = " /* true while 0 */" if _active_low(flag) else ""  # who sets the bit of OFF2 takes OFF2 away
+    remark = " /* true while 0 */" if _active_low(flag) else ""  # setting the bit of OFF2 ends OFF2
     defines = [(f"{name}_MASK", hexadecimal(ones << flag.low, point.info.bits // 4) + remark)]
     if flag.width > 1:
         defines.append((f"{name}_SHIFT", f"{flag.low}U"))

@@ -1,4 +1,4 @@
-"""What the C target asks of a bus family: one header for the frames, beside the runtime of the family."""
+"""What the C target asks of a bus family: the view of a header for the frames."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ if TYPE_CHECKING:
 
 
 class OfFamily(Protocol):
-    """What the part `targets.c` of a family offers; its template and runtime go by the family's name."""
+    """The part `targets.c` of a family. Its template and its runtime have the family's name."""
 
     NAMED_CODES: tuple[str, ...]
-    """The kinds of codes that a function names."""
+    """The kinds of codes for which a function gives the name."""
 
     def bus_view(self, device: Device, view: DeviceView, scope: HeaderScope) -> Any:
         """The view of the header of frames, `<family>.h.j2`."""
 
     def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
-        """Every identifier in that header by what it belongs to."""
+        """Every identifier in that header, with its owner."""
 
     def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:
-        """Macros with which points answer conformance vectors that only this family has, by their function."""
+        """Macros for the conformance vectors that only this family has, each with the function of its point."""
 
 
 def frames_of(device: Device) -> OfFamily:
-    """What is known of the frames of a device."""
+    """The part `targets.c` of the device's family."""
     offered: OfFamily = family(device.family).part("targets.c")
     return offered

@@ -1,4 +1,4 @@
-"""No line of generated C is longer than a screen: what is, goes on in the next line."""
+"""Folds long lines of generated C."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 MOST = 120
 _DEEPER = "    "
 _WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
-"""What may be met on the way along a line: a string, inside of which nothing may be broken, or a space."""
+"""A string, which must not be broken, or a space, where a line may be broken."""
 
 
 def folded(text: str) -> str:
@@ -16,7 +16,7 @@ def folded(text: str) -> str:
 
 
 def _parts(line: str) -> list[str]:
-    """One line as several, those behind the first further in."""
+    """One line broken into several; those after the first are indented."""
     directive = line.startswith("#")
     most = MOST - 2 if directive else MOST
     inside = " " * (len(line) - len(line.lstrip())) + _DEEPER
@@ -28,7 +28,7 @@ def _parts(line: str) -> list[str]:
 
 
 def _break(line: str, most: int) -> int:
-    """The last space up to there that is in no string, behind what the line starts with; 0 when there is none."""
+    """The last space up to `most` that is in no string and not in the line's indentation; 0 if there is none."""
     start = len(line) - len(line.lstrip())
-    spaces = [found.start() for found in _WHOLE.finditer(line, start) if found[0] == " "]
+    spaces = [match.start() for match in _WHOLE.finditer(line, start) if match[0] == " "]
     return max((at for at in spaces if at <= most), default=0)

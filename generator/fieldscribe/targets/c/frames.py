@@ -1,4 +1,4 @@
-"""What the headers of frames share: constant descriptors of points, and layouts, which many points have alike."""
+"""What the headers of all families share: constant descriptors of points, and layouts, which many points share."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ _KINDS = {"bool": "bit", **{f"{sign}int{bits}_t": f"{sign or 's'}{bits}" for sig
 
 @dataclass(frozen=True, slots=True)
 class Descriptor:
-    """A constant of one of the runtime's types; `parted` says that it takes two lines."""
+    """A constant of one of the runtime's types; `parted` says that it needs two lines."""
 
     type: str
     name: str
     value: str
     item: str = ""
-    """The point that it is of; empty for layouts and commands."""
+    """The point that it describes; empty for layouts and commands."""
     tail: str = ""
-    """What the name has behind that of the point."""
+    """The part of the name behind the name of the point."""
 
     @property
     def parted(self) -> bool:
@@ -43,30 +43,30 @@ class Descriptor:
 
 
 def kind_of(point: Point) -> str:
-    """The type of a point's raw number, as functions of the runtime end: `u16`."""
+    """The type of a point's raw number, as in the names of the runtime's functions: `u16`."""
     return _KINDS[raw_type(point)]
 
 
 def lies(point: Point) -> str:
-    """Whether a point shares its word, and its constant bits, as the vectors hold them against its layout."""
+    """Whether a point shares its word, and its constant bits: arguments with which conformance checks the layout."""
     fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
     return f"{'true' if shares(point) else 'false'}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
 
 
 def shares(point: Point) -> bool:
-    """Whether writing a point changes some bits of a word that it read before."""
+    """Whether writing the point needs to read its word first, because it has only some of its bits."""
     return point.bits is not None
 
 
 class Layouts:
-    """The layouts of a device, each once, by their names."""
+    """Collects the layouts of a device, each once, by name."""
 
     def __init__(self, scope: HeaderScope) -> None:
         self._prefix = scope.prefix
         self._known: dict[str, Descriptor] = {}
 
     def of(self, point: Point, high_first: Sequence[int]) -> str:
-        """A reference to the layout of a point, of whose words the high one stands at the first of the places."""
+        """A reference to the layout of a point; `high_first` has the places of its words, the high word's first."""
         kind, mask, low = kind_of(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
         fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
@@ -86,7 +86,7 @@ class Layouts:
 
 
 def places_of(point: Point) -> list[int]:
-    """The places of a point's words in the order of their addresses, the high word's first."""
+    """The places of a point's words among its addresses, the high word's first."""
     order = sorted(point.addresses)
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
@@ -94,29 +94,29 @@ def places_of(point: Point) -> list[int]:
 
 def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Iterator[Named]:
     """The identifiers of layouts, and of the descriptors of points."""
-    yield Owner("target", "the layouts of points in words"), [one.name for one in layouts]
-    for one in others:
-        yield Owner("point", one.item), (one.name,)
+    yield Owner("target", "the layouts of points in words"), [layout.name for layout in layouts]
+    for described in others:
+        yield Owner("point", described.item), (described.name,)
 
 
 def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: HeaderScope) -> tuple[AliasView, ...]:
-    """The descriptors of renamed points by the names that they had."""
+    """The descriptors of renamed points under their old names."""
     renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
     return tuple(
-        AliasView(old, item, one.item, f"{scope.prefix}_{item}{one.tail}", one.name, "OBJECT")
-        for one in descriptors
-        for old, item in renamed.get(one.item, ())
+        AliasView(old, item, descriptor.item, f"{scope.prefix}_{item}{descriptor.tail}", descriptor.name, "OBJECT")
+        for descriptor in descriptors
+        for old, item in renamed.get(descriptor.item, ())
     )
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
-    """The identifiers of old names, with the points that had them."""
-    for one in aliases:
-        yield Owner("old name", one.was, Owner("point", one.item)), (one.old,)
+    """The identifiers of old names, with their points."""
+    for alias in aliases:
+        yield Owner("old name", alias.was, Owner("point", alias.item)), (alias.old,)
 
 
 def _mask(point: Point) -> int:
-    """The bits of a word, or of several, that are the raw number."""
+    """The mask of the bits of one or several words that hold the raw number."""
     if point.bits is not None:
         high, low = point.bits
         return ((1 << (high - low + 1)) - 1) << low
@@ -126,7 +126,7 @@ def _mask(point: Point) -> int:
 
 
 def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
-    """What tells a layout from others of its type."""
+    """The part of a layout's name that tells it from others of its type."""
     parts = [f"order_{order.lower()}"] if point.words > 1 else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
@@ -145,7 +145,7 @@ def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, s
     )
 
 
-def names_of_exceptions(device: Device, made: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
+def names_of_exceptions(device: Device, defines: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
     """The enumerators of the codes with which a device refuses."""
-    for code, (name, _, _) in zip(device.bus.exceptions, made, strict=True):
+    for code, (name, _, _) in zip(device.bus.exceptions, defines, strict=True):
         yield Owner("exception", code.name), (name,)

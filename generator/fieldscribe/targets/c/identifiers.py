@@ -1,4 +1,4 @@
-"""All identifiers in the headers of a device, in the one namespace of C."""
+"""All identifiers in the headers of a device; C has only one namespace for them."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 _OWN = Owner("target", "what the header needs")
 
 _TYPES = ("status", "real")
-_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST")
+_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST", "DESCRIPTION")
 _HEADERS = frozenset(
     {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
     | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
 )
-"""Headers of C libraries, which one of the same name in a folder of `-I` hides."""
+"""Headers of C libraries: ours would hide one of the same name from compilers that get our folder by `-I`."""
 
 
 def device_name_taken(name: str) -> str:
-    """Why no header may have that name; empty where it may."""
+    """Why no header may have that name; empty if it may."""
     return f"would make a header `{name}.h`, which hides the one of the C library" if name in _HEADERS else ""
 
 
@@ -50,27 +50,27 @@ def _identifiers(device: Device) -> Iterator[Named]:
         yield Owner("telegram", telegram.name), (named.name, named.words_name)
     points = {point.item: point for point in device.points}
     for group in view.groups:
-        for made, remark in group.entries:
-            if made is None:
+        for shown, remark in group.entries:
+            if shown is None:
                 yield Owner("point", remark.item), [name for name, _ in remark.defines]
             else:
-                yield from _of_point(made, points[made.item], view)
+                yield from _of_point(shown, points[shown.item], view)
     yield from old_names_of(view.aliases)
     frames = frames_of(device)
     yield from frames.identifiers(device, frames.bus_view(device, view, scope), scope)
 
 
-def _of_point(made: PointView, point: Point, device: DeviceView) -> Iterator[Named]:
+def _of_point(shown: PointView, point: Point, device: DeviceView) -> Iterator[Named]:
     owner = Owner("point", point.item)
-    names = [*(name for name, _ in made.defines), *function_names(made), *(table.name for table in made.tables)]
-    parts = list(_of_parts(made, point, owner)) if point.flags or point.specials else []
-    for _, own in parts:
-        for name in own:
-            names.remove(name)  # once: what the point has beside of the same name is a clash
-    yield owner, [*names, f"{made.function}_with"] if made.fields else names
+    names = [*(name for name, _ in shown.defines), *function_names(shown), *(table.name for table in shown.tables)]
+    parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
+    for _, names_of_part in parts:
+        for name in names_of_part:
+            names.remove(name)  # only once: another use of the name in the same point is a clash
+    yield owner, [*names, f"{shown.function}_with"] if shown.fields else names
     yield from parts
-    if made.special is not None and made.special.codes is not None and point.shared_codes:
-        codes, shared = made.special.codes, Owner("special codes", point.shared_codes)
+    if shown.special is not None and shown.special.codes is not None and point.shared_codes:
+        codes, shared = shown.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
         for special in point.specials:
             yield (
@@ -78,20 +78,23 @@ def _of_point(made: PointView, point: Point, device: DeviceView) -> Iterator[Nam
                 _code_names(special, f"{device.upper}_{shared.name.upper()}", point),
             )
     enum = named_numbers(point)
-    if made.enum is not None and enum is not None:
+    if shown.enum is not None and enum is not None:
         whole = Owner("enum", enum.name)
-        yield whole, (made.enum.function, made.enum.table)
-        for entry, (name, _, _) in zip(enum.entries, made.enum.entries, strict=True):
+        yield whole, (shown.enum.function, shown.enum.table)
+        for entry, (name, _, _) in zip(enum.entries, shown.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)
 
 
-def _of_parts(made: PointView, point: Point, owner: Owner) -> Iterator[Named]:
-    """What a point has for its flags, and for special codes of its own."""
+def _of_parts(shown: PointView, point: Point, owner: Owner) -> Iterator[Named]:
+    """The identifiers for the point's flags, and for special codes of its own."""
     for flag in point.flags:
-        own = [name for name, _ in flag_defines(flag, point, made.macro)]
-        yield Owner("flag", flag.name, owner), [*own, f"{made.function}_{flag.name}"] if flag.width > 1 else own
+        defines = [name for name, _ in flag_defines(flag, point, shown.macro)]
+        yield (
+            Owner("flag", flag.name, owner),
+            [*defines, f"{shown.function}_{flag.name}"] if flag.width > 1 else defines,
+        )
     for special in () if point.shared_codes else point.specials:
-        yield Owner("code", special.name, owner), _code_names(special, made.macro, point)
+        yield Owner("code", special.name, owner), _code_names(special, shown.macro, point)
 
 
 def _code_names(special: Special, macro: str, point: Point) -> list[str]:

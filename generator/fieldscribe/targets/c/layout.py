@@ -1,4 +1,4 @@
-"""How a function of a header is laid out: on one line, else on two, else in lines that are not too long."""
+"""The layout of functions in headers: on one line if it fits, else on two, else on as many as needed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ WIDTH = 120
 """No line is longer."""
 
 _LAST = 100
-"""Behind a bracket a line is broken only where nothing else is left."""
+"""Added to the depth of a break behind an opening bracket, so that it is the last choice."""
 
 
 def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
@@ -31,7 +31,7 @@ def function(head: str, name: str, parameters: Sequence[str], *statements: str) 
 
 
 def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> list[str]:
-    """The parts in as few lines as hold them; each line but the last ends as `between` does."""
+    """The parts in as few lines as possible; every line but the last ends with the separator."""
     lines: list[str] = []
     for part in parts:
         if lines and len(lines[-1]) + len(between) + len(part) + len(end) <= WIDTH:
@@ -44,7 +44,7 @@ def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> li
 
 
 def wrapped(statement: str, indent: str) -> list[str]:
-    """A statement in lines that are not too long, broken where the brackets are least deep."""
+    """A statement in lines that are not too long, broken at the least depth of brackets."""
     if len(indent) + len(statement) <= WIDTH:
         return [indent + statement]
     places = list(_places(statement))
@@ -58,7 +58,7 @@ def wrapped(statement: str, indent: str) -> list[str]:
 
 
 def _places(statement: str) -> Iterable[tuple[int, int]]:
-    """How deep in brackets a line may be broken, and where: behind a comma or a bracket, or before an operator."""
+    """The possible breaks with their depth in brackets: behind a comma or a bracket, or before an operator."""
     depth, quoted = 0, False
     for at, character in enumerate(statement):
         quoted ^= character == '"'

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scope import HeaderScope
 
 _TABLE = 3
-"""So many ranges stand in a table; fewer are a test."""
+"""From so many ranges on a table is used; fewer are tested one by one."""
 
 
 def known(point: Point, status: str) -> str:
-    """What a number outside is called: a closed enum has unknown values, all else a range."""
+    """The status expression, changed so that a closed enum reports an unknown value for a refused number."""
     closed = point.enum is not None and point.enum.closed
     return f"fieldscribe_known({status})" if closed and status != "FIELDSCRIBE_OK" else status
 
@@ -50,7 +50,7 @@ def checked(point: Point, name: str, low: int, high: int) -> str:
 def _status(point: Point, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
-        parts = [_between(one, point, scope) for one in intervals]
+        parts = [_between(interval, point, scope) for interval in intervals]
         status = parts[-1]
         for part in reversed(parts[:-1]):
             status = f"fieldscribe_either({part}, {status})"
@@ -77,7 +77,7 @@ def ranges_table(point: Point, scope: HeaderScope) -> str:
 
 
 def _bounds_without_codes(point: Point) -> tuple[int, int]:
-    """The ends of the raw numbers that are left when the special codes, which are answered first, are gone."""
+    """The least and greatest raw number without special codes at the ends, which are tested first."""
     low, high = point.held
     for code in sorted(point.specials, key=lambda code: code.low):
         low = code.high + 1 if code.low <= low <= code.high else low
@@ -87,8 +87,8 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
-    """Whether a number lies in an interval whose limits other points may set."""
-    ends = [_end(one, scope, is_low=one is interval.low) for one in (interval.low, interval.high)]
+    """A test whether the number lies in an interval; its limits may depend on other points."""
+    ends = [_end(end, scope, is_low=end is interval.low) for end in (interval.low, interval.high)]
     return f"fieldscribe_between({_number(point)}, {', '.join(ends)})"
 
 
@@ -99,12 +99,12 @@ def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
 
 
 def _number(point: Point) -> str:
-    """The raw number as the signed type that limits have: what lies beyond that is beyond all of them."""
+    """The raw number in the signed type of limits; larger numbers become its greatest, which no limit exceeds."""
     return "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
 
 def interval_test(name: str, low: int, high: int, bounds: tuple[int, int], literal: Callable[[int], str]) -> str:
-    """One interval as a test; empty when the type holds nothing else. Comparisons that are always true are left out."""
+    """A test of one interval, without comparisons that are always true; empty if all of the type is inside."""
     if low == high:
         return f"({name} == {literal(low)})"
     parts = [f"({name} >= {literal(low)})"] if low > bounds[0] else []
@@ -121,5 +121,5 @@ def any_of(tests: list[str]) -> str:
 
 
 def bracketed(test: str) -> str:
-    """A test in brackets, as what stands before a question mark is."""
+    """A test in brackets if it needs them in front of a question mark."""
     return test if test.startswith("(") and " && " not in test and " || " not in test else f"({test})"

@@ -1,4 +1,4 @@
-"""C literals and types: how a number is written so that its type is right on every machine, also with a 16-bit int."""
+"""C literals and types. Numbers are written so that their type is right on every machine, also with 16-bit int."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
 
 VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
-"""What the types that values and counts are passed in can hold."""
+"""The bounds of the types in which values and counts are passed."""
 
 _RAW_TYPES = {
     "bit": "bool",
@@ -39,7 +39,7 @@ def raw_type(point: Point) -> str:
 
 
 def raw_kind(point: Point) -> str:
-    """The same as the cores of the runtime end: `u16`."""
+    """The type of a point's raw number, as in the names of the runtime's cores: `u16`."""
     return _KINDS[_RAW_TYPES[point.type]]
 
 
@@ -49,7 +49,7 @@ def cast(kind: str, number: str) -> str:
 
 
 def sign_and_size(point: Point) -> tuple[str, str]:
-    """Whether the variable `raw` of a point is negative, and its magnitude."""
+    """Two expressions: whether `raw` is negative, and its magnitude."""
     if not point.info.signed:
         return "false", "raw"
     return "raw < 0", "fieldscribe_magnitude(raw)"
@@ -67,7 +67,7 @@ def signed(number: int) -> str:
 
 @lru_cache(maxsize=65536)
 def bare(number: int) -> str:
-    """The same for one side of a comparison, where a minus needs no brackets."""
+    """A number as a signed constant without brackets, for comparisons and arguments."""
     return str(number) if INT64[0] < number <= INT64[1] else signed(number)
 
 
@@ -84,7 +84,7 @@ def hexadecimal(number: int, digits: int = 4) -> str:
 
 
 def float_order(value: float, bits: int) -> int:
-    """Where the binary32 or binary64 nearest to a value stands in the order of the patterns; 0 is 0, also for -0."""
+    """The rank of the nearest binary32 or binary64 among all numbers of its type; 0 and -0 have rank 0."""
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     try:
         size = min(pattern_of(abs(value), bits), infinity - 1)

@@ -1,4 +1,4 @@
-"""How a raw number lies in the words on the wire."""
+"""The functions between a raw number and the words on the wire."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def has_words(point: Point) -> bool:
-    """Whether raw is converted to words: not for a text, nor where one word is the raw number or holds several."""
+    """Whether the point has word functions: not a text, not a bit group, not a point whose word is the raw number."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
     return point.text is None and point.bits is None and not plain
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
-    """Conversions between raw and words of its own."""
+    """The functions between a raw number and its own words."""
     kind, info = raw_type(point), point.info
     if point.words == 1:
         mask, sign = ("words[0]", "0x8000U") if info.bits == 16 else ("words[0] & 0xFFU", "0x80U")
@@ -42,14 +42,14 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
 
 
 def _high_first(point: Point) -> list[int]:
-    """The places of the words in the order of their addresses, that of the high word first."""
-    order = sorted(point.addresses) if point.addresses else []
+    """The places of the words among the addresses, that of the high word first."""
+    order = sorted(point.addresses)
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
 def bits_functions(point: Point, name: str) -> Iterator[Function]:
-    """Conversions between raw and the word it shares."""
+    """The functions between a raw number and the word that it shares."""
     assert point.bits is not None
     kind, low = raw_type(point), point.bits[1]
     place = f"{hexadecimal(group_mask(point))}, {low}U"
@@ -70,18 +70,18 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
 
 
 def _constant_bits(point: Point) -> str:
-    """The mask of the constant bits, and what they are."""
+    """The mask of the constant bits, and their values."""
     assert point.fixed is not None
     return f"{hexadecimal(point.fixed.mask)}, {hexadecimal(point.fixed.bits)}"
 
 
 def fixes(point: Point) -> bool:
-    """Whether encoding puts constant bits into the raw number; for a bit group its insertion does."""
+    """Whether encoding sets the constant bits of the word; for a bit group, insertion sets them."""
     return point.fixed is not None and point.bits is None
 
 
 def fixed_number(point: Point, _macro: str, _scope: HeaderScope, name: str) -> str:
-    """The number `name` of the point's raw type with the constant bits of its word put in."""
+    """An expression for the number `name` with the constant bits of the word set, in the point's raw type."""
     info = point.info
     width = max(16, info.bits)
     fixed = f"fieldscribe_fix{width if width > 16 else ''}((uint{width}_t){name}, {_constant_bits(point)})"

@@ -45,7 +45,7 @@ def point_view(point: Point, scope: HeaderScope) -> PointView:
         defines=tuple(defines(point, macro, scope)),
         enum=_enum_view(enum, point, scope) if enum is not None else None,
         tables=tables,
-        fields=tuple((raw_type(scope.points[one]), f"{one}_raw") for one in arguments),
+        fields=tuple((raw_type(scope.points[argument]), f"{argument}_raw") for argument in arguments),
         shape=shape,
         raw_type=raw_type(point),
         counts=point.decimals is not None,
@@ -59,13 +59,13 @@ def point_view(point: Point, scope: HeaderScope) -> PointView:
         words=has_words(point),
         bits=point.bits is not None,
         flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
-        functions=tuple(one.text for one in functions if not one.floating),
-        floats=tuple(one.text for one in functions if one.floating),
+        functions=tuple(function.text for function in functions if not function.floating),
+        floats=tuple(function.text for function in functions if function.floating),
     )
 
 
 def computes_in_double(point: Point) -> bool:
-    """Whether a value of the point is a double, also where others are float."""
+    """Whether the value is a double even where values are float by choice."""
     if point.form == "float":
         return point.info.bits == 64
     if point.form != "scaled":
@@ -80,7 +80,7 @@ def named_numbers(point: Point) -> Enum | None:
 
 
 def shape_of(point: Point) -> str:
-    """The shape of the point's functions."""
+    """The form of the point's functions: `plain`, `scaled`, `ruled`, `float`, `text` or `digits`."""
     form = point.form
     if form == "scaled":
         return "ruled" if point.scale_arguments else form
@@ -117,7 +117,7 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
 
 
 def _enum_view(enum: Enum, point: Point, scope: HeaderScope) -> EnumView | None:
-    """The enumerators, at the first point that has them."""
+    """The enumerators, at the first point that uses the enum; else None."""
     if enum.name in scope.enums:
         return None
     scope.enums.add(enum.name)
@@ -146,7 +146,7 @@ _TABLES = {"dense": "char *const", "sparse": "fieldscribe_name", "wide": "fields
 
 
 def _form_of(named: Mapping[int, tuple[str, str]], *, digits: bool) -> str:
-    """How names are looked up: by their place where the numbers count from 0, else (and of digits) beside them."""
+    """The form of the table of names: `dense` if the numbers count from 0, else `sparse` or `wide` with the numbers."""
     if not digits and sorted(named) == list(range(len(named))):
         return "dense"
     return "sparse" if all(-(1 << 31) <= raw < 1 << 31 for raw in named) else "wide"
@@ -174,7 +174,7 @@ def _lookup(name: str, table: str, kind: str, form: str) -> str:
 
 
 def _flag_function(flag: Flag, point: Point, name: str) -> Function:
-    """The number of several bits inside the raw number."""
+    """The function that takes a flag of several bits out of the raw number."""
     bits = point.info.bits
     kind, wide = f"uint{bits}_t", "_wide" if bits > 16 else ""
     raw = f"(uint{max(16, bits)}_t)raw" if point.info.signed else "raw"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Reciprocal(NamedTuple):
-    """The nearest integer to number * ratio, halves away from zero: number * (much + little / 2^fine) / 2^bits."""
+    """Computes number * ratio, rounded to nearest, as number * (much + little / 2^fine) / 2^bits."""
 
     much: int
     little: int
@@ -16,7 +16,7 @@ class Reciprocal(NamedTuple):
 
 
 class Numbers(NamedTuple):
-    """All numbers from low to high, each times num / den, of which num and den are above 0."""
+    """The numbers from low to high, to be multiplied by num / den; num and den are positive."""
 
     low: int
     high: int
@@ -25,46 +25,46 @@ class Numbers(NamedTuple):
 
     @property
     def size(self) -> int:
-        """No number is larger in size."""
+        """The greatest magnitude of the numbers."""
         return max(abs(self.low), abs(self.high), 1)
 
 
 @lru_cache(maxsize=4096)
 def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
-    """The smallest one that is exact for all numbers; None where no intermediate up to `most` suffices."""
+    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`."""
     for bits in range(1, most.bit_length()):
         much = (numbers.num << bits) // numbers.den
         if numbers.size * (much + 1) + (1 << bits) > most:
             return None
-        found = _finest(numbers, most, bits)
-        if found is not None:
-            return found
+        finest = _finest(numbers, most, bits)
+        if finest is not None:
+            return finest
     return None
 
 
 def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
-    """The one with that many bits and the fewest `fine` bits, if any."""
+    """The exact reciprocal with that many bits and the fewest `fine` bits, if there is one."""
     much, rest = divmod(numbers.num << bits, numbers.den)
     for fine in range(most.bit_length()):
         little = -(-(rest << fine) // numbers.den)
         if numbers.size * little > most:
             return None
-        one = Reciprocal(much, little, fine, bits)
-        if _is_exact(one, numbers):
-            return one
+        candidate = Reciprocal(much, little, fine, bits)
+        if _is_exact(candidate, numbers):
+            return candidate
     return None
 
 
-def _is_exact(one: Reciprocal, numbers: Numbers) -> bool:
-    """Whether no number is rounded to another integer than its exact quotient.
+def _is_exact(reciprocal: Reciprocal, numbers: Numbers) -> bool:
+    """Whether every number gives the same integer as its exact quotient rounded.
 
-    The factor is too large by `error` / (den * 2^shift). A quotient and a half is a multiple of 1 / (2 * den), or of
-    1 / den where that is even: an error below that never reaches the next integer from below, and one up to it leaves
-    negative numbers above the integer before. Halves, which an even divisor alone has, need an error where they are
-    negative: they round away from zero.
+    The factor is too large by `error` / (den * 2^shift). The distance of a quotient from the next half is a multiple of
+    1 / (2 * den), or of 1 / den if den is even. So a positive number is right if its error is less than that distance,
+    a negative one if it is at most that. Exact halves occur only if den is even; negative ones need some error, because
+    they round away from zero.
     """
-    shift, even = one.bits + one.fine, numbers.den % 2 == 0
-    error = ((one.much << one.fine) + one.little) * numbers.den - (numbers.num << shift)
+    shift, even = reciprocal.bits + reciprocal.fine, numbers.den % 2 == 0
+    error = ((reciprocal.much << reciprocal.fine) + reciprocal.little) * numbers.den - (numbers.num << shift)
     if numbers.low < 0 and even and error == 0:
         return False
     parts = 1 if even else 2

@@ -21,7 +21,7 @@ def rule_name(point: Point, scope: HeaderScope) -> str:
 
 
 def rule_of(point: Point, scope: HeaderScope) -> str:
-    """The rule of a point, case by case, as what other points hold makes it."""
+    """The expression for the rule of a point: its cases, by the raw numbers of other points."""
     rules, depth = "", 0
     for case in point.scale or ():
         lowered = scope.lowered.rule(case.rule)
@@ -37,7 +37,7 @@ def rule_of(point: Point, scope: HeaderScope) -> str:
 
 
 def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
-    """A limit that other points set; the outer one stands where one of them holds a code that is no quantity."""
+    """A limit that depends on other points; while one of them holds a code that lifts it, the outer limit."""
     start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
     text = _bare_limit(rule, scope)
     if not _fits(rule) or not _stays_inside(rule, start, is_low=is_low):
@@ -58,10 +58,10 @@ def _bare_limit(rule: Rule, scope: HeaderScope) -> str:
 
 
 def _stays_inside(rule: Rule, outermost: int, *, is_low: bool) -> bool:
-    """Whether a computed limit is never beyond the outermost one, whatever the arguments hold.
+    """Whether a computed limit can never lie beyond the outermost limit, so that no test is needed.
 
-    Where nothing is negative, the limit is at least 0, and at most what the largest arguments give; rounded, that is no
-    more than the outermost limit if it lies less than a half above it. What is divided by may be as small as it likes.
+    If nothing is negative, the limit is at least 0, and at most what the largest arguments give. Rounded, that does not
+    exceed the outermost limit if it lies less than a half above it. Divisors may be so small that no upper bound holds.
     """
     if min(rule.ratio, rule.offset) < 0 or any(operand.ends[0] < 0 for operand in rule.operands):
         return False
@@ -82,7 +82,7 @@ def _is_no_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
 
 
 def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
-    """The steps of a rule. A scale takes no factor of zero, a limit only none to divide by."""
+    """The expression that builds a rule step by step. A scale refuses every zero factor, a limit only zero divisors."""
     ratio, offset = rule.ratio, rule.offset
     numbers = (ratio.numerator, ratio.denominator, offset.numerator, offset.denominator)
     text = f"fieldscribe_rule_of({', '.join(map(bare, numbers))})"
@@ -92,7 +92,7 @@ def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
 
 
 def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
-    """A rule with one more factor."""
+    """The rule with another factor."""
     number, raw = _number(operand, scope), scope.raw(operand.point)
     if operand.floating:
         return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
@@ -106,7 +106,7 @@ def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) ->
 
 
 def _codes(rule: Rule, scope: HeaderScope) -> str:
-    """Whether what is no quantity stands for a factor."""
+    """A test whether some factor's point holds a special code; empty if none can."""
     tests = [_is_code(name, *band, scope) for name, band in rule.coded]
     return f"({' || '.join(f'({test})' if ' && ' in test else test for test in tests)})" if tests else ""
 
@@ -120,25 +120,24 @@ def _is_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
 
 
 def _fits(rule: Rule) -> bool:
-    """Whether a limit is one number over another, both of which 64 bits hold whatever the arguments are.
+    """Whether a limit can be computed as a quotient of two integers that always fit 64 bits.
 
     The limit is (num * tops * part + lift * den * bottoms) / (den * bottoms * part), of the ratio num / den and the
     offset lift / part, where tops and bottoms are the products of the arguments that multiply and divide. The first sum
     below is no less than either side in size: each argument counts with its largest size, at least 1, so that no
-    product on the way is larger than the whole; and bottom * (lift + 1) holds the lift and the divisor with the half
-    that rounding adds. A divisor that may be negative would turn the sign of the number, and ten to something is no
-    product.
+    intermediate product is larger than the whole; and bottom * (lift + 1) covers the lift and the divisor with the half
+    that rounding adds. Rules with a divisor that may be negative, or with a power of ten, are not computed this way.
     """
     if any(operand.floating or operand.ten_to or (operand.over and operand.ends[0] < 0) for operand in rule.operands):
         return False
     part, lift = rule.offset.denominator, abs(rule.offset.numerator)
-    top = abs(rule.ratio.numerator) * part * prod(one.largest for one in rule.operands if not one.over)
-    bottom = rule.ratio.denominator * part * prod(one.largest for one in rule.operands if one.over)
+    top = abs(rule.ratio.numerator) * part * prod(operand.largest for operand in rule.operands if not operand.over)
+    bottom = rule.ratio.denominator * part * prod(operand.largest for operand in rule.operands if operand.over)
     return top + bottom * (lift + 1) <= INT64[1]
 
 
 def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
-    """A limit as a number and its divisor."""
+    """The expressions for the numerator and the divisor of a limit."""
     part = rule.offset.denominator
     tops = [_number(operand, scope) for operand in rule.operands if not operand.over]
     bottoms = [_number(operand, scope) for operand in rule.operands if operand.over]
@@ -151,7 +150,7 @@ def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
 
 
 def _product(constant: int, names: list[str]) -> str:
-    """A product without factors of one."""
+    """A product, without a constant of 1."""
     parts = list(names)
     if constant != 1 or not parts:
         parts.append(bare(constant) if not parts else signed(constant))
@@ -159,7 +158,7 @@ def _product(constant: int, names: list[str]) -> str:
 
 
 def _number(operand: Operand, scope: HeaderScope) -> str:
-    """Raw * slope + intercept of a factor, in brackets where it is more than a name."""
+    """The expression raw * slope + intercept of a factor, in brackets unless it is just a name."""
     text = f"(int64_t){scope.raw(operand.point)}"
     if operand.slope != 1:
         text = f"({text} * {signed(operand.slope)})"

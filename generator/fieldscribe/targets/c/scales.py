@@ -28,9 +28,9 @@ _EXACT = 1 << 53
 class Scaled:
     """The expressions of a scale: `raw_of_count` of `count`, `whole` of `value`, the others of `raw`.
 
-    `count_inside` tests whether a count is one of a raw number that may be written, `count_fits` whether a raw number
-    has a count; both are empty where all do. `direct` says that a count is its raw number, `factor` is what a value is
-    multiplied with where nothing else is done.
+    `count_inside` tests whether the raw number of a count may be written, `count_fits` whether a raw number has one.
+    Both are empty if that is always so. `direct` says that a count equals its raw number. `factor` is the factor of a
+    rule that only multiplies, else empty.
     """
 
     count_type: str
@@ -72,7 +72,7 @@ def scaled(point: Point, low: int, high: int) -> Scaled:
 
 
 def _count(plan: Plan, kind: str) -> str:
-    """The count of a raw number in its type."""
+    """The count of a raw number, cast to its type where C needs that."""
     number, wide = count_of_raw(plan)
     becomes = plan.raws[1] <= INT64[1] and (kind == "int64_t" or not wide)
     return number if becomes else cast(kind, number)
@@ -84,7 +84,7 @@ def is_double(point: Point, low: int, high: int) -> bool:
 
 
 def _steps(rule: Linear, *, wide: bool) -> str:
-    """The value in raw steps, before rounding: times, divided by, plus, each rounded by itself."""
+    """The unrounded raw number of a value: times, divided by, plus; each step is rounded to floating point."""
     kind, tail = ("double", "_wide") if wide else ("fieldscribe_real", "")
     text = "value"
     if rule.ratio.numerator != 1:
@@ -100,7 +100,7 @@ def _steps(rule: Linear, *, wide: bool) -> str:
 
 
 def _constant(number: int) -> str:
-    """An integer as the double that is nearest to it, where none is equal."""
+    """An integer as a constant; beyond 2^53 as the nearest double."""
     return bare(number) if abs(number) <= _EXACT else f"{number}.0"
 
 
@@ -114,7 +114,7 @@ def _value_of_raw(plan: Plan, point: Point, *, wide: bool) -> str:
 
 
 def _long_quotient(plan: Plan, point: Point) -> str:
-    """(raw * factor + add) / divisor to the nearest double, where a double does not hold the numerator."""
+    """(raw * factor + add) / divisor rounded to the nearest double, for numerators that exceed 53 bits."""
     factor, add, divisor = plan.to_value
     below, size = sign_and_size(point)
     above = "raw >= 0" if point.info.signed else "true"

@@ -1,4 +1,4 @@
-"""What the view of one device shares while it is built: prefixes, points by name, what is placed already."""
+"""What the parts of a device's view share while it is built: prefixes, points by name, what was emitted already."""
 
 from __future__ import annotations
 
@@ -18,13 +18,12 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class HeaderScope:
-    """The namespace of one device.
+    """The state while the header of a device is built.
 
-    `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits,
-    `spaces` the space of each group whose points have all the same one.
-    `enums` and `codes` are the names of those already placed, `tables` the names of tables by what is in them.
-    `names_only` says that nobody will see the comments and functions of points, which take most of the time. `grouped`
-    says that the function which is being written gets the raw numbers of other points in a struct.
+    `errata` are the ids of errata that change a fact, `digits` the names of enums of decimal digits, `spaces` the space
+    of each group whose points all have the same. `enums` and `codes` are the names of those that were emitted already,
+    `tables` the names of tables by their contents. `names_only` leaves out comments and functions, which take most of
+    the time. `grouped` says that the function being written gets the raw numbers of other points in a struct.
     """
 
     prefix: str
@@ -49,18 +48,18 @@ class HeaderScope:
         return self.tables.setdefault(("with", point.arguments), f"{self.prefix}_{point.item}_with")
 
     def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
-        """Parameters for the raw numbers of other points: one alone, several in a struct whose fields have names."""
+        """The parameter for the raw numbers of other points: a number, or a struct if there are several."""
         self.grouped = len(names) > 1
         if self.grouped:
             return [f"const {self.struct(point)} *with"]
         return [f"{raw_type(self.points[name])} {name}_raw" for name in names]
 
     def raw(self, name: str) -> str:
-        """The raw number of another point, in the function that is being written."""
+        """The expression for the raw number of another point, in the function being written."""
         return f"with->{name}_raw" if self.grouped else f"{name}_raw"
 
     def passed(self, names: tuple[str, ...]) -> str:
-        """The same as further arguments of a call: `, lower_limit_raw`, or `, with`."""
+        """The further arguments that pass these raw numbers on: `, lower_limit_raw`, or `, with`."""
         if len(names) > 1:
             return ", with"
         return "".join(f", {self.raw(name)}" for name in names)
@@ -68,13 +67,13 @@ class HeaderScope:
 
 def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:
     """A fresh scope for a device."""
-    digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
-    known = frozenset(one.id for one in device.errata if one.facts)
+    digits = frozenset(point.digits.enum.name for point in device.points if point.digits is not None)
+    known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
     return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
 
 
 def _spaces(device: Device) -> dict[str, str | None]:
-    """The space of each group; None where its points have several."""
+    """The space of each group; None if its points have different ones."""
     spaces: dict[str, str | None] = {}
     for point in device.points:
         if spaces.setdefault(point.group, point.space) != point.space:

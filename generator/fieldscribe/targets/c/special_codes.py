@@ -1,4 +1,4 @@
-"""Special codes in C: constants and three functions for each set of codes, and what the points that have it ask."""
+"""Special codes in C: macros and three functions for each set of codes, and their use in the functions of points."""
 
 from __future__ import annotations
 
@@ -20,39 +20,40 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.views import Define
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
-"""What stands behind the name of a point, or of what its codes are shared by."""
+"""The ends of the functions' names, behind the name of the point or of the shared codes."""
 
 
 def special_view(point: Point, scope: HeaderScope) -> SpecialView | None:
-    """What the functions of a point ask about its special codes; None where it has none."""
+    """What the functions of a point need for its special codes; None if it has none."""
     if not point.specials:
         return None
-    own, name = f"{scope.prefix}_{point.item}", f"{scope.prefix}_{owner(point)}"
+    own_prefix, name = f"{scope.prefix}_{point.item}", f"{scope.prefix}_{owner(point)}"
     return SpecialView(
         codes=_codes(point, name, scope),
         test=f"{name}_is_special",
-        written=any(one.writable for one in point.specials),
-        aliases=tuple((own + tail, name + tail) for tail in FUNCTIONS) if own != name else (),
+        written=any(special.writable for special in point.specials),
+        aliases=tuple((own_prefix + tail, name + tail) for tail in FUNCTIONS) if own_prefix != name else (),
     )
 
 
 def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
-    """A check, with special codes in front: those that may be written pass, no other does."""
+    """A check with the special codes tested first: writable ones pass, others are refused."""
     if special is None:
         return check
     check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
     if not special.written:
         return check
-    return f"{bracketed(_test(point, (one for one in point.specials if one.writable)))} ? FIELDSCRIBE_OK : ({check})"
+    writable = bracketed(_test(point, (code for code in point.specials if code.writable)))
+    return f"{writable} ? FIELDSCRIBE_OK : ({check})"
 
 
 def no_code(special: SpecialView | None) -> str:
-    """The status of decoding: special codes are no quantities."""
+    """The status of decoding a raw number: whether it is a special code."""
     return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
 
 
 def owner(point: Point) -> str:
-    """What the codes of a point are called after: the point, or what gives them to many."""
+    """The name that prefixes the codes of a point: its own, or that of the shared codes."""
     return point.shared_codes or point.item
 
 
@@ -63,7 +64,7 @@ def code_defines(point: Point, macro: str) -> Iterator[Define]:
 
 
 def special_defines(special: Special, macro: str, point: Point) -> tuple[Define, Define]:
-    """The macros of the first and the last raw number of a code; the same one twice for a single number."""
+    """The macros of the first and the last raw number of a code; for a single number twice the same macro."""
     name = f"{macro}_{upper(special.name)}"
     first, last = (_literal(raw, special, point) for raw in (special.low, special.high))
     if special.low == special.high:
@@ -72,17 +73,17 @@ def special_defines(special: Special, macro: str, point: Point) -> tuple[Define,
 
 
 def encoded_limits(point: Point) -> tuple[int, int]:
-    """Between which raw numbers values are looked at: what may be written, and the codes, which values never are.
+    """The raw numbers between which a value's raw number is checked further: the outer limits and the special codes.
 
-    No value becomes a code beyond 64 bits with a sign, in which they are computed.
+    Values are computed in signed 64 bits, so that larger codes need no check.
     """
     low, high = point.outer
-    high = max(high, *(one.high for one in point.specials))
-    return min(low, *(one.low for one in point.specials)), high if point.scale is None else min(high, INT64[1])
+    high = max(high, *(special.high for special in point.specials))
+    return min(low, *(special.low for special in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
 def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
-    """The set of codes, at the first point that has it."""
+    """The set of codes, at the first point that has it; else None."""
     if name in scope.codes:
         return None
     scope.codes.add(name)
@@ -98,8 +99,10 @@ def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
 def _functions(point: Point, name: str) -> Iterator[Function]:
     raw = (f"{raw_type(point)} raw",)
     is_special = _test(point, point.specials)
-    no_value = _test(point, (one for one in point.specials if one.no_value))
-    names = "".join(f"{bracketed(_test(point, (one,)))} ? {c_string(one.name)} : " for one in point.specials)
+    no_value = _test(point, (special for special in point.specials if special.no_value))
+    names = "".join(
+        f"{bracketed(_test(point, (special,)))} ? {c_string(special.name)} : " for special in point.specials
+    )
     is_no_value = (f"return {no_value};",) if no_value else ("(void)raw;", "return false;")
     yield Function(function("static inline bool", f"{name}_is_special", raw, f"return {is_special};"))
     yield Function(function("static inline bool", f"{name}_is_no_value", raw, *is_no_value))

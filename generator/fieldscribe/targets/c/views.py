@@ -1,4 +1,4 @@
-"""What the C templates see: final identifiers, literals, functions as they stand, nothing left to decide."""
+"""What the C templates see: final identifiers, literals and functions, nothing left to decide."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Define = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function as it stands in the header; `floating` ones are left out where there is no floating point."""
+    """A function as it stands in the header; `floating` ones are left out by FIELDSCRIBE_NO_FLOAT."""
 
     text: str
     floating: bool = False
@@ -41,7 +41,7 @@ class TableView:
 
 @dataclass(frozen=True, slots=True)
 class CodesView:
-    """A set of special codes: their macros where several points share them, and the functions that know them."""
+    """A set of special codes: its functions, and its macros if several points share it."""
 
     comment: str
     defines: tuple[Define, ...]
@@ -53,8 +53,8 @@ class CodesView:
 class SpecialView:
     """The special codes of a point.
 
-    `codes` is None where they are shared and stand before; `test` is the function that knows them, `written` says that
-    some may be written. `aliases` call the functions of shared codes by the point's name.
+    `codes` is None if the set was emitted for an earlier point. `test` is the function that recognises them, `written`
+    says that some may be written. `aliases` are the functions of shared codes under the point's name.
     """
 
     codes: CodesView | None
@@ -67,8 +67,8 @@ class SpecialView:
 class PointView:
     """One generated point.
 
-    `fields` are those of the struct in which functions get several raw numbers of other points; `floats` are the
-    functions that stand between the marks of FIELDSCRIBE_NO_FLOAT.
+    `fields` are those of the struct with the raw numbers of other points, if functions need several. `floats` are the
+    functions that FIELDSCRIBE_NO_FLOAT leaves out.
     """
 
     function: str
@@ -98,7 +98,7 @@ class PointView:
 
 @dataclass(frozen=True, slots=True)
 class RemarkView:
-    """A point that is not generated: why, and where it is if firmware may reach it by its raw words."""
+    """A remark on a point that is not generated: why, and its address if it can be read or written raw."""
 
     item: str
     comment: tuple[str, ...]
@@ -126,7 +126,7 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class AliasView:
-    """An old name of something that belongs to a renamed point: what the point and its item were called before.
+    """An old name of something that belongs to a renamed point; `was` and the old item are those of the point.
 
     `sort` tells the conformance program what it is: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.
     """
@@ -141,7 +141,7 @@ class AliasView:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The header of a device; `double` says that some values are never a float."""
+    """The header of a device; `double` says that some values are always double."""
 
     head: tuple[str, ...]
     title: str

@@ -1,4 +1,4 @@
-"""The documentation target: one Markdown reference and one table (CSV) per device, and one of its special codes."""
+"""The documentation target: a Markdown reference, a table of the points and a table of the special codes (CSV)."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 
 
 def identifiers(device: Device) -> Iterable[Names]:
-    """What is read by people has no namespaces."""
+    """Pages have no identifiers that could clash."""
     del device
     return ()
 
 
 def device_name_taken(name: str) -> str:
-    """Every name will do for a page."""
+    """A page may have any name."""
     del name
     return ""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BusView:
-    """What the page says of the line."""
+    """The bus section of the page."""
 
     note: str
     facts: Table | None
@@ -35,9 +35,9 @@ class BusView:
 
 def bus_view(device: Device) -> BusView:
     """The bus section of a device."""
-    bus, own = device.bus, family(device.family)
-    part: OfFamily = own.part("targets.docs") or OfFamily()
-    asks = next((one for one in own.codes if one.section == "functions"), None)
+    bus, own_family = device.bus, family(device.family)
+    part: OfFamily = own_family.part("targets.docs") or OfFamily()
+    asks = next((section for section in own_family.codes if section.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
     serial = [
         (code(setting), cell(number), cell(meaning))
@@ -60,30 +60,30 @@ def bus_view(device: Device) -> BusView:
 
 
 class OfFamily:
-    """What the part `targets.docs` of a family offers; what is here holds where it offers nothing."""
+    """The part `targets.docs` of a family. These are the defaults."""
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
-        """What people must know of the line, with what it is called."""
+        """Facts about the line, with their labels."""
         yield "Unit numbers", span(bus.units)
 
     def goes_to_all(self, function: Code) -> bool:
-        """Whether a function goes to all units at once where the description does not say it."""
+        """Whether a function may be broadcast, where the description does not say it."""
         del function
         return False
 
 
 def span(ends: tuple[int, int]) -> str:
-    """An interval for people."""
+    """An interval as text."""
     return f"{ends[0]}..{ends[1]}"
 
 
 def _answered(bus: Bus) -> Table | None:
-    rows = [(*_code(one), _numbers(one.answers), _numbers(one.refusals)) for one in bus.functions]
+    rows = [(*_code(function), _numbers(function.answers), _numbers(function.refusals)) for function in bus.functions]
     return by_rows(("Code", "Name", "Title", "Response", "Response when refused"), rows)
 
 
 def _linked_codes(codes: tuple[Code, ...], head: str) -> Table | None:
-    return by_rows(("Code", "Name", "Title", head), [(*_code(one), _numbers(one.answers)) for one in codes])
+    return by_rows(("Code", "Name", "Title", head), [(*_code(listed), _numbers(listed.answers)) for listed in codes])
 
 
 def _numbers(numbers: tuple[int, ...]) -> str:
@@ -91,18 +91,18 @@ def _numbers(numbers: tuple[int, ...]) -> str:
 
 
 def _messages(device: Device) -> Table | None:
-    """The bytes of each message, one column a byte."""
+    """The table of messages, with a column for each byte."""
     rows = [
         (
-            target("message", one.name),
-            cell(title_text(one.title)),
-            cell(one.direction),
-            link("message", one.answers) if one.answers else "",
-            hex_text(one.identifier, 3) + (" + unit" if one.adds_unit else ""),
-            *(_role(role) for role in one.roles),
-            cell(source_text(one.source, len(device.documents) > 1)),
+            target("message", message.name),
+            cell(title_text(message.title)),
+            cell(message.direction),
+            link("message", message.answers) if message.answers else "",
+            hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else ""),
+            *(_role(role) for role in message.roles),
+            cell(source_text(message.source, len(device.documents) > 1)),
         )
-        for one in device.messages
+        for message in device.messages
     ]
     bytes_heads = (f"Byte {place}" for place in range(len(device.messages[0].roles) if device.messages else 0))
     return by_rows(
@@ -125,48 +125,50 @@ def _role(role: Role) -> str:
 def _telegrams(device: Device) -> Table | None:
     rows = [
         (
-            target("telegram", one.name),
-            cell(title_text(one.title)),
-            cell(one.direction),
-            str(one.words),
-            link("message", one.message) if one.message else "",
-            cell(source_text(one.source, len(device.documents) > 1)),
+            target("telegram", telegram.name),
+            cell(title_text(telegram.title)),
+            cell(telegram.direction),
+            str(telegram.words),
+            link("message", telegram.message) if telegram.message else "",
+            cell(source_text(telegram.source, len(device.documents) > 1)),
         )
-        for one in device.telegrams
+        for telegram in device.telegrams
     ]
     return by_rows(("Name", "Title", "Direction", "Words", "Message", "Source"), rows)
 
 
 def _functions(bus: Bus, part: OfFamily) -> Table | None:
-    """The functions, with the column about broadcast only where there is a unit for it."""
+    """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
     heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
-    rows = [(*_code(one), "" if one.most is None else str(one.most)) for one in bus.functions]
+    rows = [(*_code(function), "" if function.most is None else str(function.most)) for function in bus.functions]
     if bus.broadcast is None:
         return by_rows(heads, rows)
-    taken = [part.goes_to_all(one) if one.broadcast is None else one.broadcast for one in bus.functions]
+    taken = [
+        part.goes_to_all(function) if function.broadcast is None else function.broadcast for function in bus.functions
+    ]
     answers = ["yes" if yes else "no" for yes in taken]
     return by_rows((*heads, "Broadcast"), [(*row, answer) for row, answer in zip(rows, answers, strict=True)])
 
 
-def _code(one: Code) -> tuple[str, str, str]:
-    return f"{hex_text(one.number, 2)} ({one.number})", code(one.name), cell(title_text(one.title))
+def _code(listed: Code) -> tuple[str, str, str]:
+    return f"{hex_text(listed.number, 2)} ({listed.number})", code(listed.name), cell(title_text(listed.title))
 
 
 def _commands(device: Device) -> Table | None:
     rows = [
         (
-            target("command", one.name),
-            cell(title_text(one.title)),
-            cell(one.space),
-            address_text(one.address),
-            hex_text(one.function, 2),
-            "any" if one.value is None else str(one.value),
-            "" if one.wears is None else f"{one.wears} writes",
-            cell(one.busy or ""),
-            cell(title_text(one.note)) if one.note else "",
-            cell(source_text(one.source, len(device.documents) > 1)),
+            target("command", command.name),
+            cell(title_text(command.title)),
+            cell(command.space),
+            address_text(command.address),
+            hex_text(command.function, 2),
+            "any" if command.value is None else str(command.value),
+            "" if command.wears is None else f"{command.wears} writes",
+            cell(command.busy or ""),
+            cell(title_text(command.note)) if command.note else "",
+            cell(source_text(command.source, len(device.documents) > 1)),
         )
-        for one in device.commands
+        for command in device.commands
     ]
     heads = (
         "Name",

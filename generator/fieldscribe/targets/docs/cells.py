@@ -22,7 +22,7 @@ _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table of finished cells."""
+    """A table whose cells are finished Markdown."""
 
     heads: tuple[str, ...]
     rules: tuple[str, ...]
@@ -30,7 +30,7 @@ class Table:
 
 
 def table(columns: Iterable[tuple[str, Sequence[str]]]) -> Table | None:
-    """A table from columns of equal length, without those that are empty; None if nothing is left."""
+    """A table from columns of equal length, without empty columns; None if none is left."""
     kept = [(head, cells) for head, cells in columns if any(cells)]
     if not kept:
         return None
@@ -45,12 +45,12 @@ def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table | None
 
 @lru_cache(maxsize=65536)
 def cell(text: str) -> str:
-    """Plain text as a table cell; only what could be markup is escaped, so that ranges stay readable in the source."""
+    """Plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
     return text.strip() if _PLAIN.fullmatch(text) and "://" not in text and "www." not in text else markdown(text)
 
 
 def paragraph(text: str) -> str:
-    """Plain text that begins a line of its own: what would start a numbered list there is escaped too."""
+    """Plain text at the beginning of a line: a number that would start a list is escaped too."""
     return _NUMBERED.sub(r"\1\\\2", markdown(text))
 
 
@@ -62,25 +62,25 @@ def code(text: str) -> str:
 
 @lru_cache(maxsize=65536)
 def anchor(kind: str, name: str) -> str:
-    """The fragment that a link and its target share."""
+    """The anchor that a link and its target share."""
     return f"{kind}-{_NO_ANCHOR.sub('-', name.lower())}"
 
 
 @lru_cache(maxsize=65536)
 def target(kind: str, name: str) -> str:
-    """A name in a cell that links lead to."""
+    """A name in a cell, as the target of links."""
     return f'<a id="{anchor(kind, name)}"></a>{code(name)}'
 
 
 @lru_cache(maxsize=65536)
 def link(kind: str, name: str) -> str:
-    """A name that leads to its target."""
+    """A name as a link to its target."""
     return f"[{code(name)}](#{anchor(kind, name)})"
 
 
 @lru_cache(maxsize=65536)
 def source_text(source: Source, with_document: bool) -> str:
-    """Where a fact stands in the manual, as plain text."""
+    """The place of a fact in the manual, as plain text."""
     parts = [source.document] if with_document else []
     parts += [source.section] if source.section else []
     parts += [f"page {source.page}"] if source.page else []

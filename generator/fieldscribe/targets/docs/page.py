@@ -1,4 +1,4 @@
-"""The Markdown reference of a device: everything that its template places."""
+"""The view of the Markdown reference of a device."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _ENUM_KINDS = {
 
 @dataclass(frozen=True, slots=True)
 class EnumView:
-    """The names of one enum, and who uses them."""
+    """The entries of an enum, and the points that use it."""
 
     anchor: str
     heading: str
@@ -88,12 +88,12 @@ def _numbering(key: str) -> str:
 
 
 def _facts(device: Device) -> list[tuple[str, str]]:
-    made = sum(point.generated for point in device.points)
+    generated = sum(point.generated for point in device.points)
     rows = [
         ("Device", code(device.id)),
         ("Version of the description", cell(device.version)),
         ("Family", cell(device.family)),
-        ("Points", f"{len(device.points)}, {made} of them generated"),
+        ("Points", f"{len(device.points)}, {generated} of them generated"),
         ("Errata of the manual", str(len(device.errata))),
     ]
     rows += [(cell(f"Variants by {axis}"), cell(", ".join(values))) for axis, values in device.variants.items()]
@@ -103,13 +103,13 @@ def _facts(device: Device) -> list[tuple[str, str]]:
 def _documents(device: Device) -> Table | None:
     rows = [
         (
-            code(one.id),
-            cell(one.title),
-            cell(one.language),
-            cell(one.file or ""),
-            code(one.sha256) if one.sha256 else "",
+            code(document.id),
+            cell(document.title),
+            cell(document.language),
+            cell(document.file or ""),
+            code(document.sha256) if document.sha256 else "",
         )
-        for one in device.documents
+        for document in device.documents
     ]
     return by_rows(("Document", "Title", "Language", "File", "SHA-256"), rows)
 
@@ -132,7 +132,7 @@ def _enum_views(device: Device) -> Iterator[EnumView]:
 
 
 def _all_enums(device: Device) -> Iterable[Enum]:
-    """The device's enums, then those that only points without code use."""
+    """The device's enums, then those of points that are only documented."""
     enums = {enum.name: enum for enum in device.enums}
     for point in device.points:
         for enum in _enums_of(point):
@@ -141,7 +141,7 @@ def _all_enums(device: Device) -> Iterable[Enum]:
 
 
 def _enums_of(point: Point) -> Iterator[Enum]:
-    """The enums of the point's number, or of each of its digits."""
+    """The enum of the point's raw number, or of its digits."""
     if point.enum is not None:
         yield point.enum
     if point.digits is not None:
@@ -150,8 +150,8 @@ def _enums_of(point: Point) -> Iterator[Enum]:
 
 def _entries(enum: Enum) -> Table | None:
     rows = [
-        (str(one.raw), code(one.name), cell(wording.title_text(one.title)), cell(one.quantity or ""))
-        for one in enum.entries
+        (str(entry.raw), code(entry.name), cell(wording.title_text(entry.title)), cell(entry.quantity or ""))
+        for entry in enum.entries
     ]
     return by_rows(("Raw", "Name", "Title", "Quantity"), rows)
 
@@ -173,7 +173,7 @@ def _frame_row(device: Device, frame: Frame, by_name: dict[str, Point]) -> tuple
         code(frame.printed.hex(" ").upper()),
         "as printed" if frame.valid else code(frame.corrected.hex(" ").upper()),
         ", ".join(_meaning(name, raw, by_name) for name, raw in frame.meaning.items()),
-        ", ".join(link("erratum", one) for one in frame.errata),
+        ", ".join(link("erratum", erratum) for erratum in frame.errata),
         cell(source_text(frame.source, len(device.documents) > 1)),
     )
 
@@ -181,8 +181,8 @@ def _frame_row(device: Device, frame: Frame, by_name: dict[str, Point]) -> tuple
 def _meaning(name: str, raw: int, by_name: dict[str, Point]) -> str:
     point = by_name.get(name)
     meaning = wording.meaning_text(point, raw) if point else ""
-    said = f" ({cell(meaning)})" if meaning else ""
-    return f"{code(name)} = {raw}{said}"
+    remark = f" ({cell(meaning)})" if meaning else ""
+    return f"{code(name)} = {raw}{remark}"
 
 
 def _errata(device: Device) -> Table | None:
@@ -191,22 +191,22 @@ def _errata(device: Device) -> Table | None:
         items.setdefault(point.name, []).append(point)
     rows = [
         (
-            target("erratum", one.id),
-            ", ".join(link("point", point.item) for name in one.points for point in items.get(name, ())),
-            _where(one),
-            cell(one.printed),
-            cell(one.taken),
-            cell(one.why),
-            cell(one.certainty),
-            cell(source_text(one.source, len(device.documents) > 1)),
+            target("erratum", erratum.id),
+            ", ".join(link("point", point.item) for name in erratum.points for point in items.get(name, ())),
+            _where(erratum),
+            cell(erratum.printed),
+            cell(erratum.taken),
+            cell(erratum.why),
+            cell(erratum.certainty),
+            cell(source_text(erratum.source, len(device.documents) > 1)),
         )
-        for one in device.errata
+        for erratum in device.errata
     ]
     return by_rows(("Erratum", "Points", "Where", "Printed", "Taken", "Why", "Certainty", "Source"), rows)
 
 
 def _where(erratum: Erratum) -> str:
-    """What an erratum without points is about: a frame, a function, or a place in words."""
+    """What an erratum is about if it names no points: a frame, a function, or a place in words."""
     kind, _, name = erratum.where.partition(":")
     if kind == "frame" and name:
         return f"frame {link('frame', name)}"
@@ -223,7 +223,7 @@ def _missing(device: Device) -> Table | None:
             cell(wording.title_text(point.title)),
             wording.words_text(point),
             cell(point.reason or "no reason given"),
-            ", ".join(link("erratum", one) for one in point.errata),
+            ", ".join(link("erratum", erratum) for erratum in point.errata),
         )
         for point in device.points
         if not point.generated

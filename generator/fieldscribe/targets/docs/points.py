@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Group, Point
 
 _INLINE_NAMES = 4
-"""An enum with at most so many names stands in the point's row; a longer one is linked."""
+"""An enum with at most so many names is shown in the point's row; a longer one is linked."""
 
 _KEEPS = {
     "no": "lost when switched off",
@@ -45,7 +45,7 @@ class FlagsView:
 
 @dataclass(frozen=True, slots=True)
 class GroupView:
-    """One group of points as the page shows it."""
+    """A group of points on the page."""
 
     anchor: str
     heading: str
@@ -68,7 +68,7 @@ def group_views(device: Device) -> Iterator[GroupView]:
 
 
 def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
-    """The numberings that the points are printed in, in the order in which they appear."""
+    """The numberings of the manual that some of the points have, in the order of their first use."""
     return tuple(dict.fromkeys(key for point in points for key in point.references))
 
 
@@ -124,9 +124,9 @@ def _has_rule(point: Point) -> bool:
 
 
 def _ends(point: Point) -> Iterator[object]:
-    for one in point.allowed.intervals:
-        yield one.low
-        yield one.high
+    for interval in point.allowed.intervals:
+        yield interval.low
+        yield interval.high
 
 
 def _range_cell(point: Point, by_name: Mapping[str, Point]) -> str:
@@ -138,7 +138,7 @@ def _default_cell(point: Point) -> str:
 
 
 def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
-    """What else there is to know, shortest facts first, errata last."""
+    """Everything that has no column of its own: short facts first, errata last."""
     if point.variant:
         yield cell(f"only {point.variant}")
     yield from _repeated(point)
@@ -148,12 +148,14 @@ def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iter
         yield f"special codes of {link('codes', point.specials_of)}"
     if point.steps:
         yield cell("steps: " + wording.steps_text(point))
-    yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
+    if point.display is not None:
+        yield cell(wording.display_text(point))
+    yield from (cell(f"{place.purpose}: {place.space} {_words(place.addresses)}") for place in point.places[1:])
     yield from map(cell, wording.width_texts(point))
     yield from _conditions(device, point, by_name)
     if point.note:
         yield cell(wording.title_text(point.note).rstrip("."))
-    yield from (f"erratum {link('erratum', one)}" for one in point.errata)
+    yield from (f"erratum {link('erratum', erratum)}" for erratum in point.errata)
     if not point.generated:
         yield cell(f"not generated: {point.reason or 'no reason given'}")
 
@@ -220,6 +222,6 @@ def _flag_table(point: Point) -> Table:
         )
         for flag in point.flags
     ]
-    made = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
-    assert made is not None, "a word with flags has rows"
-    return made
+    table = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
+    assert table is not None, "a word with flags has rows"
+    return table

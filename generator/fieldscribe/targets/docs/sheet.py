@@ -1,4 +1,4 @@
-"""The table of all points for spreadsheets: one row a point, every cell ready."""
+"""The table of all points for spreadsheets, with a row for each point."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _place(point: Point) -> tuple[str, ...]:
     if not addresses:
         return _cell(point.space), "", "", "", "", *beside
     lowest = min(addresses)
-    others = "; ".join(f"{one.purpose}: {one.space} {_hexes(one.addresses)}" for one in point.places[1:])
+    others = "; ".join(f"{place.purpose}: {place.space} {_hexes(place.addresses)}" for place in point.places[1:])
     words = _hexes(addresses) if len(addresses) > 1 else ""
     return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else "", *beside
 

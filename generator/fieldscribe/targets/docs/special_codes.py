@@ -1,4 +1,4 @@
-"""The special codes that a type, a group or a format declares for many points: once each, and all codes as a sheet."""
+"""The special codes that many points share, each set shown once, and the sheet of all special codes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HEADS = ("of", "type", "code", "raw_first", "raw_last", "name", "no_value", "wr
 
 @dataclass(frozen=True, slots=True)
 class CodesView:
-    """The codes that many points share: `users` says how many of which type."""
+    """Codes that many points share; `users` says how many points of which type."""
 
     anchor: str
     heading: str
@@ -28,54 +28,59 @@ class CodesView:
 
 
 def code_views(device: Device) -> Iterator[CodesView]:
-    """The shared codes, in the order in which points first have them."""
+    """The shared codes, in the order of their first point."""
     for name, points in _sharing(device).items():
         rows = [
             (
-                wording.special_numbers(one, points[0].width),
-                code(one.name),
-                cell(wording.title_text(one.title)),
-                cell(wording.special_remarks(one)),
+                wording.special_numbers(special, points[0].width),
+                code(special.name),
+                cell(wording.title_text(special.title)),
+                cell(wording.special_remarks(special)),
             )
-            for one in points[0].specials
-            if not one.own
+            for special in points[0].specials
+            if not special.own
         ]
-        made = by_rows(("Raw", "Name", "Title", "Remarks"), rows)
-        assert made is not None, "who shares codes has some"
+        table = by_rows(("Raw", "Name", "Title", "Remarks"), rows)
+        assert table is not None, "who shares codes has some"
         count = f"{len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
-        yield CodesView(anchor("codes", name), cell(name), count, made)
+        yield CodesView(anchor("codes", name), cell(name), count, table)
 
 
 def sheet_of_codes(device: Device) -> list[str]:
-    """The lines of the table of all codes, its head first: a row a code, of one point or of those that share it."""
-    languages = tuple(dict.fromkeys(key for point in device.points for one in point.specials for key in one.title))
+    """The lines of the table of all codes, its head first; shared codes have one row, not one for each point."""
+    languages = tuple(
+        dict.fromkeys(key for point in device.points for special in point.specials for key in special.title)
+    )
     shared = [(name, points[0], False) for name, points in _sharing(device).items()]
     owners = [*shared, *((point.item, point, True) for point in device.points)]
     rows = [
-        _row(name, point, one, languages) for name, point, own in owners for one in point.specials if one.own == own
+        _row(name, point, special, languages)
+        for name, point, own in owners
+        for special in point.specials
+        if special.own == own
     ]
     heads = (*_HEADS, *(f"title_{key}" for key in languages))
     return [",".join(map(csv_cell, row)) for row in (heads, *rows)] if rows else []
 
 
-def _row(name: str, point: Point, one: Special, languages: tuple[str, ...]) -> tuple[str, ...]:
+def _row(name: str, point: Point, special: Special, languages: tuple[str, ...]) -> tuple[str, ...]:
     return (
         name,
         point.type,
-        wording.special_numbers(one, point.width),
-        str(one.low),
-        str(one.high),
-        one.name,
-        "yes" if one.no_value else "no",
-        "yes" if one.writable else "no",
-        *(one.title.get(key, "") for key in languages),
+        wording.special_numbers(special, point.width),
+        str(special.low),
+        str(special.high),
+        special.name,
+        "yes" if special.no_value else "no",
+        "yes" if special.writable else "no",
+        *(special.title.get(key, "") for key in languages),
     )
 
 
 def _sharing(device: Device) -> dict[str, list[Point]]:
-    """The points that share their codes, by what declares these."""
-    found: dict[str, list[Point]] = {}
+    """The points that share codes, by the type, group or format that declares the codes."""
+    points_of_codes: dict[str, list[Point]] = {}
     for point in device.points:
         if point.specials_of:
-            found.setdefault(point.specials_of, []).append(point)
-    return found
+            points_of_codes.setdefault(point.specials_of, []).append(point)
+    return points_of_codes

@@ -1,4 +1,4 @@
-"""Named constant writes, as attributes of the generated class, and the values of variants."""
+"""The named constant writes, as attributes of the device class, and the values of variants."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 def variants(device: Device) -> Group:
     """The values of each variant axis."""
-    made = [
+    entries = [
         Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))
         for axis, values in device.variants.items()
     ]
-    return Group("{", tuple(made), "}")
+    return Group("{", tuple(entries), "}")
 
 
 def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
-    """Each command: its attribute, what makes it, the arguments and the docstring."""
-    for one, name in command_attributes(device):
+    """Each command: its attribute, the runtime's class, the arguments and the docstring."""
+    for command, name in command_attributes(device):
         scope.used.add("Command")
-        where = place("at", Place("write", one.space, (one.address,), one.function), scope)
-        value = () if one.value is None else (f"value={one.value}",)
-        yield name, "Command", (laid_out(where, 8), *value), (_command_doc(one),)
+        where = place("at", Place("write", command.space, (command.address,), command.function), scope)
+        value = () if command.value is None else (f"value={command.value}",)
+        yield name, "Command", (laid_out(where, 8), *value), (_command_doc(command),)
 
 
 def _command_doc(command: Command) -> str:

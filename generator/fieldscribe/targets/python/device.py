@@ -26,7 +26,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class DeviceClass:
-    """One class: its name, the device of the runtime that it is, the transport that this takes, and how to use it."""
+    """A device class: its name, its base class in the runtime, its transport, and an example of its use."""
 
     name: str
     base: str
@@ -37,7 +37,7 @@ class DeviceClass:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The device module: what it takes from where, its classes, their variants, and further settings of the bus."""
+    """The device module: its imports, its classes, their variants, and further settings of the bus."""
 
     module: str
     imports: tuple[str, ...]
@@ -47,28 +47,30 @@ class DeviceView:
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
-    """A program that shows what the class is for, with points of the device."""
+    """The lines of an example that uses the class with points of the device."""
     point = _shown(device, "rw") or _shown(device, "r")
     if point is None:
         return ()
-    one = attribute(point.item)
+    name_of_point = attribute(point.item)
     settings = "".join([f", {setting}" for setting, _ in in_python(device).settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
-    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{one}.read()"]
+    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{name_of_point}.read()"]
     if point.writable:
-        lines.append(f"{wait}drive.{one}.write(value)")
+        lines.append(f"{wait}drive.{name_of_point}.write(value)")
     lines.append(f"{wait}drive.read_many({python_string(point.group)})")
-    lines += [f"{name}.{one}.decode(raw)", f"help({name}.{one})"]
+    lines += [f"{name}.{name_of_point}.decode(raw)", f"help({name}.{name_of_point})"]
     return tuple([python_doc(line) for line in lines])
 
 
 def _shown(device: Device, access: str) -> Point | None:
-    """The first point that can be read, and written too, a quantity if there is one."""
+    """The point for the example: the first with that access, preferably one that is a quantity."""
     usual = [
-        one for one in device.points if one.generated and one.readable and one.variant is None and one.when is None
+        point
+        for point in device.points
+        if point.generated and point.readable and point.variant is None and point.when is None
     ]
-    fitting = [one for one in usual if one.writable or access == "r"]
-    quantities = [one for one in fitting if one.form in ("scaled", "float") and not one.specials]
+    fitting = [point for point in usual if point.writable or access == "r"]
+    quantities = [point for point in fitting if point.form in ("scaled", "float") and not point.specials]
     return next(iter((*quantities, *fitting)), None)
 
 
@@ -85,6 +87,6 @@ def device_view(device: Device, names: Identifiers) -> DeviceView:
         for name, flavour, wait in ((names.device_class, blocking, ""), (names.async_class, awaiting, "await "))
     )
     used = {blocking.device, awaiting.device}
-    if axes:  # only then has the class a constructor of its own
+    if axes:  # only then does the class have a constructor of its own
         used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
     return DeviceView(family.module, tuple(sorted_imports(used)), classes, axes, family.settings)

@@ -31,7 +31,7 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Composer:
-    """What makes a word by meaning: its parameters (`on: bool = False`), and the expression that it returns."""
+    """The function that makes a word of flags: its parameters (`on: bool = False`) and the returned expression."""
 
     parameters: tuple[str, ...]
     result: str
@@ -39,9 +39,9 @@ class Composer:
 
 @dataclass(frozen=True, slots=True)
 class EnumClass:
-    """One class: its head (`class Name(...):`), its docstring by lines, its members, and for words of flags the rest.
+    """A class: its head (`class Name(...):`), the lines of its docstring, and its members.
 
-    That is what reads each flag, and for words that are written what makes one.
+    Words of flags also have readers of each flag, and a composer if they can be written.
     """
 
     name: str
@@ -54,7 +54,7 @@ class EnumClass:
 
 @dataclass(frozen=True, slots=True)
 class EnumsView:
-    """The enums module: its classes, what it takes from the runtime, and whether words are among them, or are made."""
+    """The enums module: its classes, its imports, and whether it has words of flags, or composers."""
 
     classes: tuple[EnumClass, ...]
     runtime: tuple[str, ...]
@@ -64,14 +64,14 @@ class EnumsView:
 
 def enums_view(device: Device, names: Identifiers) -> EnumsView:
     """All enums of the device, then the words of flags in the order of the points."""
-    classes = [_enum(names.enum_class(one.name), one.title, one.entries) for one in device.enums]
+    classes = [_enum(names.enum_class(enum.name), enum.title, enum.entries) for enum in device.enums]
     used: set[str] = set()
     for point in device.points:
         if point.form == "flags" and point.generated:
             classes += _word(point, names, used)
-    if any(not one.readers for one in classes):
+    if any(not enum_class.readers for enum_class in classes):
         used.add("NamedNumber")
-    has_words, composes = "Word" in used, any(one.composer for one in classes)
+    has_words, composes = "Word" in used, any(enum_class.composer for enum_class in classes)
     return EnumsView(tuple(classes), tuple(sorted(used)), has_words, composes)
 
 
@@ -92,13 +92,13 @@ def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
     used.add("Word")
     name, doc = names.word_class(point), (_sentence(point.title["en"]), *_WORD_DOC)
     composer = _composer(point, names) if point.writable else None
-    # what reads the flags is in a base class, because type checkers take an enum's own attributes for members
+    # the readers are in a base class, because type checkers take an enum's own attributes for members
     bases = call(f"class {name}", (f"_{name}Flags", "enum.IntFlag", "boundary=enum.KEEP"))
     return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers), composer)]
 
 
 def _composer(point: Point, names: Identifiers) -> Composer:
-    """Flags whose bits are always written as a constant have no parameter: there is no choice."""
+    """The composer of a word; flags whose bits are always written as a constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     parameters, parts = [], []
     for flag in point.flags:
@@ -116,7 +116,7 @@ def _composer(point: Point, names: Identifiers) -> Composer:
 
 
 def _reader(point: Point, flag: Flag, names: Identifiers) -> Node:
-    """The assignment that reads a flag on the word."""
+    """The assignment of the attribute that reads a flag of the word."""
     attribute = word_attribute(flag.name)
     if flag.width == 1:
         return call(f"{attribute} = Flag", (str(flag.low),) if flag.active else (str(flag.low), "active=0"))
@@ -130,7 +130,7 @@ def _entry_doc(entry: Entry) -> str:
 
 
 def _flag_doc(flag: Flag) -> str:
-    """What the bits mean; the name of a member cannot tell that its bit is 0 while the name is true."""
+    """The docstring of a flag; it says so if the bit is 0 while the name is true."""
     meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
     if not meaning and flag.active and _says_the_same(flag.title, flag.name):
         return ""

@@ -1,4 +1,4 @@
-"""For which variants a point can exist, and whether anything else decides it too."""
+"""For which variants a point can exist, and whether that depends on anything else."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
-    """The first axis that its condition narrows, and those of its values for which the point can exist."""
+    """The first axis on which the point's condition depends, and the values for which the point can exist."""
     for axis in () if point.when is None else point.when.names:
         values = variants.get(axis, ())
         left = tuple([value for value in values if not absent(point.when, {axis: (value,)})])
@@ -23,7 +23,7 @@ def only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str
 
 
 def uncertain(point: Point, variants: Mapping[str, tuple[str, ...]]) -> bool:
-    """Whether more than one axis of variants decides if the point exists: other points, firmwares, other axes."""
+    """Whether the existence of the point depends on more than one axis: on others, on points or on the firmware."""
     narrowed = only_for(point, variants)
     others = set() if point.when is None else {*point.when.names} - ({narrowed[0]} if narrowed else set())
     return bool(others) or point.since is not None or point.until is not None

@@ -1,4 +1,4 @@
-"""What a bus family says of itself to the Python target."""
+"""What the Python target asks of a bus family."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
 
 @dataclass(frozen=True, slots=True)
 class Flavour:
-    """A device class of the runtime and the transport that it takes."""
+    """A device class of the runtime, and its transport."""
 
     device: str
     transport: str
@@ -31,10 +31,10 @@ class Flavour:
 
 @dataclass(frozen=True, slots=True)
 class PythonFamily:
-    """What generated modules take from the runtime, and what a device says of its bus.
+    """What generated modules import for a family, and the facts about the bus of a device.
 
-    `module` holds the names in `exports` and those of the flavours. `settings` are further parameters of a device's
-    constructor, name and class. `maker` names what makes a point's attribute.
+    `module` of the runtime has the names in `exports` and the classes of `flavours`. `settings` are further parameters
+    of a device's constructor (name, class). `maker` gives the function that makes a point's attribute.
     """
 
     module: str
@@ -48,28 +48,31 @@ class PythonFamily:
 
 
 def in_python(device: Device) -> PythonFamily:
-    """What the device's family says of itself, in its part `targets.python`."""
-    said: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
-    return said
+    """The part `targets.python` of the device's family."""
+    part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
+    return part
 
 
 def usual_maker(point: Point) -> str:
-    """What makes the attribute of a point that says no more than whether it is read and written."""
+    """The function for the attribute of a point; only its access decides."""
     return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
 def no_blocks(device: Device, scope: PackageScope) -> None:
-    """For families whose reads are not planned."""
+    """For families that plan no reads of blocks."""
     del device, scope
 
 
-def telegrams(made: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
+def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
     """The telegrams of a device."""
-    found = []
-    for one in made:
+    nodes = []
+    for telegram in named_telegrams:
         scope.used.add("Telegram")
-        message = () if one.message is None else (python_string(one.message),)
-        found.append(
-            call("Telegram", (python_string(one.name), python_string(one.direction), str(one.words), *message))
+        message = () if telegram.message is None else (python_string(telegram.message),)
+        nodes.append(
+            call(
+                "Telegram",
+                (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message),
+            )
         )
-    return tuple(found)
+    return tuple(nodes)

@@ -1,4 +1,4 @@
-"""Expressions for what raw numbers mean: forms, rules, limits and places."""
+"""The Python expressions for the facts of points: forms, rules, limits and places."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 NUMBERED = frozenset({"parameter", "telegram"})
-"""Spaces whose addresses manuals print in decimal."""
+"""Spaces whose addresses are written in decimal."""
 
 
 def form(point: Point, scope: PackageScope) -> Node:
@@ -26,13 +26,15 @@ def form(point: Point, scope: PackageScope) -> Node:
     inner = _plain_form(point, scope)
     if not point.specials:
         return inner
-    around = "WithWritableCodes" if any(one.writable for one in point.specials) and point.writable else "WithCodes"
+    around = (
+        "WithWritableCodes" if any(special.writable for special in point.specials) and point.writable else "WithCodes"
+    )
     scope.used.add(around)
     return call(around, (inner, _codes(point, scope)))
 
 
 def _codes(point: Point, scope: PackageScope) -> Node:
-    """The special codes of a point; those that many share have a name of their own."""
+    """The special codes of a point; shared ones by the name of their constant."""
     scope.used.add("Codes")
     if not point.shared_codes:
         return call("Codes", _code_arguments(point))
@@ -42,14 +44,17 @@ def _codes(point: Point, scope: PackageScope) -> Node:
 
 
 def _code_arguments(point: Point) -> Iterator[Node]:
-    numbers = [(one, tuple(_code_number(end, one) for end in (one.low, one.high))) for one in point.specials]
+    numbers = [
+        (special, tuple(_code_number(end, special) for end in (special.low, special.high)))
+        for special in point.specials
+    ]
     texts = [
-        f"{python_string(one.name)}: {low if one.low == one.high else f'({low}, {high})'}"
-        for one, (low, high) in numbers
+        f"{python_string(special.name)}: {low if special.low == special.high else f'({low}, {high})'}"
+        for special, (low, high) in numbers
     ]
     yield Group("{", tuple(texts), "}")
     for key in ("no_value", "writable"):
-        names = [python_string(one.name) for one in point.specials if getattr(one, key)]
+        names = [python_string(special.name) for special in point.specials if getattr(special, key)]
         if names:
             yield Group(f"{key}=(", tuple(names))
 
@@ -126,7 +131,7 @@ def _text(point: Point, scope: PackageScope) -> Node:
 
 
 def _only_named(point: Point) -> bool:
-    """Whether exactly the numbers of a closed enum may be written."""
+    """Whether the numbers that may be written are exactly those of the closed enum."""
     if point.enum is None or not point.enum.closed:
         return False
     named, ranges = {entry.raw for entry in point.enum.entries}, point.allowed.fixed
@@ -138,22 +143,22 @@ def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
-    made = [
+    items = [
         call(
             "Case",
             (
-                "None" if one.point is None else python_string(one.point),
-                str(one.raw),
-                rule(one.rule, scope, of_scale=True),
+                "None" if case.point is None else python_string(case.point),
+                str(case.raw),
+                rule(case.rule, scope, of_scale=True),
             ),
         )
-        for one in cases
+        for case in cases
     ]
-    return Group("(", tuple(made))
+    return Group("(", tuple(items))
 
 
 def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
-    """A linear rule as integers; special codes of a scale's factors are named with them."""
+    """A linear rule as integers; factors of a scale have their special codes with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
     if ratio.numerator != 1:
@@ -165,7 +170,7 @@ def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node
     if linear.factors:
         scope.used.add("Factor")
         operands = scope.lowered.rule(linear).operands
-        arguments.append(Group("factors=(", tuple([_factor(one, of_scale=of_scale) for one in operands])))
+        arguments.append(Group("factors=(", tuple([_factor(operand, of_scale=of_scale) for operand in operands])))
     return call("Rule", arguments)
 
 
@@ -187,13 +192,16 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
 
 
 def allowed(point: Point, scope: PackageScope) -> Node | None:
-    """The raw numbers that may be written; None where the type or the enum's names say it."""
+    """The argument for the raw numbers that may be written; None if the type or the enum says them."""
     intervals = point.allowed.intervals
     if point.form in ("float", "text", "digits") or _only_named(point):
         return None
     if point.allowed.fixed == ((point.least, point.greatest),):
         return None
-    return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
+    return Group(
+        "allowed=(",
+        tuple(Group("(", (_bound(interval.low, scope), _bound(interval.high, scope))) for interval in intervals),
+    )
 
 
 def _bound(bound: Bound, scope: PackageScope) -> Node:
@@ -217,7 +225,7 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
 
 
 def place(keyword: str, where: Place, scope: PackageScope, point: Point | None = None) -> Node:
-    """Where a point is, as `at=holding(0x1028)`; the point says its telegram or its index in an array."""
+    """A place as an argument, such as `at=holding(0x1028)`; `point` gives its telegram, or its index in an array."""
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
     index = [] if point is None or point.index is None else [f"index={point.index}"]
     addresses = [f"0x{address:04X}" for address in where.addresses]

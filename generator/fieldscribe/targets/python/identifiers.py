@@ -1,4 +1,4 @@
-"""All Python identifiers of a device, made final once."""
+"""The final Python identifiers of a device."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _RESERVED = frozenset(
     | {"lambda", "match", "nonlocal", "not", "or", "pass", "print", "raise", "return", "self", "try", "type"}
     | {"while", "with", "yield", "_"}
 )
-"""The words of the language, and what everybody means by a few others."""
+"""The reserved words, and built-in names that generated code must not hide."""
 
 DEVICE_MEMBERS = frozenset(
     {
@@ -40,10 +40,10 @@ DEVICE_MEMBERS = frozenset(
         "write_at",
     }
 )
-"""Public members of the runtime's devices, which no point may hide (the tests hold this against the runtime)."""
+"""Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 
 HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "parameter", "renamed", "telegram"})
-"""What the body of the generated class refers to by a lower-case name."""
+"""Lower-case names that the body of the generated class uses."""
 
 WORD_MEMBERS = frozenset(
     {
@@ -68,7 +68,7 @@ WORD_MEMBERS = frozenset(
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 
 _CLASS_TAKEN = _RESERVED | {"Field", "Flag", "Literal", "NamedNumber", "Points", "Self", "Word"}
-"""What no class may be called: the modules of enums and of the device refer to these."""
+"""Names that no class may have, because the generated modules use them."""
 
 _ATTRIBUTE_TAKEN = _RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = _RESERVED | WORD_MEMBERS
@@ -82,7 +82,7 @@ def attribute(name: str) -> str:
 
 
 def command_attributes(device: Device) -> Iterator[tuple[Command, str]]:
-    """The commands of a device with their attributes, beside those of the points."""
+    """The commands of a device with their attributes, which differ from those of the points."""
     points = {name for point in device.points for name in (point.item, point.name)}
     for command in device.commands:
         yield command, attribute(f"{command.name}_command" if command.name in points else command.name)
@@ -99,12 +99,12 @@ def parameter(name: str) -> str:
 
 
 def sorted_imports(names: Iterable[str]) -> list[str]:
-    """Names in the order of import sorters: constants, classes, functions; numbers by value, case ignored."""
+    """Names sorted as in imports: constants, classes, functions; numbers by value, without regard to case."""
     return sorted(names, key=lambda name: (_kind(name), _natural(name.lower()), _natural(name)))
 
 
 def sorted_exports(names: Iterable[str]) -> list[str]:
-    """Names in the order that linters want for `__all__`: as imports, but capitals before small letters."""
+    """Names sorted as linters want it in `__all__`: as in imports, but capitals first."""
     return sorted(names, key=lambda name: (_kind(name), _natural(name)))
 
 
@@ -121,11 +121,11 @@ class Identifiers:
 
     def __init__(self, device: Device) -> None:
         self.package = attribute(device.id) if device.id in _RESERVED else device.id
-        own = pascal(device.id)
-        self.device_class = f"{own}Device" if own in _CLASS_TAKEN else own
+        device_name = pascal(device.id)
+        self.device_class = f"{device_name}Device" if device_name in _CLASS_TAKEN else device_name
         self.async_class = f"{self.device_class}Async"
         self._taken = {self.device_class, self.async_class, *_CLASS_TAKEN}
-        self._enums = {one.name: self._class(pascal(one.name), "Enum") for one in device.enums}
+        self._enums = {enum.name: self._class(pascal(enum.name), "Enum") for enum in device.enums}
         self._words: dict[str, str] = {}
         self._fields: dict[tuple[str, str], str] = {}
         for point in device.points:
@@ -141,17 +141,17 @@ class Identifiers:
         return self._words[point.item]
 
     def field_class(self, point: Point, flag: str) -> str | None:
-        """The class that names the numbers of a flag of several bits; None where they have no names."""
+        """The class of the named numbers of a flag of several bits; None if they have no names."""
         return self._fields.get((point.item, flag))
 
     @property
     def imports(self) -> Sequence[str]:
-        """The classes of the enums module, as an import lists them."""
+        """The classes of the enums module, sorted for an import."""
         return sorted_imports([*self._enums.values(), *self._words.values(), *self._fields.values()])
 
     @property
     def exports(self) -> Sequence[str]:
-        """All names of the package, as `__all__` lists them."""
+        """All names of the package, sorted for `__all__`."""
         return sorted_exports([self.device_class, self.async_class, *self.imports])
 
     def _name_flags(self, point: Point) -> None:

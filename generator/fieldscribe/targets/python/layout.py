@@ -1,4 +1,4 @@
-"""Python expressions laid out as a formatter would: on one line if they fit, else one item a line."""
+"""Python expressions laid out as by a formatter: on one line if they fit, else with a line for each item."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 WIDTH = 88
-"""The narrowest common line length; what is laid out for it stays as it is under any wider one."""
+"""The narrowest common line length, so that formatters with longer lines change nothing either."""
 
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A call, tuple or dict: what opens it (`Rule(`, `allowed=(`), its items, what closes it, and whether it calls."""
+    """A call, tuple or dict: its opening (`Rule(`, `allowed=(`), its items, its closing, and whether it is a call."""
 
     head: str
     items: tuple[Node, ...]
@@ -25,7 +25,7 @@ class Group:
 
     @property
     def is_tuple(self) -> bool:
-        """Whether a single item needs a comma behind it."""
+        """Whether it is a tuple: a single item then needs a comma behind it."""
         return self.close == ")" and not self.calls
 
 
@@ -33,7 +33,7 @@ Node = str | Group
 
 
 def comment(text: str) -> str:
-    """Text for a `#` comment; a second number sign in it could start a directive for some tool."""
+    """Text for a `#` comment, in which no second `#` can start a directive for some tool."""
     return python_doc(text).replace("#", "")
 
 
@@ -43,12 +43,12 @@ def call(head: str, items: Iterable[Node]) -> Group:
 
 
 def assigned(name: str, node: Group) -> Group:
-    """The expression with the assignment to a name before it."""
+    """The assignment of the expression to a name."""
     return replace(node, head=f"{name} = {node.head}")
 
 
 def laid_out(node: Node, indent: int) -> str:
-    """The expression at that indentation, with a comma expected behind it."""
+    """The lines of the expression at that indentation, with room for a comma behind it."""
     if isinstance(node, str):
         return node
     line = flat(node)
@@ -56,10 +56,10 @@ def laid_out(node: Node, indent: int) -> str:
 
 
 def _spread(node: Group, indent: int) -> str:
-    """One item a line.
+    """A line for each item.
 
-    Formatters join a tuple of one item again where lines may be longer, whatever the comma behind it, unless the item
-    itself is spread.
+    A tuple of a single item is spread only if the item is spread itself: formatters with longer lines would join it
+    again, even with a comma behind the item.
     """
     inner, only = " " * (indent + 4), node.items[0] if len(node.items) == 1 else ""
     if isinstance(only, Group) and only.items and node.is_tuple:

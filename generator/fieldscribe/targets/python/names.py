@@ -27,7 +27,7 @@ _POINTS = "Python, the points"
 
 
 def device_name_taken(name: str) -> str:
-    """Why no package may have that name; empty where it may."""
+    """Why no package may have that name; empty if it may."""
     if iskeyword(name):
         return "is a word that Python reserves, so that no program could name its package"
     if name in sys.stdlib_module_names:
@@ -36,7 +36,7 @@ def device_name_taken(name: str) -> str:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Every name that the description decides, and those that the package needs beside them."""
+    """Every name that depends on the description, and the fixed names beside them."""
     names = Identifiers(device)
     yield from _of_device(device, names)
     for enum in device.enums:
@@ -51,7 +51,7 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 
 def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
-    """The device module, the constructor of its classes, and what the package exports."""
+    """The names in the device module, in the constructor of its classes, and in the exports of the package."""
     module, constructor, view = "Python, the device module", "Python, the constructor", device_view(device, names)
     yield Names(module, _OWN, ("Literal", "Points", *view.imports))
     yield Names(module, Owner("device", device.id), (names.device_class, names.async_class))

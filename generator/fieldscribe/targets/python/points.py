@@ -1,4 +1,4 @@
-"""The view of the points module: one attribute per point, as data."""
+"""The view of the points module: an attribute for each point."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from fieldscribe.model import Device, Point
 
-_DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
+_DOC = WIDTH - 4 - 6  # less the indentation and two triple quotes
 _BODY = 8  # the indentation of an attribute's arguments
 
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One attribute: its name, what makes it, the arguments (one a line), its docstring by lines, its old names."""
+    """An attribute: its name, the function that makes it, its arguments and docstring by lines, its old names."""
 
     name: str
     maker: str
@@ -49,8 +49,8 @@ class GroupView:
 class PointsView:
     """The points module.
 
-    `imports` are modules of the runtime with the names taken from each, `open_points` the lines that say where those
-    points are that the manual does not settle, `codes` the special codes that several points share.
+    `imports` are modules of the runtime with the names imported from each, `open_points` the lines about points whose
+    type or scale the manual does not settle, `codes` the special codes that several points share.
     """
 
     imports: list[tuple[str, list[str]]]
@@ -69,7 +69,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = in_python(device)
     scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
-    errata = frozenset([one.id for one in device.errata if one.facts])
+    errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
@@ -81,7 +81,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
             by_name.setdefault(point.name, []).append(point)
     for same in by_name.values():
         groups[same[0].group].points.append(_by_variant(same, scope))
-    made = tuple(PointView(*one, ()) for one in commands(device, scope))
+    command_views = tuple(PointView(*command, ()) for command in commands(device, scope))
     documented = tuple(_documented(point, scope) for point in device.points if not point.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
@@ -93,13 +93,13 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         groups=[group for group in groups.values() if group.points],
-        commands=made,
-        codes=tuple(laid_out(one, 0) for one in scope.codes.values()),
+        commands=command_views,
+        codes=tuple(laid_out(special_codes, 0) for special_codes in scope.codes.values()),
     )
 
 
 def _documented(point: Point, scope: PackageScope) -> Group:
-    """Why there is no attribute, and where the words are, if a master can reach them."""
+    """Why the point has no attribute, and the addresses of its words, if they can be reached."""
     scope.used.add("Documented")
     where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
     why = python_string(point.reason or "no reason given")
@@ -108,10 +108,10 @@ def _documented(point: Point, scope: PackageScope) -> Group:
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
-    """The names by the module that they come from, as import sorters have them."""
-    own = used & family.exports if family.module != RUNTIME else set()
-    found = [(RUNTIME, sorted_imports(used - own)), (family.module, sorted_imports(own))]
-    return [(module, names) for module, names in found if names]
+    """The used names by their modules, sorted for imports."""
+    of_family = used & family.exports if family.module != RUNTIME else set()
+    imports = [(RUNTIME, sorted_imports(used - of_family)), (family.module, sorted_imports(of_family))]
+    return [(module, names) for module, names in imports if names]
 
 
 def _point(point: Point, family: PythonFamily, scope: PackageScope, errata: Collection[str]) -> PointView:
@@ -125,9 +125,7 @@ def _point(point: Point, family: PythonFamily, scope: PackageScope, errata: Coll
 
 
 def _arguments(point: Point, scope: PackageScope) -> list[Node]:
-    arguments = [form(point, scope), *_places(point, scope)]
-    if point.unit.symbol:
-        arguments.append(f"unit={python_string(point.unit.symbol)}")
+    arguments = [form(point, scope), *_places(point, scope), *_shown(point)]
     if (limits := allowed(point, scope)) is not None:
         arguments.append(limits)
     if point.default is not None:
@@ -142,16 +140,24 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
         axis, _, value = point.variant.partition("=")
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
         arguments.append(f"name={python_string(point.name)}")
-    if found := only_for(point, scope.variants):
-        values = Group("(", tuple([python_string(value) for value in found[1]]))
-        arguments.append(Group("only_for=(", (python_string(found[0]), values)))
+    if choice := only_for(point, scope.variants):
+        values = Group("(", tuple([python_string(value) for value in choice[1]]))
+        arguments.append(Group("only_for=(", (python_string(choice[0]), values)))
     if uncertain(point, scope.variants):
         arguments.append("uncertain=True")
     return arguments
 
 
+def _shown(point: Point) -> Iterator[str]:
+    """What stands behind a value, and with how many decimals people see it."""
+    if point.unit.symbol:
+        yield f"unit={python_string(point.unit.symbol)}"
+    if point.display is not None:
+        yield f"display={point.display}"
+
+
 def _places(point: Point, scope: PackageScope) -> list[Node]:
-    """Where the point is, on the wire and in the manual."""
+    """The arguments for the places of the point, on the wire and in the manual."""
     arguments: list[Node] = [place("at", point.places[0], scope, point)]
     write_place = point.write_place
     if write_place is not None and write_place is not point.places[0] and point.writable:
@@ -178,7 +184,7 @@ def _references(point: Point) -> Group:
 def _by_variant(points: list[Point], scope: PackageScope) -> PointView:
     scope.used.add("ByVariant")
     axis = (points[0].variant or "").partition("=")[0]
-    chosen = [f"{python_string((one.variant or '').partition('=')[2])}: {attribute(one.item)}" for one in points]
+    chosen = [f"{python_string((point.variant or '').partition('=')[2])}: {attribute(point.item)}" for point in points]
     old_names = tuple(dict.fromkeys(name for point in points for name in point.was))
     if old_names:
         scope.used.add("renamed")
@@ -194,17 +200,17 @@ def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) ->
     if point.when is not None:
         first += f" Exists only when {condition_text(point.when, by_name)}."
     if point.conditions and point.writable:
-        first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
+        first += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
     if point.specials:
         first += f" {codes_text(point)}."
     lines = _wrapped(python_doc(first))
-    if changing := [one for one in point.errata if one in errata]:
+    if changing := [erratum for erratum in point.errata if erratum in errata]:
         lines += ("", *_wrapped(f"Errata: {', '.join(changing)}."))
     return tuple(lines)
 
 
 def _wrapped(text: str) -> list[str]:
-    """Docstring text in lines that fit below an attribute; most of it does so as it is."""
+    """The lines of a docstring below an attribute."""
     return [text] if len(text) <= _DOC else textwrap.wrap(text, _DOC, break_long_words=False, break_on_hyphens=False)
 
 
@@ -213,7 +219,7 @@ def _labelled(point: Point) -> str:
 
 
 def _open_points(device: Device) -> Iterable[str]:
-    """Names and wire addresses of the points that are there but for their type or scale; item by item in a list."""
+    """The lines of a list of points whose type or scale is open, with their wire addresses."""
     for point in device.points:
         if not point.raw_only:
             continue
@@ -225,5 +231,5 @@ def _open_points(device: Device) -> Iterable[str]:
 
 
 def _indented(text: str) -> list[str]:
-    """The text of an item of a list, in lines of which the later ones stand below its beginning."""
+    """The lines of an item of a list; those after the first are indented."""
     return textwrap.wrap(text, _DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)

@@ -1,4 +1,4 @@
-"""What expressions of one device refer to."""
+"""What the expressions of a device refer to."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PackageScope:
-    """Final names, points by name, variants; filled on the way: names of the runtime in use, codes that are shared."""
+    """Final names, points by name and variants; collects the used names of the runtime and the shared codes."""
 
     names: Identifiers
     lowered: Lowered

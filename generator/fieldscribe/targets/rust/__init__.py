@@ -1,4 +1,4 @@
-"""The Rust target: a `no_std` crate per device, with a conformance test, on top of one small runtime crate."""
+"""The Rust target: a `no_std` crate per device, and one for its vectors, on top of a small runtime crate."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope, device)
     suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
-    yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
+    yield f"{folder}/conformance/Cargo.toml", render("rust/conformance.toml.j2", context)
+    yield f"{folder}/conformance/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 
 def runtime(_: Device) -> Iterator[tuple[str, str]]:

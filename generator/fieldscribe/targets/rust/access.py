@@ -1,4 +1,4 @@
-"""How a point is read and written, and what of it may be written."""
+"""The facts of reading and writing a point: access, limits, places."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 
 
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
-    """What may be written, where that is not every number between two ends."""
+    """The facts about allowed numbers, unless the outer limits say it all."""
     point = subject.point
     if subject.limits:
         yield tuple(_limits(point, scope))
@@ -64,14 +64,14 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     elif subject.form == "digits" and point.digits is not None:
         yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
     elif subject.form != "text" and len(ranges := point.allowed.fixed) > 1:
-        yield filled("in [", " | ", [interval(*one) for one in ranges], "];")
+        yield filled("in [", " | ", [interval(*limits) for limits in ranges], "];")
 
 
 def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
-    """A pair of ends for each range, of which other points set one or both."""
+    """The fact with a pair of ends for each range; some ends depend on other points."""
     yield "limits |with| ["
-    for one in point.allowed.intervals:
-        low, high = _end(one.low, scope, lower=True), _end(one.high, scope, lower=False)
+    for allowed in point.allowed.intervals:
+        low, high = _end(allowed.low, scope, lower=True), _end(allowed.high, scope, lower=False)
         line = f"    ({low[0]}, {high[0]}),"
         if len(low) + len(high) == 2 and len(line) <= _WIDTH:
             yield line
@@ -88,7 +88,7 @@ def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
-    """The limits as the type has them, where they are not the type's own."""
+    """The limits as numbers of the type; empty if they are the type's own limits."""
     greatest = FLOAT_GREATEST[point.width]
     ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
     if ends and ends != [[-greatest, greatest]]:
@@ -97,11 +97,11 @@ def _float_ranges(point: Point) -> Iterator[str]:
 
 
 def _place(point: Point, scope: CrateScope) -> Iterator[str]:
-    """Function and address that write the point, where they are not the usual ones."""
+    """The function and the address for writing, unless they are the usual ones."""
     first = point.places[0]
     place = point.write_place or first
-    one, many = _WRITES.get(place.space, (0, 0))
-    usual = one if point.words == 1 else many
+    single, many = _WRITES.get(place.space, (0, 0))
+    usual = single if point.words == 1 else many
     function = place.function if place.purpose == "write" else None
     if function is None:
         function = many if usual not in scope.functions and many in scope.functions else usual

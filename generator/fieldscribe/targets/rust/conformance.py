@@ -1,4 +1,4 @@
-"""The view of the conformance program: for each kind of vector, what runs it for each point."""
+"""The view of the conformance program: for each kind of vector a table of points with their calls."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _CHAIN = 60
-"""As long as a chain of calls may be in one line."""
+"""A chain of calls on one line has at most so many characters."""
 
 
 def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
-    scaled = [one for one in scope.subjects if one.form == "scaled"]
-    floats = [one for one in scope.subjects if one.form == "float"]
-    texts = [one for one in scope.subjects if one.form == "text"]
-    digits = [one for one in scope.subjects if one.form == "digits"]
-    whole = [one for one in scope.subjects if one.form not in ("scaled", "float", "text", "digits")]
-    plain = [one for one in whole if one.carried == one.raw and not one.point.specials]
-    coded = [one for one in whole if one.carried == one.raw and one.point.specials]
-    mixed = [one for one in whole if one.carried != one.raw]
-    counted = [one for one in scaled if one.point.decimals is not None]
-    encoding = [one for one in scaled if one.point.encodes_values]
+    scaled = [subject for subject in scope.subjects if subject.form == "scaled"]
+    floats = [subject for subject in scope.subjects if subject.form == "float"]
+    texts = [subject for subject in scope.subjects if subject.form == "text"]
+    digits = [subject for subject in scope.subjects if subject.form == "digits"]
+    whole = [subject for subject in scope.subjects if subject.form not in ("scaled", "float", "text", "digits")]
+    plain = [subject for subject in whole if subject.carried == subject.raw and not subject.point.specials]
+    coded = [subject for subject in whole if subject.carried == subject.raw and subject.point.specials]
+    mixed = [subject for subject in whole if subject.carried != subject.raw]
+    counted = [subject for subject in scaled if subject.point.decimals is not None]
+    encoding = [subject for subject in scaled if subject.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
     write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
     alone = ("(alone)",)
@@ -53,16 +53,24 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
             (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
         ),
         Table("name", "name", tuple(_names((*whole, *digits)))),
-        Table("special", "special", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)),
         Table(
-            "special_name", "special_name", tuple(row_of(one, alone) for one in scope.subjects if one.point.specials)
+            "special", "special", tuple(row_of(subject, alone) for subject in scope.subjects if subject.point.specials)
+        ),
+        Table(
+            "special_name",
+            "special_name",
+            tuple(row_of(subject, alone) for subject in scope.subjects if subject.point.specials),
         ),
         Table("flag", "flag", tuple(_flags(whole))),
         Table("flag_name", "flag_name", tuple(_flag_names(whole))),
-        Table("bits", "bits", tuple(row_of(one, alone) for one in scope.subjects if one.point.bits)),
-        Table("words", "words", tuple(row_of(one, alone) for one in scope.subjects if _has_words(one.point))),
-        Table("address", "address", tuple(row_of(one, _references(one.point)) for one in scope.subjects)),
-        Table("symbol", "symbol", tuple(row_of(one, alone) for one in scope.subjects if one.point.unit.symbol)),
+        Table("bits", "bits", tuple(row_of(subject, alone) for subject in scope.subjects if subject.point.bits)),
+        Table(
+            "words", "words", tuple(row_of(subject, alone) for subject in scope.subjects if _has_words(subject.point))
+        ),
+        Table("address", "address", tuple(row_of(subject, _references(subject.point)) for subject in scope.subjects)),
+        Table(
+            "symbol", "symbol", tuple(row_of(subject, alone) for subject in scope.subjects if subject.point.unit.symbol)
+        ),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
@@ -70,7 +78,7 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
 
 def _protocol(device: Device) -> Iterator[Table]:
     """The tables of the numbers of the protocol, and of commands."""
-    own = in_rust(device.family)
+    family_part = in_rust(device.family)
     constants, named = [], []
     for codes in family(device.family).codes:
         for code in device.bus.codes(codes.section) if codes.emitted else ():
@@ -78,21 +86,21 @@ def _protocol(device: Device) -> Iterator[Table]:
                 named.append(_code(codes.kind, "exceptions", code.name, "named"))
             else:
                 constants.append(_code(codes.kind, f"{codes.kind}s", code.name, "code"))
-    for kind, rows in (("constant", constants), (own.refusals, named)):
+    for kind, rows in (("constant", constants), (family_part.refusals, named)):
         if rows:
             yield Table(kind, "code", tuple(rows))
-    yield from own.tables_of_frames(device)
-    places = [one for one in device.points if one.raw_only and one.address is not None]
+    yield from family_part.tables_of_frames(device)
+    places = [point for point in device.points if point.raw_only and point.address is not None]
     if places:
-        documented = (item_row(one.item, "points", "documented", one.item.upper()) for one in places)
+        documented = (item_row(point.item, "points", "documented", point.item.upper()) for point in places)
         yield Table("documented", "documented", tuple(documented))
     if device.commands:
-        sent = (item_row(one.name, "commands", "sent", one.name.upper()) for one in device.commands)
+        sent = (item_row(command.name, "commands", "sent", command.name.upper()) for command in device.commands)
         yield Table("command", "command", tuple(sent))
 
 
 def item_row(key: str, module: str, how: str, name: str) -> Tokens:
-    """The row of something that is no point: its key in the vectors, and where it is in the crate."""
+    """The row of something other than a point: its key in the vectors, and its path in the crate."""
     return rust_string(key), module, *_bracketed((how, name))
 
 
@@ -108,15 +116,18 @@ def _bracketed(tokens: Tokens) -> Tokens:
 
 
 def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint]) -> Iterator[Table]:
-    """The tables of kinds that few devices have."""
-    placed = (one for one in scope.subjects if _has_place(one.point))
-    fixed = (one for one in scope.subjects if one.point.fixed is not None)
+    """The tables of the kinds for places, fixed bits, texts and digits, and for exchanges."""
+    placed = (subject for subject in scope.subjects if _has_place(subject.point))
+    fixed = (subject for subject in scope.subjects if subject.point.fixed is not None)
+    shown = [subject for subject in scope.subjects if subject.point.display is not None]
     alone = ("(alone)",)
     for kind, rows in (
-        ("place", tuple(row_of(one, alone) for one in placed)),
-        ("fixed", tuple(row_of(one, alone) for one in fixed)),
-        ("text_decode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.readable)),
-        ("text_encode", tuple(row_of(one, _sizes(one.point)) for one in texts if one.point.writable)),
+        ("place", tuple(row_of(subject, alone) for subject in placed)),
+        ("fixed", tuple(row_of(subject, alone) for subject in fixed)),
+        ("display", tuple(row_of(subject, alone) for subject in shown)),
+        ("told", tuple(row_of(subject, _bracketed(_arguments(*of_scale(subject)))) for subject in shown)),
+        ("text_decode", tuple(row_of(subject, _sizes(subject.point)) for subject in texts if subject.point.readable)),
+        ("text_encode", tuple(row_of(subject, _sizes(subject.point)) for subject in texts if subject.point.writable)),
         ("digits", tuple(_digits(digits, "r", coded=False))),
         ("digits_coded", tuple(_digits(digits, "r", coded=True))),
         ("digits_encode", tuple(_digits(digits, "w", coded=False))),
@@ -128,22 +139,22 @@ def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint])
     ways: dict[tuple[str, str], list[Tokens]] = {}
     for kind, run, row in _exchanges(scope):
         ways.setdefault((kind, run), []).append(row)
-    for (kind, run), found in ways.items():
-        yield Table(f"{kind}_by_{run}", run, tuple(found), kind)
+    for (kind, run), rows_of_way in ways.items():
+        yield Table(f"{kind}_by_{run}", run, tuple(rows_of_way), kind)
 
 
 def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
-    """The kind, the runner's function and the row of each point that travels."""
-    for one in scope.subjects:
-        if not one.point.places:
+    """The kind, the runner's function and the row for each way in which each point is read or written."""
+    for subject in scope.subjects:
+        if not subject.point.places:
             continue
-        for kind, run, needs in _ways(one, scope):
-            given = [token for pair in needs for token in _bracketed(_arguments(*pair))]
-            yield kind, run, row_of(one, _bracketed(("wire", *given)))
+        for kind, run, needs in _ways(subject, scope):
+            arguments = [token for pair in needs for token in _bracketed(_arguments(*pair))]
+            yield kind, run, row_of(subject, _bracketed(("wire", *arguments)))
 
 
 def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
-    """How a point is read and written: in requests, where it has an address, and in further ways of its family."""
+    """The ways to read and write a point: by requests if it has an address, and further ones of its family."""
     point = subject.point
     text = "_text" if subject.form == "text" else ""
     if point.telegram is None and point.readable:
@@ -154,7 +165,7 @@ def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
 
 
 def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
-    """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
+    """The function that writes a point, and the structs that it needs."""
     point = subject.point
     if point.bits:
         return update, ()
@@ -165,17 +176,17 @@ def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs
 
 
 def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of what the scale needs, and its fields."""
+    """The struct of the raw numbers that the scale needs, with its fields."""
     return subject.factors_struct, subject.factors
 
 
 def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of all that writing needs, and its fields."""
+    """The struct of all raw numbers that writing needs, with its fields."""
     return subject.name, subject.arguments
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
-    """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
+    """The match arms that choose the table for vectors of whole exchanges, laid out as by rustfmt."""
     answering: dict[str, list[str]] = {}
     for table in tables:
         answering.setdefault(table.kind, []).append(f"{table.name}(vector)")
@@ -193,7 +204,7 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
 
 
 def row_of(subject: CratePoint, how: Tokens) -> Tokens:
-    """What a table says of one point."""
+    """The row of a point: its name in the vectors, its path in the crate, and further tokens."""
     return rust_string(subject.point.item), subject.name, *how
 
 
@@ -202,9 +213,9 @@ def _sizes(point: Point) -> Tokens:
 
 
 def _digits(subjects: Iterable[CratePoint], access: str, *, coded: bool) -> Iterator[Tokens]:
-    for one in subjects:
-        if access in one.point.access and bool(one.point.specials) == coded:
-            yield row_of(one, _counted(one))
+    for subject in subjects:
+        if access in subject.point.access and bool(subject.point.specials) == coded:
+            yield row_of(subject, _counted(subject))
 
 
 def _counted(subject: CratePoint) -> Tokens:
@@ -213,12 +224,12 @@ def _counted(subject: CratePoint) -> Tokens:
 
 
 def _has_place(point: Point) -> bool:
-    """Whether more than an address says where the point is."""
+    """Whether a single address does not say where the point is: a text, an index or a telegram."""
     return point.text is not None or point.index is not None or point.telegram is not None
 
 
 def _has_words(point: Point) -> bool:
-    """Whether the words of a point are more than its raw number."""
+    """Whether the words of the point differ from its raw number."""
     return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 
@@ -228,15 +239,15 @@ def _references(point: Point) -> Tokens:
 
 
 def _reads(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
-    for one in subjects:
-        if "r" in one.point.access:
-            yield row_of(one, _bracketed(_arguments(*of_scale(one))))
+    for subject in subjects:
+        if "r" in subject.point.access:
+            yield row_of(subject, _bracketed(_arguments(*of_scale(subject))))
 
 
 def _writes(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
-    for one in subjects:
-        if "w" in one.point.access:
-            yield row_of(one, _bracketed(_arguments(*of_all(one))))
+    for subject in subjects:
+        if "w" in subject.point.access:
+            yield row_of(subject, _bracketed(_arguments(*of_all(subject))))
 
 
 def _arguments(struct: str, names: Tokens) -> Tokens:
@@ -246,22 +257,22 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
 
 
 def _names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
-    for one in subjects:
-        if one.enum is not None:
-            yield rust_string(one.point.item), type_name(one.enum.name), *_bracketed(("enum", one.carried))
+    for subject in subjects:
+        if subject.enum is not None:
+            yield rust_string(subject.point.item), type_name(subject.enum.name), *_bracketed(("enum", subject.carried))
 
 
 def _flags(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
-    for one in subjects:
-        if one.form == "flags":
-            for flag in one.point.flags:
-                calls = _bracketed(("flag", one.raw, getter_name(flag.name), f"with_{flag.name}"))
-                yield rust_string(f"{one.point.item} {flag.name}"), one.name, *calls
+    for subject in subjects:
+        if subject.form == "flags":
+            for flag in subject.point.flags:
+                calls = _bracketed(("flag", subject.raw, getter_name(flag.name), f"with_{flag.name}"))
+                yield rust_string(f"{subject.point.item} {flag.name}"), subject.name, *calls
 
 
 def _flag_names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
-    for one in subjects:
-        for flag in one.point.flags:
+    for subject in subjects:
+        for flag in subject.point.flags:
             for entry in flag.values if flag.width > 1 else ():
-                key = rust_string(f"{one.point.item} {flag.name} {entry.name}")
-                yield key, one.name, *_bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))
+                key = rust_string(f"{subject.point.item} {flag.name} {entry.name}")
+                yield key, subject.name, *_bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))

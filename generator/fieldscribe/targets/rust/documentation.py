@@ -1,6 +1,6 @@
-"""What doc comments say, from names and numbers alone: titles, notes and the words of errata are in the documentation.
+"""The doc comments. They have names and numbers only; titles, notes and the texts of errata are in the documentation.
 
-So a corrected title touches no code, as it touches no digest.
+So a corrected title changes neither code nor digest.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from fieldscribe.wording import (
     address_text,
     codes_text,
     condition_text,
+    display_text,
     raw_range_text,
     resolution_text,
     scale_text,
@@ -36,19 +37,19 @@ def sentence(name: str) -> str:
 
 
 def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
-    """The lines of a point's doc comment behind `///`; an empty line parts paragraphs. These errata are named."""
+    """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
     paragraphs = [sentence(point.item), f"{', '.join(_facts(point))}."]
     if point.specials:
         paragraphs.append(f"{codes_text(point, '`')}.")
     named = [f"`{name}`" for name in point.errata if name in errata]
     if named:
         paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
-    lines = [line for paragraph in paragraphs for line in ("", *(f" {one}" for one in wrapped(paragraph)))]
+    lines = [line for paragraph in paragraphs for line in ("", *(f" {text}" for text in wrapped(paragraph)))]
     return tuple(lines[1:])
 
 
 def wrapped(text: str) -> Iterator[str]:
-    """The text in lines; one begins with what cannot be taken for the mark of a list or a heading."""
+    """The text in lines, none of which begins like a list or a heading."""
     line = ""
     for word in text.split(" "):
         if len(line) + len(word) >= _WIDTH and _BEGINS.match(word):
@@ -96,6 +97,8 @@ def _facts(point: Point) -> Iterator[str]:
         if span:
             yield f"raw {rust_code(span)}"
     yield from _resolution(point)
+    if point.display is not None:
+        yield display_text(point)
     yield access_text(point.access)
     if point.variant:
         yield f"for {rust_code(point.variant)}"
@@ -104,12 +107,12 @@ def _facts(point: Point) -> Iterator[str]:
 
 
 def _resolution(point: Point) -> Iterator[str]:
-    """What a raw step and a count are."""
+    """The unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
     resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
     if resolution and resolution != count:
-        yield f"steps of {rust_code(resolution)}"
+        yield f"steps of {rust_code(resolution)}{' (for information, not checked)' if point.steps else ''}"
     elif scale and not resolution:
         yield f"value {rust_code(scale)}"
     if count:
@@ -118,7 +121,7 @@ def _resolution(point: Point) -> Iterator[str]:
 
 
 def _count(point: Point) -> str:
-    """What one count of a scaled point is; empty if it has none."""
+    """The unit of one count of a scaled point; empty if it has no counts."""
     if point.form != "scaled" or point.decimals is None:
         return ""
     return with_unit(f"0.{'1':0>{point.decimals}}" if point.decimals else "1", point)

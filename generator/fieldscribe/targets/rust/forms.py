@@ -1,4 +1,4 @@
-"""What decoding a point gives: its type, its form in the runtime, and the facts of that form."""
+"""The result of decoding a point: its type, its form in the runtime, and the facts of that form."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
-"""The integer that holds any raw number of a point without a scale, and numbers beyond: an `i32` for the others."""
+"""The count types of points whose raw number is the value, wider than the raw type; `i32` for all others."""
 
 
 def form_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
-    """The fact that says what decoding gives."""
+    """The fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
     if subject.form == "scaled" and subject.rule is None:
         return _ruled(subject, scope, kind)
@@ -54,11 +54,11 @@ def count_type(subject: CratePoint) -> str:
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:
-    """The form of a point whose scale, if it has one, needs no other point; and its facts."""
+    """The form of a point whose scale, if any, depends on no other point, with the facts of the form."""
     point = subject.point
     if subject.rule is not None:
         numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
-        facts = ", ".join(f"{integer(one.numerator)}, {integer(one.denominator)}" for one in numbers)
+        facts = ", ".join(f"{integer(number.numerator)}, {integer(number.denominator)}" for number in numbers)
         wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
         return "wide" if wide else "scaled", facts
     if subject.form == "digits" and subject.enum is not None:
@@ -70,7 +70,7 @@ def _form(subject: CratePoint) -> tuple[str, str]:
 
 
 def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:
-    """A scale that needs other points: the rule, and the raw numbers that are not too large for it."""
+    """The form of a scale that depends on other points: its rule, and the raw numbers that it can compute with."""
     point = subject.point
     head = f"=> {kind}_or_error f64 as ruled(|with: {subject.factors_type}|"
     wide = "" if point.encodes_values else "; wide true"
@@ -86,10 +86,10 @@ def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]
 
 @lru_cache(maxsize=4096)
 def _width(rule: Linear, decimals: int, raw: str) -> int:
-    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon.
+    """The bits of the narrowest of `i32`, `i64`, `i128` that holds all integers of decoding into counts.
 
-    That is linear in the raw number, so that the ends of its type come upon the largest. How the quotient is rounded is
-    the runtime's affair, which proves its own steps (`path.rs`).
+    They are linear in the raw number, so that they are largest at the ends of its type. The runtime rounds the quotient
+    and proves the widths of its own steps (`path.rs`).
     """
     line = count_line(rule, decimals).inverse
     numbers = (*line, *line.meets(type_range(raw)))

@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 
 CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
-    | {"decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
+    | {"decimals", "display_decimals", "read_function", "write_function", "write_address", "access", "group", "info"}
     | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
     | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
 )
-"""Associated constants of the point traits, which a name of the author would hide (a test holds them to the traits)."""
+"""Associated constants of the point traits, which a constant of the description could hide; a test compares them."""
 
 _CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 
 
 def device_name_taken(name: str) -> str:
-    """Why no crate may have that name; empty where it may."""
+    """Why no crate may have that name; empty if it may."""
     if name in RESERVED:
         return "is a word that Rust reserves, so that no program could name its crate"
     return "is a crate of Rust's own, which the generated crate would hide" if name in _CRATES else ""
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Every identifier that the description decides; equal ones in one namespace clash."""
+    """Every identifier that depends on the description, by namespace."""
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
@@ -79,25 +79,25 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
 
 
 def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
-    """The constants of a point that the author named, and those of every point that these would hide."""
-    point, own = subject.point, f"Rust, the point `{subject.point.item}`"
+    """The constants of a point that the description names, and the constants of every point that they could hide."""
+    point, namespace = subject.point, f"Rust, the point `{subject.point.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
         if name in CONSTANTS:
-            yield Names(own, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
+            yield Names(namespace, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
     if CONSTANTS.isdisjoint(point.references):
-        yield Names(own, owner, [*map(upper, point.references)])
+        yield Names(namespace, owner, [*map(upper, point.references)])
     else:
         for key in point.references:
-            yield Names(own, Owner("numbering", key, owner), (upper(key),))
+            yield Names(namespace, Owner("numbering", key, owner), (upper(key),))
     if point.shared_codes:
         yield from _shared_codes(subject)
         return
     for special in point.specials:
-        yield Names(own, Owner("code", special.name, owner), _code_names(special))
+        yield Names(namespace, Owner("code", special.name, owner), _code_names(special))
 
 
 def _shared_codes(subject: CratePoint) -> Iterator[Names]:
-    """The type of codes that many points have, with its constants and its own table."""
+    """The type of special codes that many points share, with its constants and its table."""
     name = subject.point.shared_codes
     owner, space = Owner("special codes", name), f"Rust, the special codes `{name}`"
     yield Names("Rust, module `special`", owner, (type_name(name),))

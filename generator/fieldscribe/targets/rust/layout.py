@@ -1,4 +1,4 @@
-"""Lines as rustfmt breaks them, for the few places where names decide whether one line is enough."""
+"""Lines broken as by rustfmt, for the places where the length of names decides."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ if TYPE_CHECKING:
 
 _WIDTH = 100
 _ARRAY_WIDTH = 60
+_CALL_WIDTH = 60
 _STRUCT_WIDTH = 18
 _FREE_WIDTH = 104
 
@@ -16,7 +17,7 @@ Lines = tuple[str, ...]
 
 
 def binding(indent: int, left: str, right: str) -> Lines:
-    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if that is too long."""
+    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if it is still too long."""
     line = f"{left} = {right};"
     if indent + len(line) <= _WIDTH:
         return (line,)
@@ -27,7 +28,7 @@ def binding(indent: int, left: str, right: str) -> Lines:
 
 
 def assignment(indent: int, left: str, lines: Lines) -> Lines:
-    """`left = lines;` where these are several; the first goes to the next line if it is too long."""
+    """`left = lines;` for an expression of several lines; its first goes to a line of its own if it is too long."""
     first = f"{left} = {lines[0]}"
     if indent + len(first) <= _WIDTH:
         return (first, *lines[1:-1], f"{lines[-1]};")
@@ -45,11 +46,11 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
     line = f"{name}({', '.join(parameters)}) -> {result} {{"
     if indent + len(line) <= _WIDTH:
         return (line,)
-    return (f"{name}(", *(f"    {one}," for one in parameters), f") -> {result} {{")
+    return (f"{name}(", *(f"    {parameter}," for parameter in parameters), f") -> {result} {{")
 
 
 def array(items: list[str]) -> Lines:
-    """What stands between an array's brackets: one line, else a line per item."""
+    """The contents of an array's brackets: one line, else a line for each item."""
     joined = ", ".join(items)
     return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
 
@@ -62,21 +63,31 @@ def comparison(indent: int, left: str, right: str) -> Lines:
 
 def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
     """`left = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
+    lines = called(indent, items)
+    if len(lines) == 1:
+        return binding(indent, left, lines[0])
+    return f"{left} = {lines[0]}", *lines[1:-1], f"{lines[-1]};"
+
+
+def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
+    """The same list as an expression."""
     flat = [f"{name}({', '.join(arguments)})" for name, arguments in items]
     joined = ", ".join(flat)
     if len(joined) <= _ARRAY_WIDTH:
-        return binding(indent, left, f"&[{joined}]")
-    lines = [f"{left} = &["]
+        return (f"&[{joined}]",)
+    lines = ["&["]
     for line, (name, arguments) in zip(flat, items, strict=True):
-        if indent + 4 + len(line) + 1 <= _WIDTH:
+        if indent + 4 + len(line) + 1 <= _WIDTH and len(line) - len(name) - 2 <= _CALL_WIDTH:
             lines.append(f"    {line},")
+        elif len(items) == 1:
+            return f"&[{name}(", *(f"    {one}," for one in arguments), ")]"
         else:
             lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
-    return (*lines, "];")
+    return (*lines, "]")
 
 
 def fields_of(indent: int, type_: str, names: Lines) -> Lines:
-    """A struct literal that takes its fields from `all`."""
+    """A struct literal whose fields come from the struct `all`."""
     joined = ", ".join(f"{name}: all.{name}" for name in names)
     if len(joined) <= _STRUCT_WIDTH:
         return (f"{type_} {{ {joined} }}",)
@@ -88,7 +99,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
 
 
 def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
-    """Items in as few lines as their width needs, where rustfmt does not look."""
+    """Items in as few lines as possible, for macros, where rustfmt changes nothing."""
     lines = [left]
     for place, item in enumerate(items):
         text = item + (between if place + 1 < len(items) else right)
@@ -100,7 +111,7 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
 
 
 def chained(steps: Sequence[str]) -> Lines:
-    """Calls of which each may fail, in one line, else with a line for each step behind a question mark."""
+    """A chain of fallible calls, on one line or with a line for each call."""
     line = "?".join(steps)
     if len(line) <= _FREE_WIDTH:
         return (line,)
@@ -108,7 +119,7 @@ def chained(steps: Sequence[str]) -> Lines:
 
 
 def chain(left: str, start: str, steps: list[str]) -> Lines:
-    """`left = start.step().step();`: one step in the line of a binding, several in a line each."""
+    """`left = start.step().step();`: with one step on one line, with several on a line each."""
     if len(steps) < 2:
         return binding(0, left, "".join((start, *steps)))
     return (f"{left} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")

@@ -1,4 +1,4 @@
-"""Rust types and literals, grouped the way clippy wants them read."""
+"""Rust types and literals, with digits grouped as clippy wants."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RESERVED = frozenset(
     | {"struct", "super", "trait", "true", "try", "type", "typeof", "union", "unsafe", "unsized", "use"}
     | {"virtual", "where", "while", "yield"}
 )
-"""The words of the language, which nothing may be called as it is."""
+"""The reserved words of the language."""
 
 RAW_TYPES = {
     "bit": "u8",
@@ -34,7 +34,7 @@ FLOAT_GREATEST = {32: 3.4028234663852886e38, 64: 1.7976931348623157e308}
 """The greatest finite number of a binary floating-point type by its bits."""
 
 _HIDDEN = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
-"""What generated code means by these names, wherever it stands."""
+"""Names that generated code uses everywhere in their meaning of the prelude."""
 
 _PRELUDE = (
     _HIDDEN
@@ -43,7 +43,7 @@ _PRELUDE = (
     | {"Ord", "PartialEq", "PartialOrd", "Send", "Sized", "String", "Sync", "ToOwned", "ToString", "TryFrom", "TryInto"}
     | {"Unpin", "Vec"}
 )
-"""What a type of that name would hide from the code beside it."""
+"""Names that a type of ours must not hide."""
 
 _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
@@ -66,21 +66,21 @@ def type_range(rust_type: str) -> tuple[int, int]:
 
 @lru_cache(maxsize=65536)
 def type_name(name: str) -> str:
-    """A type: `BaseFrequency`; what the prelude means by that name keeps it."""
+    """The name of a type: `BaseFrequency`; changed if the prelude has that name."""
     result = pascal(name)
     return f"{result}_" if result in _PRELUDE else result
 
 
 @lru_cache(maxsize=65536)
 def variant_name(name: str) -> str:
-    """A variant of an enum: `ForwardAndReverse`; it stands behind the name of its enum, so that it hides little."""
+    """The name of an enum's variant: `ForwardAndReverse`; only a few names would hide others there."""
     result = pascal(name)
     return f"{result}_" if result in _HIDDEN else result
 
 
 @lru_cache(maxsize=65536)
 def value_name(name: str) -> str:
-    """A function, a field or a local: as it is, or raw where Rust reserves the word."""
+    """The name of a function, a field or a local; a raw identifier if Rust reserves the word."""
     if name not in RESERVED:
         return name
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"

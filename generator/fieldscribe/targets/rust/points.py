@@ -1,4 +1,4 @@
-"""The view of one point: the facts that the runtime's macro makes it of."""
+"""The view of one point: the facts for the runtime's macro."""
 
 from __future__ import annotations
 
@@ -49,6 +49,8 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
+    if point.display is not None:
+        yield f"display {point.display};"
     yield from _outer_limits(subject)
     yield from form_lines(subject, scope)
     yield from code_lines(subject)
@@ -60,7 +62,7 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
-    """Addresses and what stands beside them, and the bits that are always a constant."""
+    """The facts about addresses, index, telegram and constant bits."""
     addresses = point.places[0].addresses
     yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
@@ -79,7 +81,7 @@ def _whereabouts(point: Point) -> Iterator[str]:
 
 
 def _outer_limits(subject: CratePoint) -> Iterator[str]:
-    """The ends of what may be written, where they are not the type's."""
+    """The fact about the outer limits, unless they are those of the type."""
     ends, raw = subject.point.outer, subject.raw
     if subject.form not in ("float", "text", "digits") and ends != type_range(raw):
         yield f"raw {raw_literal(ends[0], raw)}..={raw_literal(ends[1], raw)};"

@@ -1,4 +1,4 @@
-"""Special codes as Rust constants: those of a point, and those that many share, once."""
+"""Special codes as Rust constants: those of each point, and those that many share, once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WIDTH = 100
 
 @dataclass(frozen=True, slots=True)
 class SharedView:
-    """The codes that several points share: a type with a constant for each, and the table of all."""
+    """Codes that several points share: a type with a constant for each code and a table of all."""
 
     name: str
     of: str
@@ -31,7 +31,7 @@ class SharedView:
 
 
 def shared_views(scope: CrateScope) -> Iterator[SharedView]:
-    """The shared codes, in the order in which points first have them."""
+    """The shared codes, in the order of their first point."""
     first: dict[str, CratePoint] = {}
     for subject in scope.subjects:
         if subject.point.shared_codes:
@@ -42,52 +42,56 @@ def shared_views(scope: CrateScope) -> Iterator[SharedView]:
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:
-    """The fact that gives a point its codes: its own, or those that it shares."""
+    """The fact about the codes of a point, its own or shared ones."""
     shared = subject.point.shared_codes
     if shared:
         yield f"codes (special::{type_name(shared)}::CODES);"
     elif subject.point.specials:
         yield "codes {"
-        for one in subject.point.specials:
-            name, band = one.name.upper(), one.low != one.high
-            ends = "..=".join(_literal(end, one, subject.raw) for end in ((one.low, one.high) if band else (one.low,)))
+        for special in subject.point.specials:
+            name, band = special.name.upper(), special.low != special.high
+            ends = "..=".join(
+                _literal(end, special, subject.raw) for end in ((special.low, special.high) if band else (special.low,))
+            )
             last = f" {name}_LAST" if band else ""
-            yield f"    /// {sentence(f'{one.name}, the first of a band' if band else one.name)}"
-            yield f"    {name}{last} = {_kind(one)}({rust_string(one.name)}, {ends});"
+            yield f"    /// {sentence(f'{special.name}, the first of a band' if band else special.name)}"
+            yield f"    {name}{last} = {_kind(special)}({rust_string(special.name)}, {ends});"
         yield "};"
 
 
 def _kind(special: Special) -> str:
-    """The constructor that says what the code is."""
+    """The runtime's constructor for the kind of code."""
     words = (word for word, holds in (("writable", special.writable), ("no_value", special.no_value)) if holds)
     return "_".join(words) or "new"
 
 
 def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
     """A constant for each code; of a band, its first code and the last raw number."""
-    for one in subject.point.specials:
-        left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
-        call = f"{_kind(one)}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
+    for special in subject.point.specials:
+        left = f"pub const {special.name.upper()}: runtime::Special<{subject.raw}>"
+        call = f"{_kind(special)}({rust_string(special.name)}, {_literal(special.low, special, subject.raw)})"
         lines = _constant(left, f"runtime::Special::{call}")
-        if one.low != one.high:
-            last = binding(4, f"pub const {one.name.upper()}_LAST: {subject.raw}", _literal(one.high, one, subject.raw))
-            yield ConstantView(sentence(f"{one.name}, the first of a band"), lines)
-            yield ConstantView(sentence(f"the last raw number of {one.name}"), last)
+        if special.low != special.high:
+            last = binding(
+                4, f"pub const {special.name.upper()}_LAST: {subject.raw}", _literal(special.high, special, subject.raw)
+            )
+            yield ConstantView(sentence(f"{special.name}, the first of a band"), lines)
+            yield ConstantView(sentence(f"the last raw number of {special.name}"), last)
         else:
-            yield ConstantView(sentence(one.name), lines)
+            yield ConstantView(sentence(special.name), lines)
 
 
 def _table(subject: CratePoint, left: str) -> Lines:
     items: list[tuple[str, Lines]] = []
-    for one in subject.point.specials:
-        name = f"Self::{one.name.upper()}"
+    for special in subject.point.specials:
+        name = f"Self::{special.name.upper()}"
         band = ("runtime::Code::band", (name, f"{name}_LAST"))
-        items.append(("runtime::Code::one", (name,)) if one.low == one.high else band)
+        items.append(("runtime::Code::one", (name,)) if special.low == special.high else band)
     return calls(4, left, items)
 
 
 def _constant(left: str, call: str) -> Lines:
-    """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
+    """The lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
     lines = binding(4, left, call)
     if all(4 + len(line) <= _WIDTH for line in (*lines, f"{left} =")):
         return lines

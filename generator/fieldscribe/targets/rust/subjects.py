@@ -1,4 +1,4 @@
-"""What the modules of this target ask of a point again and again, worked out once."""
+"""What the modules of this target often need of a point, worked out once."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class CratePoint:
-    """A generated point: its form, its identifiers, what it needs; `rule` is the scale if it needs no other point."""
+    """A generated point: its form, identifiers and needs; `rule` is its scale if that depends on no other point."""
 
     point: Point
     form: str
@@ -30,7 +30,7 @@ class CratePoint:
     rule: Linear | None
     enum: Enum | None
     carried: str
-    """The raw type of the enum, which is wider than the point's own where points of several types share the enum."""
+    """The raw type of its enum, which is wider than its own if points of several types share the enum."""
 
     @property
     def closed(self) -> bool:
@@ -39,28 +39,28 @@ class CratePoint:
 
     @property
     def with_type(self) -> str:
-        """The struct of all that writing needs."""
+        """The struct of all raw numbers that writing needs."""
         return f"with::{self.name}" if self.arguments else "()"
 
     @property
     def factors_name(self) -> str:
-        """What the struct of all that the scale needs is called where it is not that of all that writing needs."""
+        """The name of the scale's struct if it differs from that for writing, else empty."""
         return f"{pascal(self.point.item)}Factors"
 
     @property
     def factors_struct(self) -> str:
-        """The name of the struct of all that the scale needs."""
+        """The name of the struct of all raw numbers that the scale needs."""
         return self.name if self.factors == self.arguments else self.factors_name
 
     @property
     def factors_type(self) -> str:
-        """The struct of all that the scale needs, as a type."""
+        """The type of the struct of all raw numbers that the scale needs."""
         return f"with::{self.factors_struct}" if self.factors else "()"
 
 
 @dataclass(frozen=True, slots=True)
 class CrateScope:
-    """What the points of one device share: its lowered model, raw types and enums' raw types by name, its functions.
+    """What the points of a device share: the lowered model, raw types, the raw types of enums by name, functions.
 
     The telegrams are by name, with the messages that carry them. The errata are
     those that change a fact.
@@ -95,8 +95,8 @@ def scope_of(device: Device) -> CrateScope:
         frozenset(code.number for code in device.bus.functions),
         tuple(_subject(point, enums) for point in device.points if point.generated),
         device.family,
-        {one.name: (one, messages.get(one.message or "")) for one in device.telegrams},
-        frozenset(one.id for one in device.errata if one.facts),
+        {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
+        frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
 
 
@@ -117,7 +117,7 @@ def _subject(point: Point, enums: Mapping[str, str]) -> CratePoint:
 
 
 def _enum(point: Point) -> Enum | None:
-    """The enum that the values of a point are of, or that each of its digits is of."""
+    """The enum of a point's values, or of its digits."""
     if point.digits is not None and point.form == "digits":
         return point.digits.enum
     return point.enum if point.form == "enum" else None

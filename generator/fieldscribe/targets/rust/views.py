@@ -59,9 +59,9 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class FlagView:
-    """A flag: its mask, how it is read and set, its named numbers (doc, constant).
+    """A flag: its mask, its getter and setter, its named numbers (doc, constant).
 
-    `active` is whether a single bit means the flag while it is 1; `meaning` says what else its name does not.
+    `active` says that a single bit is 1 while the flag is true; `meaning` is what its name alone does not say.
     """
 
     name: str
@@ -84,9 +84,9 @@ class FlagView:
 
 @dataclass(frozen=True, slots=True)
 class FlagsView:
-    """A word whose bits have names; the bits are held in the unsigned type beside the raw number's.
+    """A word whose bits have names; the bits are held in the unsigned type of the raw number's width.
 
-    `false` is the word in which nothing is true, `shown` the lines that say how the word is shown.
+    `false` is the word in which no flag is true, `shown` the lines that print the word.
     """
 
     doc: str

@@ -1,11 +1,11 @@
-"""The views of enums, of words whose bits have names, and of what a point needs from others."""
+"""The views of enums, of words of flags, and of the structs of raw numbers that points need."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _LONG = 90
 
 UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
-"""What the variant for numbers without a name is called: the first of these that no entry takes."""
+"""Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
 def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
@@ -30,8 +30,10 @@ def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
 
 
 def is_long(enum: EnumView) -> bool:
-    """Whether a function with an arm for each name has more lines than clippy likes."""
-    return max(sum(len(one.named) for one in enum.entries), sum(len(one.numbered) for one in enum.entries)) > _LONG
+    """Whether a function with an arm for each name would be too long for clippy."""
+    return (
+        max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
+    )
 
 
 _OF_TRAITS = frozenset(
@@ -53,17 +55,17 @@ _OF_TRAITS = frozenset(
         "not",
     }
 )
-"""Methods of traits, which a flag's function would hide or be taken for."""
+"""Methods of traits, with which a flag's function could be confused."""
 
 
 def getter_name(flag: str) -> str:
-    """The function that gets a flag; what is named `from_` or as a method of a trait would have to be that."""
+    """The function that gets a flag; renamed if it would look like a conversion or a method of a trait."""
     convertible = flag.startswith(("from_", "as_", "into_", "to_"))
     return f"get_{flag}" if convertible or flag in _OF_TRAITS else value_name(flag)
 
 
 def constant_name(flag: Flag) -> str:
-    """The constant of a flag's bits; it says so if setting the bit makes the flag false."""
+    """The constant of a flag's mask; its name says so if the flag is false while the bit is set."""
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
@@ -83,14 +85,30 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
                 flags=flags,
                 shown=(
                     *binding(4, "const NAME: &'static str", rust_string(subject.name)),
-                    *calls(4, "const FLAGS: &'static [runtime::Flag]", [_shown(flag) for flag in flags]),
+                    *_table(point.flags, flags),
                 ),
             )
 
 
-def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
-    """The call that says how a flag is shown."""
-    return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
+def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
+    """The constant that says how flags are shown, with the names of their numbers."""
+    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
+        if view.values:
+            names += _names(f"NAMES_{place}", flag)
+            shown.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
+        else:
+            made = "new" if view.active or not view.single else "active_low"
+            shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
+    if not names:
+        return calls(4, left, shown)
+    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+
+
+def _names(constant: str, flag: Flag) -> tuple[str, ...]:
+    """The constant of the numbers of a flag that have names."""
+    rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
+    return calls(8, f"const {constant}: runtime::Names", rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
@@ -114,9 +132,9 @@ def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str,
 
 
 def _source(name: str, scope: CrateScope) -> str:
-    """Which points an argument is the raw number of: several where variants of the device differ."""
-    types = [one.name for one in scope.subjects if name in (one.point.item, one.point.name)]
-    links = " or ".join(f"[`{one}`](crate::points::{one})" for one in types)
+    """The points whose raw number an argument is: several if variants of the device differ."""
+    types = [subject.name for subject in scope.subjects if name in (subject.point.item, subject.point.name)]
+    links = " or ".join(f"[`{type_}`](crate::points::{type_})" for type_ in types)
     return f"The raw number of {links or f'`{name}`'}."
 
 
@@ -124,7 +142,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
     name = type_name(enum.name)
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(one for one in UNKNOWN if one not in taken)
+    unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
     return EnumView(sentence(enum.name), name, raw, entries, unknown)
 
 
@@ -163,9 +181,9 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         when_false=states[1 - flag.active],
         values=tuple(
             (
-                sentence(one.name),
-                binding(4, f"pub const {flag.name.upper()}_{one.name.upper()}: {raw}", integer(one.raw)),
+                sentence(value.name),
+                binding(4, f"pub const {flag.name.upper()}_{value.name.upper()}: {raw}", integer(value.raw)),
             )
-            for one in (() if single else flag.values)
+            for value in (() if single else flag.values)
         ),
     )

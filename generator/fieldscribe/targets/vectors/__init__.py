@@ -1,6 +1,6 @@
-"""The conformance vectors of a device: what every language has to answer, computed from the model alone.
+"""The conformance vectors of a device: the right answers for every language, computed from the model alone.
 
-Nothing here is shared with the other targets: a wrong rule in one of them cannot repeat itself in its own test.
+It shares no code with the other targets, so that a mistake in one of them cannot be in its own test too.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 
 
 def identifiers(device: Device) -> Iterable[Names]:
-    """Vectors have the names of the description, as they are."""
+    """Vectors have the names of the description, which need no check of their own."""
     del device
     return ()
 
 
 def device_name_taken(name: str) -> str:
-    """Every name will do for a file of vectors."""
+    """A file of vectors may have any name."""
     del name
     return ""

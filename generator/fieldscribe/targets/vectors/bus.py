@@ -1,4 +1,4 @@
-"""Vectors of the constants of a bus: its units, how long its telegrams are, and what its family adds."""
+"""Vectors of the constants of a bus: units, lengths of telegrams, and others of its family."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
 
 NO_BROADCAST = 0xFFFF
-"""Larger than any unit number."""
+"""The unit number for devices without broadcast: larger than any other."""
 
 
 def add_limits(lines: Lines, **numbers: int) -> None:
-    """Constants by name."""
+    """Add a vector for each constant."""
     for what, number in numbers.items():
         lines.add("limit", what, number)

@@ -17,7 +17,7 @@ _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range
 
 
 def text(lines: Lines, point: Point) -> None:
-    """Texts that fill the words, are shorter, end in blanks, are empty or too long, and bytes that are no letters."""
+    """Vectors of a text: full, shorter, empty, too long, ending in blanks, and with bytes that are no characters."""
     if point.text is None:
         return
     size = point.text.characters
@@ -44,44 +44,47 @@ def _words(data: bytes) -> list[int]:
 
 
 def digits(lines: Lines, point: Point) -> None:
-    """Numbers taken apart and put together: each digit through all its numbers, and numbers that it cannot be."""
+    """Vectors of words of digits: each digit with all its numbers and some that it cannot have."""
     layout = point.digits
     if layout is None:
         return
     allowed = {entry.raw for entry in layout.enum.entries}
     places = [10**place for place in reversed(range(layout.count))]
     numbers = _numbers(layout, allowed)
-    raws = dict.fromkeys(sum(digit * place for digit, place in zip(one, places, strict=True)) for one in numbers)
+    raws = dict.fromkeys(
+        sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
+        for digits_of_number in numbers
+    )
     raws = {
         raw: None
         for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF, *codes(point))
         if raw <= 0xFFFF
     }
     for raw in raws:
-        rest, found = raw, []
+        rest, digits_of_raw = raw, []
         for place in places:
             digit, rest = divmod(rest, place)
-            found.append(digit)
+            digits_of_raw.append(digit)
         code = code_of(point, raw)
         if point.readable:
-            lines.add("digits", raw, *(("ok", found) if code is None else ("special", None, code.name)))
+            lines.add("digits", raw, *(("ok", digits_of_raw) if code is None else ("special", None, code.name)))
         if point.writable:
             coded = None if code is None else "ok" if code.writable else "special"
-            lines.add("check", raw, coded or ("ok" if allowed.issuperset(found) else "unknown_value"))
-    for one in numbers if point.writable else ():
-        raw = sum(digit * place for digit, place in zip(one, places, strict=True))
-        good = allowed.issuperset(one) and raw <= 0xFFFF
+            lines.add("check", raw, coded or ("ok" if allowed.issuperset(digits_of_raw) else "unknown_value"))
+    for digits_of_number in numbers if point.writable else ():
+        raw = sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
+        good = allowed.issuperset(digits_of_number) and raw <= 0xFFFF
         status = "unknown_value" if not good else "ok" if code_of(point, raw) is None else "special"
-        lines.add("digits_encode", one, status, raw if status == "ok" else None)
+        lines.add("digits_encode", digits_of_number, status, raw if status == "ok" else None)
 
 
 def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
-    """Digits to try: one place at a time through all numbers and two that it cannot be, the others at their least."""
+    """Digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
     known = sorted(allowed)
     strange = [next(digit for digit in range(256) if digit not in known), 10]
     base = (known[0],) * layout.count
-    found = [base, (known[-1],) * layout.count, tuple(known[place % len(known)] for place in range(layout.count))]
-    found += [
+    samples = [base, (known[-1],) * layout.count, tuple(known[place % len(known)] for place in range(layout.count))]
+    samples += [
         (*base[:place], digit, *base[place + 1 :]) for place in range(layout.count) for digit in (*known, *strange)
     ]
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(samples))

@@ -15,6 +15,7 @@ from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.shapes import Shapes
+from fieldscribe.targets.vectors.shown import shown
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
@@ -25,59 +26,61 @@ if TYPE_CHECKING:
 
 
 class OfFamily:
-    """What the part `targets.vectors` of a family offers; what is here holds where it offers nothing."""
+    """The part `targets.vectors` of a family. These are the defaults."""
 
     KINDS: Mapping[str, str] = MappingProxyType({})
-    """Kinds of vectors that only this family has, with the fields of their lines."""
+    """The kinds of vectors that only this family has, with the fields of their lines."""
 
     def limits(self, lines: Lines, bus: Bus) -> None:
-        """The constants of a bus."""
+        """Add the vectors of the constants of the bus."""
 
     def frames(self, lines: Lines, device: Device) -> None:
-        """Everything about the frames of a device."""
+        """Add the vectors of the frames of a device."""
 
     def wires(self, device: Device) -> Sequence[Wire]:
-        """The ways in which points travel, the usual one first."""
+        """The ways in which points travel, with the usual way first."""
         del device
         return ()
 
 
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
-    own: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
-    lines = Lines(own.KINDS)
+    family_part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
+    lines = Lines(family_part.KINDS)
     shapes = Shapes()
     oracle = Oracle({point.name: point for point in reversed(device.points)})
-    exchanges = [Exchanges(lines, oracle, device, wire) for wire in own.wires(device)]
+    exchanges = [Exchanges(lines, oracle, device, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
-    for one in usual:
-        one.open()
+    for collector in usual:
+        collector.open()
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
-    _limits(lines, device, own)
+    _limits(lines, device, family_part)
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point, device.variants, deep=shapes.is_new(point))
-            for one in usual:
-                one.of(point)
+            for collector in usual:
+                collector.of(point)
             lines.gather()
-    for one in others:
-        one.open()
-        one.of_each_space()
+    for collector in others:
+        collector.open()
+        collector.of_each_space()
         lines.gather()
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
     if left_out := [point for point in device.points if not point.generated]:
-        lines.add("left_out", tuple(one.item for one in left_out), tuple(one.code or "none" for one in left_out))
-    own.frames(lines, device)
+        lines.add(
+            "left_out", tuple(point.item for point in left_out), tuple(point.code or "none" for point in left_out)
+        )
+    family_part.frames(lines, device)
     return lines
 
 
-def _limits(lines: Lines, device: Device, own: OfFamily) -> None:
-    """Everything about the constants of the bus."""
+def _limits(lines: Lines, device: Device, family_part: OfFamily) -> None:
+    """Add all vectors of constants."""
     add_limits(lines, first_unit=device.bus.units[0], last_unit=device.bus.units[1])
-    own.limits(lines, device.bus)
+    family_part.limits(lines, device.bus)
     for telegram in device.telegrams:
         lines.add("size", "words", telegram.name, telegram.words)
 
@@ -97,6 +100,7 @@ def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tu
         digits(lines, point)
     else:
         whole(lines, oracle, point, deep=deep)
+    shown(lines, oracle, point, deep=deep)
     names(lines, point, deep=deep)
     specials(lines, point)
     flags(lines, point)

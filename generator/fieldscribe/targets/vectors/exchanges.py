@@ -1,4 +1,4 @@
-"""Vectors of whole exchanges: what is sent to read or write a point, and what the answer that came makes of it."""
+"""Vectors of whole exchanges: the requests that read or write a point, the answers, and the result."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
 
 Script = list[tuple[bytes, bytes]]
-"""What is sent, and what comes back."""
+"""The requests of an exchange with their answers."""
 
 OTHER_BITS = 0xA5C3
-"""What stands in a word beside the bits of a group."""
+"""The bits of a shared word around those of the point."""
 
 
 class Wire(Protocol):
-    """How the words of a point travel in a family."""
+    """A way in which a family reads and writes the words of a point."""
 
     def opens(self, lines: Lines) -> None:
-        """Sets what all exchanges share: the unit, and how the line is set."""
+        """Set what all exchanges share: the unit and the settings of the line."""
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
-        """The exchange that brings words, in ascending order of address; None where no request does."""
+        """The exchange that reads these words, in ascending order of address; None if no request can."""
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """The exchange that changes words; `keep` for good, where that is another request."""
+        """The exchange that writes these words; with `keep` permanently, if another request does that."""
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """The same exchange with answers that are none, each with its status."""
+        """The exchange with bad answers, each with the status that it gives."""
 
 
 class Exchanges:
@@ -45,14 +45,14 @@ class Exchanges:
         self.lines, self.oracle, self.wire = lines, oracle, wire
         self.points = {point.item: point for point in device.points if point.generated}
         self.spoiled: set[tuple[str, str]] = set()
-        """For which kinds and spaces the bad answers were given: once for each."""
+        """The kinds and spaces that have vectors with bad answers already."""
 
     def open(self) -> None:
-        """Sets the unit and the line for all exchanges."""
+        """Set the unit and the line for all exchanges."""
         self.wire.opens(self.lines)
 
     def of_each_space(self) -> None:
-        """Those of the first point of each space that is read, and of the first that is written."""
+        """Add exchanges for the first readable and the first writable point of each space."""
         for point in self.points.values():
             kinds = (("read", point.readable), ("write", point.writable))
             new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
@@ -60,7 +60,7 @@ class Exchanges:
                 self.of(point)
 
     def of(self, point: Point) -> None:
-        """Reading the point, writing it, and writing it for good."""
+        """Add the exchanges of a point: read, write, and write permanently."""
         if not point.places:
             return
         settings = samples.settings(self.oracle, point)[0] if point.arguments else {}
@@ -91,7 +91,7 @@ class Exchanges:
         return None if before is None else before + script
 
     def _needs(self, settings: dict[str, int]) -> Script | None:
-        """The exchanges that read the points that another one needs; None where one of them cannot be read so."""
+        """The exchanges that read the points that another point needs; None if one cannot be read this way."""
         script: Script = []
         for name, raw in settings.items():
             other = self.points.get(name)
@@ -117,21 +117,20 @@ class Exchanges:
 
 
 def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
-    """The numbers of the protocol that have a name: a `code` that comes, or a `constant` for callers."""
+    """Add vectors for named numbers of the protocol: a `code` that is received, or a `constant` for callers."""
     for code in numbers:
         lines.add(kind, what, code.number, code.name)
 
 
 def writing_place(point: Point) -> Place:
-    """Where a point is written."""
-    return next((one for one in point.places if one.purpose == "write"), point.places[0])
+    """The place where a point is written."""
+    return next((place for place in point.places if place.purpose == "write"), point.places[0])
 
 
 def words_of(point: Point, place: Place, raw: int, *, received: bool = False) -> tuple[int, ...]:
     """The words of a raw number as they travel, in ascending order of address.
 
-    A group has other bits beside it: those that are written as a constant are so when they are sent, and another number
-    when they are received.
+    A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
     """
     count = len(place.addresses) if point.text is not None else point.words
     if point.bits is not None:
@@ -149,7 +148,7 @@ def words_of(point: Point, place: Place, raw: int, *, received: bool = False) ->
 
 
 def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | None:
-    """A raw number that may be written, two thirds up its range and odd if that may be."""
+    """A typical raw number to write: two thirds up the range, odd if possible."""
     if point.text is not None:
         return int.from_bytes(bytes(0x41 + place % 26 for place in range(point.text.characters)), "big")
     if point.digits is not None:
@@ -162,11 +161,11 @@ def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | Non
     limits = oracle.limits(point, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
-    low, high = max(limits, key=lambda one: one[1] - one[0])
+    low, high = max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     tried = (upper | 1, upper, *(raw for interval in limits for raw in interval))
-    found = (with_fixed(point, raw) for raw in tried)
-    return next((raw for raw in found if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
+    candidates = (with_fixed(point, raw) for raw in tried)
+    return next((raw for raw in candidates if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
 
 
 def _typical_pattern(point: Point) -> int:

@@ -38,14 +38,14 @@ _TIES = (
     2.0**-126,
 )
 _BEYOND_32 = 2.0**128 - 2.0**103
-"""Halfway between the greatest binary32 and the next step: the first number that rounds to infinity."""
+"""Halfway between the greatest binary32 and the next power of two: numbers from here on round to infinity."""
 
 _GREATEST_32 = 2.0**128 - 2.0**104
 _GREATEST_64 = 1.7976931348623157e308
 
 
 def floats(lines: Lines, point: Point, *, deep: bool) -> None:
-    """Decoding of patterns, encoding of values and checking; limits are compared after the conversion to the type."""
+    """Vectors of decoding, encoding and checking; limits are compared after conversion to the type."""
     wide = point.width == 64
     limits = _limits(point, wide)
     if point.readable:
@@ -63,7 +63,7 @@ def floats(lines: Lines, point: Point, *, deep: bool) -> None:
 
 
 class _Same:
-    """A value that differs from another if its bits do: -0 is not 0."""
+    """A value that is compared by its bits: -0 is not 0."""
 
     def __init__(self, value: float) -> None:
         self.value = value
@@ -81,7 +81,7 @@ def _decoded(point: Point, bits: int) -> tuple[object, ...]:
 
 
 def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
-    """The limits as numbers of the type, to which they round as values do; those of the type where there are none."""
+    """The limits, rounded to numbers of the type as values are; without limits, the limits of the type."""
     greatest = _GREATEST_64 if wide else _GREATEST_32
     return [(_typed(float(low), wide), _typed(float(high), wide)) for low, high in point.allowed.units] or [
         (-greatest, greatest)
@@ -89,7 +89,7 @@ def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
 
 
 def _typed(value: float, wide: bool) -> float:
-    """The number of the type nearest to a value."""
+    """The nearest number of the type."""
     if wide:
         return value
     pattern = bits32(value)
@@ -109,10 +109,10 @@ def _values(point: Point, limits: list[tuple[float, float]], wide: bool, *, deep
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
     if not wide:
         if point.allowed.units:
-            # Around each limit as the type has it: the halves to its neighbours, and what lies beside those halves.
+            # For each limit: the middle between it and each neighbour in the type, and the values beside that middle.
             for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
                 for beside in _neighbours(limit, wide):
-                    half = (limit + beside) / 2  # of two binary32 numbers: exact
+                    half = (limit + beside) / 2  # exact, because both are binary32 numbers
                     values += [limit, half, nextafter(half, limit), nextafter(half, beside)]
         values += _TIES
         values += [_BEYOND_32, -_BEYOND_32, nextafter(_BEYOND_32, 0), nextafter(-_BEYOND_32, 0)]
@@ -125,21 +125,21 @@ def _neighbours(value: float, wide: bool) -> list[float]:
         return [nextafter(value, -inf), nextafter(value, inf)]
     if value == 0:
         return [-(2.0**-149), 2.0**-149]
-    bits = bits32(value) or 0  # patterns grow with the size of their number, whatever its sign
+    bits = bits32(value) or 0  # patterns are ordered by magnitude, whatever the sign
     return [beside for step in (-1, 1) if isfinite(beside := float_of_bits(bits + step, 32))]
 
 
 def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[int]:
-    """The limits, their neighbours, both zeros, infinities and what is no number."""
+    """The patterns of the limits, their neighbours, both zeros, the infinities and NaN."""
     numbers = [0.0, -0.0, inf, -inf]
     for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
         numbers += [limit, *_neighbours(limit, wide)]
     if wide:
-        found = [bits64(number) for number in numbers] + [0x7FF8 << 48, 0xFFF0 << 48 | 1]
+        patterns = [bits64(number) for number in numbers] + [0x7FF8 << 48, 0xFFF0 << 48 | 1]
     else:
-        found = [bits for number in numbers if isfinite(number) and (bits := bits32(number)) is not None]
-        found += [0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0xFF80_0001]
-    return list(dict.fromkeys(found))
+        patterns = [bits for number in numbers if isfinite(number) and (bits := bits32(number)) is not None]
+        patterns += [0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0xFF80_0001]
+    return list(dict.fromkeys(patterns))
 
 
 def _encoded(point: Point, value: float, limits: list[tuple[float, float]]) -> tuple[object, ...]:
@@ -154,7 +154,7 @@ def _encoded(point: Point, value: float, limits: list[tuple[float, float]]) -> t
 
 
 def _admitted(number: float, limits: list[tuple[float, float]]) -> str:
-    """Whether a number of the type may be written."""
+    """Whether a number of the type may be written within these limits."""
     if isnan(number):
         return "not_a_number"
     inside = isfinite(number) and any(low <= number <= high for low, high in limits)

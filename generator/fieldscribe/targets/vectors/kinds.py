@@ -1,9 +1,9 @@
-"""The one table of the kinds of vectors, and how the fields of their lines are written.
+"""The table of all kinds of vectors, and the notation of the fields of their lines.
 
-A file is lines of fields between tabs. Its head names the device, then every set (what the vectors below it share,
-until it is set anew) and every kind that it holds, with its fields and their forms; so no runner has a list of its own.
-An absent field is a hyphen, or left out at the end of a line. A set ends the sets that stand behind it in the table.
-A runner holds every field against something, but for notes.
+A file has lines of fields, separated by tabs. Its head names the device, then every set and every kind in it, with the
+fields and their forms, so that no runner needs a list of its own. A set is what the vectors below it share until it is
+set anew; it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a
+line. A runner compares every field with something, except notes.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ class Kind:
 
     fields: tuple[tuple[str, str], ...]
     optional: frozenset[str]
-    """Fields that need not be there; they end in a question mark in the table."""
+    """Fields that may be absent; in the table they end in a question mark."""
     only: str = ""
-    """The languages that say this in more than comments, where not all do."""
+    """The languages that have this in code and not only in comments; empty for all."""
 
 
 def _kind(row: str) -> Kind:
@@ -39,7 +39,7 @@ def _kind(row: str) -> Kind:
 
 
 def table(rows: Mapping[str, str]) -> dict[str, Kind]:
-    """Kinds by name, out of the fields of their lines."""
+    """Kinds by name, from the fields of their lines."""
     return {name: _kind(row) for name, row in rows.items()}
 
 
@@ -63,59 +63,62 @@ SETS = table(
 
 KINDS = table(
     {
-        # a raw number to a value in binary64 and back, to a count and back, and whether it may be written
+        # conversions between raw number, value (binary64) and count, and whether a raw number may be written
         "decode": "raw:int status:word value:real? special:word?",
         "encode": "value:real status:word raw:int?",
         "decode_count": "raw:int status:word count:int? special:word?",
         "encode_count": "count:int status:word raw:int?",
         "check": "raw:int status:word",
-        # names of numbers, special codes, flags and the numbers of wide ones
+        # names of numbers, special codes, flags, and the numbers of flags of several bits
         "name": "raw:int name:text?",
         "special": "special:text low:int high:int",
         "special_name": "raw:int name:text? no_value:int?",
         "flag": "flag:text raw:int number:int truth:int?",
         "flag_name": "flag:text raw:int name:text",
-        # a group of bits out of its word and into it, the words of a number, texts and digits
+        # bit groups out of their words and into them, words of a number, texts and digits
         "bits": "word:int raw:int replaced:int result:int",
         "words": "raw:int words:ints",
         "text_decode": "words:ints text:bytes?",
         "text_encode": "text:bytes? status:word words:ints?",
         "digits": "raw:int status:word digits:ints? special:word?",
         "digits_encode": "digits:ints status:word raw:int?",
-        # what a point is beside its conversions
+        # facts of a point beside its conversions
         "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
         "references:pairs?",
         "place": "addresses:ints index:int? telegram:word?",
         "fixed": "mask:int bits:int",
-        # whole exchanges with a point: what is sent, what comes back, and what that makes of it; to be kept for good
+        # whole exchanges with a point: requests, answers and result; also for writing permanently
         "read": _EXCHANGE,
         "write": _EXCHANGE,
         "store": _EXCHANGE,
-        # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
+        # facts that only Python has in code: in C and Rust they are comments, which no program can check
         "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
         "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
-        # what a point was called before
+        # old names of a point
         "alias": "only:c.python old:word new:word",
-        # the values of an axis of variants, and all that is documented only
+        # the values of an axis of variants, and what is only documented
         "variant": "only:python axis:word choices:names",
         "left_out": "only:python names:names codes:names",
-        # the symbol of the unit of a point that has one
+        # the number of decimals that people see, and the texts of values
+        "display": "decimals:int",
+        "told": "only:python.rust raw:int status:word text:text?",
+        # the symbol of a point's unit
         "symbol": "only:rust symbol:text",
-        # where the words of points are that are documented only
+        # the addresses of points that are only documented
         "documented": "name:word space:word address:int words:int index:int?",
-        # the words that bring a group where each is asked for by itself: Rust reads the points themselves
+        # the reads of a group's words; not in Rust, which reads points one by one
         "group": "only:c.python group:word addresses:ints",
-        # what tables of constants hold: the functions or tasks in their order, limits, and how long a table is
+        # the contents of tables of constants: functions or tasks in order, limits, lengths of tables
         "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
         "limit": "only:c what:word number:int",
         "size": "only:c what:word of:text? number:int",
-        # numbers of the protocol with names, and named writes
+        # named numbers of the protocol, and commands
         "code": "what:word number:int name:text",
         "constant": "only:c.rust what:word number:int name:text",
         "command": "command:word value:int script:script status:word",
     }
 )
-"""What a line asks and answers, for all families. Its own fields come before those of the sets that hold for it."""
+"""The kinds of vectors of all families: the fields of their lines. The sets in force apply to every line."""
 
 
 def _int(value: object) -> str:
@@ -125,17 +128,19 @@ def _int(value: object) -> str:
 
 
 def _word(value: object) -> str:
-    """A name that needs no escape; checked all the same."""
+    """A name; it must not need an escape."""
     return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
 
 
 def text(value: object) -> str:
-    """A text: what does not print, `%`, `,` and `=` as percent and two hexadecimal digits for each byte of UTF-8."""
+    """A text; unprintable characters, `%`, `,` and `=` become `%` and two hexadecimal digits a byte of UTF-8."""
     if not isinstance(value, str):
         raise TypeError(f"{value!r} is no text")
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
-    return "".join(one if one.isprintable() and one not in "%,=" else _escaped(one) for one in value)
+    return "".join(
+        character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
+    )
 
 
 def _escaped(character: str) -> str:
@@ -149,7 +154,7 @@ def _bytes(value: object) -> str:
 
 
 def _real(value: object) -> str:
-    """The pattern of a binary64 in hexadecimal; zeros at its end are left out but for one digit."""
+    """The pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
     if not isinstance(value, float):
         raise TypeError(f"{value!r} is no float")
     return f"{bits64(value):016x}".rstrip("0") or "0"
@@ -198,29 +203,29 @@ FORMS: dict[str, Callable[[object], str]] = {
     "frames": _frames,
     "script": _script,
 }
-"""How a field of each form is written: lists are between commas; `pairs`, `frames` and `script` are of two parts."""
+"""The notation of each form of field: lists with commas; `pairs`, `frames` and `script` have items of two parts."""
 
 
 class Shape:
-    """Writes the lines of one kind or set, and holds each value against its field."""
+    """Writes the lines of one kind or set, and checks each value against its field."""
 
     def __init__(self, name: str, kind: Kind) -> None:
         self.name = name
         self._fields = [(key, FORMS[form], key in kind.optional) for key, form in kind.fields]
 
     def line(self, values: Iterable[object]) -> str:
-        """The line of one vector; values left out at the end are absent."""
+        """The line of one vector; fields without a value are absent."""
         parts = [self.name]
-        given = iter(values)
+        remaining = iter(values)
         for key, write, optional in self._fields:
-            value = next(given, None)
+            value = next(remaining, None)
             if value is None or (not value and value not in (0, "")):
                 if not optional:
                     raise ValueError(f"{self.name} lacks {key}")
                 parts.append(ABSENT)
             else:
                 parts.append(write(value))
-        if next(given, None) is not None:
+        if next(remaining, None) is not None:
             raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
         while parts[-1] == ABSENT:
             parts.pop()

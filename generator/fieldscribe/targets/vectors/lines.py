@@ -1,4 +1,4 @@
-"""The lines of a vectors file, in the forms that the table of kinds fixes, counted by kind."""
+"""The lines of a file of vectors, in the notation of the table of kinds, counted by kind."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Lines:
     """Collects vectors in order, and counts them."""
 
     def __init__(self, further: Mapping[str, str] = MappingProxyType({})) -> None:
-        """`further` are kinds that only the family of the device has."""
+        """`further` are the kinds that only the device's family has."""
         self._kinds = KINDS | table(further)
         self._shapes = {name: Shape(name, kind) for name, kind in self._kinds.items()}
         self.counts: dict[str, int] = dict.fromkeys(self._kinds, 0)
@@ -29,18 +29,18 @@ class Lines:
         self._chunks: list[str] = []
 
     def set(self, name: str, *values: object) -> None:
-        """What the vectors from here on share; a line is written when a vector needs it and it is another one."""
+        """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
         self._wanted[name] = _SETS[name].line(values)
 
     def add(self, kind: str, *values: object) -> None:
-        """One vector: the fields of its kind in their order."""
+        """Add a vector: the fields of its kind in their order."""
         if self._wanted:
             self._settle()
         self.counts[kind] += 1
         self._open.append(self._shapes[kind].line(values))
 
     def _settle(self) -> None:
-        """Writes the sets that changed. A set that is set anew ends those that stand behind it in the table."""
+        """Write the sets that changed; each ends the sets after it in the table."""
         for name in SETS:
             line = self._wanted.get(name)
             if line is not None and line != self._held.get(name, name):
@@ -51,17 +51,17 @@ class Lines:
 
     def _forget_behind(self, name: str) -> None:
         behind = list(SETS)[list(SETS).index(name) + 1 :]
-        for one in behind:
-            self._held.pop(one, None)
+        for key in behind:
+            self._held.pop(key, None)
 
     def gather(self) -> None:
-        """Joins what was added since: one long string takes less memory than its lines."""
+        """Join the new lines: one long string takes less memory."""
         if self._open:
             self._chunks.append("\n".join(self._open))
             self._open.clear()
 
     def text(self, device: str, version: str, digest: str) -> str:
-        """The whole file, with a head that names what the lines hold."""
+        """The whole file, with a head that describes its kinds and sets."""
         self.gather()
         chunks, self._chunks = self._chunks, []
         return "\n".join([*self._head(device, version, digest), *chunks, ""])

@@ -1,4 +1,4 @@
-"""Exact numbers: rounding as the design fixes it, binary64 and binary32 patterns."""
+"""Exact numbers for the oracle: rounding, and binary64 and binary32 patterns."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 INFINITY = math.inf
 EXACT = 1 << 53
-"""Up to here every integer is a binary64 number."""
+"""Every integer up to this one is a binary64 number."""
 
 
 def half_away(over: int, under: int) -> int:
@@ -22,22 +22,17 @@ def half_away(over: int, under: int) -> int:
 
 
 def quotient(over: int, under: int) -> float:
-    """The binary64 nearest to over / under (under not 0); infinity where that is too large."""
+    """The binary64 nearest to over / under (under not 0); infinity if that is too large."""
     try:
-        return over / under  # of integers: correctly rounded
+        return over / under  # division of integers is correctly rounded
     except OverflowError:
         return INFINITY if (over < 0) == (under < 0) else -INFINITY
 
 
 def as_raw(point: Point, pattern: int) -> int:
-    """A pattern of the point's bits as its raw number; bits above them do not count."""
+    """The raw number in a pattern of the point's bits; higher bits are ignored."""
     pattern &= (1 << point.width) - 1
     return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
-
-
-def hex64(value: float) -> str:
-    """The bits of a binary64 in 16 hex digits."""
-    return struct.pack(">d", value).hex()
 
 
 def bits64(value: float) -> int:
@@ -46,14 +41,14 @@ def bits64(value: float) -> int:
 
 
 def float_of_bits(bits: int, width: int) -> float:
-    """The number that a binary32 or binary64 pattern is."""
+    """The number in a binary32 or binary64 pattern."""
     form, size = (">f", 4) if width == 32 else (">d", 8)
     number: float = struct.unpack(form, bits.to_bytes(size, "big"))[0]
     return math.nan if math.isnan(number) else number
 
 
 def bits32(value: float) -> int | None:
-    """The pattern of the binary32 nearest to a finite binary64, ties to even; None where that is infinite."""
+    """The pattern of the binary32 nearest to a finite binary64, ties to even; None if that is infinite."""
     sign = 0x8000_0000 if math.copysign(1.0, value) < 0 else 0
     over, under = abs(value).as_integer_ratio()
     if over == 0:
@@ -66,6 +61,6 @@ def bits32(value: float) -> int | None:
     places, rest = divmod(over, under)
     if 2 * rest > under or (2 * rest == under and places & 1):
         places += 1
-    # A normal number's 24th bit adds one to the exponent field, and so does a carry out of the fraction.
+    # The 24th bit of a normal number adds one to the exponent field, as does a carry out of the fraction.
     pattern = places if exponent == -149 else places + ((exponent + 149) << 23)
     return None if pattern >= 0x7F80_0000 else sign | pattern

@@ -1,4 +1,4 @@
-"""What every generated function has to answer, worked out of the model in exact rationals."""
+"""The right answers of all generated functions, computed from the model in exact rationals."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ Settings = Mapping[str, int]
 """Raw numbers of the points that a rule or a limit needs."""
 
 Numbers = Mapping[str, Fraction | int]
-"""The same, with the number that it stands for in place of each floating-point pattern; 0 where it is no number."""
+"""Settings in which the patterns of floating-point points are replaced by their numbers; 0 for NaN and infinity."""
 
 INT64 = 1 << 63
 
 
 def in_binary64(number: int) -> int:
-    """An integer as the binary64 that every language makes of it."""
+    """An integer rounded to binary64, as every language does it."""
     return number if -EXACT <= number <= EXACT else int(float(number))
 
 
 @dataclass(frozen=True, slots=True)
 class Ratio:
-    """A rule with its run-time factors put in: raw = value * num / den + over / under, as integers; under > 0."""
+    """A rule with the numbers of its factors: raw = value * num / den + over / under, as integers; under > 0."""
 
     num: int
     den: int
@@ -47,7 +47,7 @@ class Ratio:
         return abs(self.num) * self.under
 
     def raw_of_float(self, value: float) -> int | None:
-        """The raw number of a finite value in binary64 steps, each rounded; None when a step leaves binary64."""
+        """The raw number of a finite value, computed in rounded binary64 steps; None if a step overflows."""
         above, below = value.as_integer_ratio()
         if self.num != 1:
             value = quotient(above * in_binary64(self.num), below)
@@ -71,27 +71,27 @@ class Ratio:
         return half_away(over, under) if under > 0 else half_away(-over, -under)
 
     def count_of_raw(self, raw: int, decimals: int) -> int:
-        """The count of 10^-decimals units that a raw number is."""
+        """The count of 10^-decimals units for a raw number."""
         return half_away(self.numerator(raw) * 10**decimals, self.denominator)
 
     def divides_exactly(self, raw: int) -> bool:
-        """Whether one binary64 division of integers gives the value: both are at most 2^53."""
+        """Whether the value is a single binary64 division: both integers are at most 2^53."""
         return abs(self.numerator(raw)) <= EXACT and self.denominator <= EXACT
 
 
 @lru_cache(maxsize=4096)
 def fixed_ratio(rule: Linear) -> Ratio:
-    """The rule without its factors."""
+    """The ratio of a rule that has no factors."""
     return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
 
 
 def _number(factor: Factor, numbers: Numbers) -> Fraction | int:
-    """The number that a factor takes from its point."""
+    """The number of a factor, before its power is applied."""
     return factor.slope * numbers[factor.point] + factor.intercept
 
 
 def _product(rule: Linear, numbers: Numbers) -> tuple[int, int]:
-    """The rule's ratio times its factors, as numerator and denominator; the latter may be 0 or negative."""
+    """The rule's ratio times its factors, as numerator and denominator; the denominator may be 0 or negative."""
     over, under = rule.ratio.numerator, rule.ratio.denominator
     for factor in rule.factors:
         number = _number(factor, numbers)
@@ -104,7 +104,7 @@ def _product(rule: Linear, numbers: Numbers) -> tuple[int, int]:
 
 
 def _limit_number(limit: Limit, numbers: Numbers) -> int:
-    """The raw number that a limit is now; it does not divide by zero."""
+    """The raw number of a limit, for settings in which it does not divide by zero."""
     over, under = _product(limit.rule, numbers)
     offset = limit.rule.offset
     over, under = over * offset.denominator + offset.numerator * under, under * offset.denominator
@@ -112,7 +112,7 @@ def _limit_number(limit: Limit, numbers: Numbers) -> int:
 
 
 class Oracle:
-    """Answers for points; knows the outer bounds of the points that exponents come from."""
+    """Answers for the points of a device; `points` finds the points that rules refer to."""
 
     def __init__(self, points: Mapping[str, Point]) -> None:
         self.points = points
@@ -136,7 +136,7 @@ class Oracle:
         return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
 
     def _is_code(self, name: str, raw: int) -> bool:
-        """Whether a point holds what is no quantity, so that nothing can be computed with it."""
+        """Whether a point holds a special code, so that rules cannot compute with it."""
         source = self.points.get(name)
         return source is not None and code_of(source, raw) is not None
 
@@ -151,28 +151,28 @@ class Oracle:
         return Fraction(value) if isfinite(value) else 0
 
     def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
-        """Whether an exponent's raw number lies within what its own point may hold."""
+        """Whether the raw number of an exponent lies in the range of its point."""
         low, high = outer_bounds(self.points[factor.point])
         return low <= settings[factor.point] <= high
 
     def limits(self, point: Point, settings: Settings) -> list[tuple[int, int]] | str:
-        """The intervals that hold now, or why a limit cannot be told: `zero_factor`, `overflow`."""
-        found: list[tuple[int, int]] = []
-        for one in point.allowed.intervals:
-            if isinstance(one.low, int) and isinstance(one.high, int):
-                found.append((one.low, one.high))
+        """The intervals in force, or why a limit cannot be computed: `zero_factor`, `overflow`."""
+        spans: list[tuple[int, int]] = []
+        for interval in point.allowed.intervals:
+            if isinstance(interval.low, int) and isinstance(interval.high, int):
+                spans.append((interval.low, interval.high))
                 continue
-            low = self._bound(one.low, settings, lower=True)
-            high = self._bound(one.high, settings, lower=False)
+            low = self._bound(interval.low, settings, lower=True)
+            high = self._bound(interval.high, settings, lower=False)
             if isinstance(low, str):
                 return low
             if isinstance(high, str):
                 return high
-            found.append((low, high))
-        return found or [(point.least, point.greatest)]
+            spans.append((low, high))
+        return spans or [(point.least, point.greatest)]
 
-    def _is_no_factor(self, factor: Factor, numbers: Numbers) -> bool:
-        """Whether a limit cannot be told from it: it divides by zero, or its floating-point number is none or zero."""
+    def _is_unusable(self, factor: Factor, numbers: Numbers) -> bool:
+        """Whether a limit cannot be computed with the factor: a zero divisor, a floating-point zero or NaN."""
         source = self.points.get(factor.point)
         matters = factor.power < 0 or (source is not None and source.info.floating)
         return matters and not factor.ten_to and _number(factor, numbers) == 0
@@ -183,9 +183,9 @@ class Oracle:
         if any(low <= settings[name] <= high for name, codes in bound.unless for low, high in codes):
             return bound.least if lower else bound.greatest
         factors, numbers = bound.rule.factors, self._numbers(settings)
-        if any(self._is_no_factor(one, numbers) for one in factors):
+        if any(self._is_unusable(factor, numbers) for factor in factors):
             return "zero_factor"
-        if any(one.ten_to and not self.exponent_fits(one, settings) for one in factors):
+        if any(factor.ten_to and not self.exponent_fits(factor, settings) for factor in factors):
             return "overflow"
         number = _limit_number(bound, numbers)
         return max(bound.least, number) if lower else min(bound.greatest, number)
@@ -194,7 +194,7 @@ class Oracle:
 def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
     """Whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
 
-    `by_value` says that it follows from a value, which never means a special code.
+    `by_value` says that it was computed from a value, which never means a special code.
     """
     code = code_of(point, raw)
     if code is not None:
@@ -206,20 +206,25 @@ def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]], *, by_value
 
 
 def outer_bounds(point: Point) -> tuple[int, int]:
-    """The least and greatest raw number that may ever be written; the type's where the point says none."""
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in point.allowed.intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in point.allowed.intervals]
+    """The least and greatest raw number that may ever be written; without limits, those of the point's bits."""
+    lows = [
+        interval.low if isinstance(interval.low, int) else interval.low.least for interval in point.allowed.intervals
+    ]
+    highs = [
+        interval.high if isinstance(interval.high, int) else interval.high.greatest
+        for interval in point.allowed.intervals
+    ]
     return (min(lows), max(highs)) if lows else (point.least, point.greatest)
 
 
 def code_of(point: Point, raw: int) -> Special | None:
-    """The special code that a raw number is, if it is one."""
-    found = [one for one in point.specials if one.low <= raw <= one.high]
-    return found[0] if found else None
+    """The special code with that raw number, if there is one."""
+    hits = [special for special in point.specials if special.low <= raw <= special.high]
+    return hits[0] if hits else None
 
 
 def quantity_at_most(point: Point, raw: int) -> int:
-    """The number itself, or the next below it that is no special code."""
+    """The greatest raw number up to this one that is no special code."""
     while (code := code_of(point, raw)) is not None:
         raw = code.low - 1
     return raw

@@ -1,4 +1,4 @@
-"""Vectors of what stands beside the conversions: where a point is, its other constants, and its words."""
+"""Vectors of facts beside the conversions: the places of a point, its constants and its words."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def address(lines: Lines, point: Point) -> None:
-    """Where the point is on the wire and in the manual, the outer limits of its raw numbers, the unit of its counts."""
+    """Add vectors of addresses on the wire and in the manual, of the outer raw limits and the unit of counts."""
     if point.address is None:
         return
     low, high = outer_bounds(point) if point.form not in ("float", "text", "digits") else (None, None)
@@ -36,10 +36,12 @@ def address(lines: Lines, point: Point) -> None:
         lines.add("place", point.addresses, point.index, point.telegram)
     if point.unit.symbol:
         lines.add("symbol", point.unit.symbol)
+    if point.display is not None:
+        lines.add("display", point.display)
 
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """What a point belongs to, and what it has beside its numbers."""
+    """Add the vector of what a point is beside its numbers: group, type, unit, default, variant, place for writing."""
     other = next((place for place in point.places if place.purpose == "write"), None)
     apart = other is not None and other is not point.places[0]
     lines.add(
@@ -59,13 +61,13 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
 
 
 def aliases(lines: Lines, point: Point) -> None:
-    """What the point was called before; a variant keeps its suffix."""
+    """Add vectors of old names; variants keep their suffix."""
     for old in point.was:
         lines.add("alias", old + point.item.removeprefix(point.name), point.item)
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
-    """The values of one axis of variants for which the point exists, behind its name."""
+    """The axis that decides whether the point exists, followed by the values for which it can."""
     if point.when is None:
         return None
     for axis in point.when.names:
@@ -76,12 +78,14 @@ def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[st
 
 
 def _possible_for(condition: Condition, axis: str, value: str) -> bool:
-    """Whether a clause is left of which nothing says no to this value."""
-    return any(all(one.of != axis or one.holds(value) for one in clause) for clause in condition.clauses)
+    """Whether some clause of the condition can hold for this value of the axis."""
+    return any(
+        all(comparison.of != axis or comparison.holds(value) for comparison in clause) for clause in condition.clauses
+    )
 
 
 def words(lines: Lines, point: Point) -> None:
-    """Patterns of a point of several words, or of a signed word, in ascending order of the addresses."""
+    """Add vectors of the words of a point, in ascending order of the addresses."""
     if (
         not point.places
         or point.bits is not None
@@ -91,17 +95,17 @@ def words(lines: Lines, point: Point) -> None:
         return
     count = point.words
     addresses = point.places[0].addresses
-    # words without an address each (a USS parameter) travel with the high one first
+    # words that share one address (a USS parameter) travel with the high word first
     order = sorted(range(count), key=addresses.__getitem__) if len(addresses) == count else list(range(count))
     for pattern in _wide_patterns(count) if count > 1 else _NARROW:
         raw = as_raw(point, pattern)
-        whole = raw & (1 << 16 * count) - 1  # a signed byte fills its word with its sign
+        whole = raw & (1 << 16 * count) - 1  # a signed byte is extended to its whole word
         parts = [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order]
         lines.add("words", raw, parts)
 
 
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
-"""Patterns of one signed word: the least number, odd negative ones, a positive one."""
+"""Samples of a signed word: the least number, negative odd numbers, a positive number."""
 
 
 def _wide_patterns(count: int) -> tuple[int, ...]:

@@ -1,4 +1,4 @@
-"""Which numbers a point is tried with: edges, one beyond, signs, halves, settings of what it depends on."""
+"""The numbers that a point is tried with: limits and their neighbours, halves, settings of other points."""
 
 from __future__ import annotations
 
@@ -25,48 +25,51 @@ _FACTORS_32 = (
     0x7F80_0000,
     0x7FC0_0000,
 )
-"""Binary32 patterns for a factor: 50, 60, 1, one tenth, -100, 650.16..., both zeros, infinity, no number."""
+"""Binary32 patterns for a factor: 50, 60, 1, 0.1, -100, 650.16..., both zeros, infinity, NaN."""
 
 
 def edges(limits: Limits) -> dict[int, None]:
-    """Each limit and one beyond it, in the order of the limits; so every hole of a list is met."""
-    found: dict[int, None] = {}
+    """Each limit and the number beyond it, so that every hole of a list is tried."""
+    raws: dict[int, None] = {}
     for low, high in limits:
         for raw in (low, high, low - 1, high + 1):
-            found[raw] = None
-    return found
+            raws[raw] = None
+    return raws
 
 
-def own(limits: Limits) -> Limits:
-    """Those that tell a point from others of its shape: all of a few, the ends of a long list."""
+def limits_to_try(limits: Limits) -> Limits:
+    """The limits that are tried for each point of a shape: all of a few, the ends of a long list."""
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
 def raws_to_decode(point: Point, limits: Limits, *, deep: bool) -> list[int]:
-    """Raw numbers that the point's bits hold: limits; in depth edges of the type and of the sign, special codes."""
+    """Raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
     if not deep:
         return _held(point, (limits[0][0], limits[-1][1]))
-    found = {raw: None for interval in limits for raw in interval}
-    found.update(dict.fromkeys(codes(point)))
-    found.update({point.least: None, point.greatest: None})
+    raws = {raw: None for interval in limits for raw in interval}
+    raws.update(dict.fromkeys(codes(point)))
+    raws.update({point.least: None, point.greatest: None})
     if point.least < 0:
-        found.update({-1: None, 0: None})
-    return _held(point, found)
+        raws.update({-1: None, 0: None})
+    return _held(point, raws)
 
 
 def raws_to_check(point: Point, limits: Limits, *, deep: bool) -> list[int]:
-    """Raw numbers that the point's bits hold: limits, one beyond each; in depth edges of the type, special codes."""
-    found = edges(limits)
+    """Raw numbers to check: limits and one beyond each; if `deep`, also special codes and the ends of the type."""
+    raws = edges(limits)
     if not deep:
-        return _held(point, {**edges(own(limits)), **{raw: None for interval in limits for raw in interval}})
-    found.update(dict.fromkeys(codes(point)))
-    found.update({point.least: None, point.greatest: None})
-    return _held(point, found)
+        return _held(point, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
+    raws.update(dict.fromkeys(codes(point)))
+    raws.update({point.least: None, point.greatest: None})
+    return _held(point, raws)
 
 
 def codes(point: Point) -> list[int]:
-    """The ends of the special codes, and one beyond each, as far as the bits hold them."""
-    return _held(point, (raw for one in point.specials for raw in (one.low, one.high, one.low - 1, one.high + 1)))
+    """The ends of the special codes and one beyond each, as far as the bits hold them."""
+    return _held(
+        point,
+        (raw for special in point.specials for raw in (special.low, special.high, special.low - 1, special.high + 1)),
+    )
 
 
 def _held(point: Point, numbers: Iterable[int]) -> list[int]:
@@ -76,7 +79,7 @@ def _held(point: Point, numbers: Iterable[int]) -> list[int]:
 
 @lru_cache(maxsize=4096)
 def _half_step(ratio: Ratio) -> tuple[int, int] | None:
-    """(residue, modulus) of the raw numbers r whose r + 1/2 has a dyadic value; None if there are none."""
+    """(residue, modulus) of the raw numbers r for which the value of r + 1/2 is a binary fraction; None if none is."""
     # The value is ((2r + 1) * under - 2 * over) * den / (2 * num * under): the odd part of the denominator must vanish.
     odd = abs(ratio.num) * ratio.under
     odd //= odd & -odd
@@ -90,7 +93,7 @@ def _half_step(ratio: Ratio) -> tuple[int, int] | None:
 
 
 def halves(ratio: Ratio, limits: Limits) -> list[float]:
-    """Values exactly between two raw numbers, in binary64: the lowest inside the limits, the highest, one below 0."""
+    """Binary64 values exactly between two raw numbers: the lowest and the highest in the limits, and one below 0."""
     step = _half_step(ratio)
     if step is None:
         return []
@@ -98,7 +101,7 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     low, high = limits[0][0], limits[-1][1]
     first = low + (residue - low) % modulus
     last = high - 1 - (high - 1 - residue) % modulus
-    found: dict[float, None] = {}
+    values: dict[float, None] = {}
     for raw in (first, last, -1 - (-1 - residue) % modulus):
         if low <= raw < high:
             over = ((2 * raw + 1) * ratio.under - 2 * ratio.over) * (ratio.den if ratio.num > 0 else -ratio.den)
@@ -106,29 +109,29 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
             value = over / under
             above, below = value.as_integer_ratio()
             if above * under == over * below:
-                found[value] = None
-    return list(found)
+                values[value] = None
+    return list(values)
 
 
 def just_outside(ratio: Ratio, limits: Limits) -> list[tuple[int, int]]:
-    """Exact values a quarter of a raw step beyond the outermost limits: they round back and are allowed."""
+    """Values a quarter of a raw step beyond the outer limits, as exact quotients: they round to the limits."""
     step = ratio.numerator(1) - ratio.numerator(0)
     ends = ((limits[0][0], -1), (limits[-1][1], 1))
     return [(4 * ratio.numerator(raw) + side * step, 4 * ratio.denominator) for raw, side in ends]
 
 
 @lru_cache(maxsize=4096)
-def telling_raw(ratio: Ratio) -> int | None:
-    """The lowest raw number whose value is another one when it is multiplied by the reciprocal instead of divided."""
+def raw_telling_division(ratio: Ratio) -> int | None:
+    """The lowest raw number that shows a multiplication by the reciprocal where a division is right."""
     under = ratio.denominator
     numerators = ((raw, ratio.numerator(raw)) for raw in range(1, 200))
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
 def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[str, int]]:
-    """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring.
+    """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
-    Without depth each argument has one other number, so that two that are exchanged are noticed, and each case is met.
+    Unless `deep`, each argument has only one other number, which shows exchanged arguments, and each case is met once.
     """
     names = point.arguments
     base = {name: _typical(oracle, point, name) for name in names}
@@ -137,14 +140,14 @@ def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[st
         last = [(name, raw) for name in names for raw in _choices(oracle, point, name)[-2:] if raw != base[name]]
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
-    found = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
-    # Each case with every end of the factors that it has, not only those of the first case.
+    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
+    # Each case with all choices of its own factors, not only those of the first case.
     for case in point.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
                 raws = _choices(oracle, point, factor.point)
-                found += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
-    return list({tuple(one.items()): one for one in found}.values())
+                chosen += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
+    return list({tuple(setting.items()): setting for setting in chosen}.values())
 
 
 def _typical(oracle: Oracle, point: Point, name: str) -> int:
@@ -159,27 +162,27 @@ def _typical(oracle: Oracle, point: Point, name: str) -> int:
 
 
 def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
-    """Raw numbers for one argument, as far as its point holds them: ends, cases, zeros, codes that lift limits."""
+    """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
     bands = [band for limit in limits_of(point) for other, codes in limit.unless if other == name for band in codes[:4]]
     lifting = [code for low, high in bands for code in (low, high, high + 1)]
     source = oracle.points.get(name)
-    lifting += [] if source is None else [one.low for one in source.specials[:4]]
+    lifting += [] if source is None else [special.low for special in source.specials[:4]]
     if source is not None and source.info.floating:
         return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.greatest]
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
-    found = [*cases, max(cases) + 1] if cases else [low, high]
+    raws = [*cases, max(cases) + 1] if cases else [low, high]
     for factor in _factors(point):
         if factor.point != name:
             continue
         if factor.ten_to:
-            found += [low - 1, high + 1]
+            raws += [low - 1, high + 1]
         elif factor.slope and factor.intercept % factor.slope == 0:
-            found.append(-factor.intercept // factor.slope)
-    found += lifting
+            raws.append(-factor.intercept // factor.slope)
+    raws += lifting
     if source is not None and any(factor.point == name for limit in limits_of(point) for factor in limit.rule.factors):
-        found.append(max(source.least, 0) + 1)  # so small that the outer limits have to hold
-    return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
+        raws.append(max(source.least, 0) + 1)  # a computed limit beyond the outermost one
+    return [raw for raw in dict.fromkeys(raws) if source is None or source.least <= raw <= source.greatest]
 
 
 def _factors(point: Point) -> list[Factor]:
@@ -189,8 +192,13 @@ def _factors(point: Point) -> list[Factor]:
 
 
 def limits_of(point: Point) -> list[Limit]:
-    """The limits of a point that other points set."""
-    return [bound for one in point.allowed.intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
+    """The limits of a point that depend on other points."""
+    return [
+        bound
+        for interval in point.allowed.intervals
+        for bound in (interval.low, interval.high)
+        if isinstance(bound, Limit)
+    ]
 
 
 def _bounds(oracle: Oracle, name: str) -> tuple[int, int]:

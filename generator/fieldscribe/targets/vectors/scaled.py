@@ -18,23 +18,23 @@ INT32 = 1 << 31
 
 
 def scaled(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
-    """All vectors of a scaled point, for each setting of what it depends on; without depth its limits and a value."""
+    """Add the vectors of a scaled point, for each setting of the points that it depends on; fewer unless `deep`."""
     full = deep
     for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
         lines.set("with", settings)
         ratio = oracle.ratio(point, settings)
         limits = oracle.limits(point, settings)
         if isinstance(ratio, str):
-            _no_rule(lines, point, ratio)
+            _without_rule(lines, point, ratio)
         elif isinstance(limits, str):
-            _no_limits(lines, point, ratio, limits)
+            _without_limits(lines, point, ratio, limits)
         else:
-            _Sheet(lines, point, ratio, limits, deep, full).write()
+            _Vectors(lines, point, ratio, limits, deep, full).write()
             full = False
 
 
-def _no_rule(lines: Lines, point: Point, status: str) -> None:
-    """A setting with which nothing can be computed."""
+def _without_rule(lines: Lines, point: Point, status: str) -> None:
+    """Add the vectors for a setting under which nothing can be computed."""
     raw = quantity_at_most(point, 1)
     if point.readable:
         lines.add("decode", raw, status)
@@ -49,10 +49,10 @@ def _no_rule(lines: Lines, point: Point, status: str) -> None:
             lines.add("encode", nan, "not_a_number")
 
 
-def _no_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
-    """A setting with which values can be computed but not what may be written."""
+def _without_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
+    """Add the vectors for a setting under which values can be computed, but not the limits."""
     if point.writable:
-        # Inside the outer bounds of the limit, so that nothing but the limit can refuse it.
+        # Inside the outer bounds of the limit, so that only the limit itself can refuse it.
         raw = quantity_at_most(point, samples.limits_of(point)[0].greatest)
         value = quotient(ratio.numerator(raw), ratio.denominator)
         if point.encodes_values:
@@ -62,16 +62,16 @@ def _no_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
         lines.add("check", raw, status)
 
 
-def _beyond(point: Point, raw: int) -> bool:
-    """Whether a raw number is too large for a scale with factors."""
+def _is_too_large(point: Point, raw: int) -> bool:
+    """Whether a raw number is too large to compute with."""
     return point.most_raw is not None and abs(raw) > point.most_raw
 
 
 @dataclass(frozen=True, slots=True)
-class _Sheet:
-    """One point with one setting under which it can be computed.
+class _Vectors:
+    """A point under one setting with which it can be computed.
 
-    `deep` for the first point of a shape, `full` for its first setting; others get less.
+    `deep` for the first point of a shape and `full` for its first setting; all others get fewer vectors.
     """
 
     lines: Lines
@@ -82,7 +82,7 @@ class _Sheet:
     full: bool
 
     def write(self) -> None:
-        """All kinds, readable parts first."""
+        """Add the vectors of all kinds, decoding first."""
         if self.point.readable:
             raws = samples.raws_to_decode(self.point, self.limits, deep=self.deep)
             self._decode(raws)
@@ -98,12 +98,12 @@ class _Sheet:
 
     def _decode(self, raws: list[int]) -> None:
         ratio, add, under = self.ratio, self.lines.add, self.ratio.denominator
-        telling = samples.telling_raw(ratio)
+        telling = samples.raw_telling_division(ratio)
         held = telling is not None and self.point.least <= telling <= self.point.greatest
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if (code := code_of(self.point, raw)) is not None:
                 add("decode", raw, "special", None, code.name)
-            elif _beyond(self.point, raw):
+            elif _is_too_large(self.point, raw):
                 add("decode", raw, "overflow")
             elif ratio.divides_exactly(raw) or not (self.point.scale_arguments and self.point.encodes_values):
                 add("decode", raw, "ok", ratio.numerator(raw) / under)
@@ -115,7 +115,7 @@ class _Sheet:
                 add("decode_count", raw, "special", None, code.name)
                 continue
             count = ratio.count_of_raw(raw, decimals)
-            fits = -INT64 <= count < INT64 and not _beyond(self.point, raw)
+            fits = -INT64 <= count < INT64 and not _is_too_large(self.point, raw)
             add("decode_count", raw, *(("ok", count) if fits else ("overflow",)))
 
     def _encoded(self, raw: int | None) -> tuple[object, ...]:
@@ -123,9 +123,9 @@ class _Sheet:
         return (status, raw if status == "ok" else None)
 
     def _edges(self) -> dict[int, None]:
-        """Raw numbers that values and counts are made of: limits, special codes, and what lies beside both."""
+        """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
         if not self.deep:
-            return samples.edges(samples.own(self.limits))
+            return samples.edges(samples.limits_to_try(self.limits))
         return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.point))}
 
     def _encode(self) -> None:
@@ -149,22 +149,22 @@ class _Sheet:
             add("encode_count", count, *self._encoded(ratio.raw_of_count(count, decimals)))
 
     def _counts(self, decimals: int) -> list[int]:
-        """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
+        """Counts to encode: of limits and their neighbours, around the halves beside them, ends of the integers."""
         point, ratio, power = self.point, self.ratio, 10**decimals
-        found = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
-        if self.deep and ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
+        counts = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
+        if self.deep and ratio.denominator != power * abs(ratio.den) * ratio.under:  # else each count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
             for raw in (low - 1, low, high - 1, high):
                 over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
                 below, rest = divmod(over, 2 * ratio.denominator)
-                found.update({below if rest else below - 1: None, below + 1: None})
+                counts.update({below if rest else below - 1: None, below + 1: None})
                 if not rest:
-                    found[below] = None
+                    counts[below] = None
         ends = [ratio.count_of_raw(raw, decimals) for raw in (point.least, point.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:
-            found.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
-        return [count for count in found if -edge <= count < edge]
+            counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
+        return [count for count in counts if -edge <= count < edge]
 
     def _check(self) -> None:
         for raw in samples.raws_to_check(self.point, self.limits, deep=self.deep):

@@ -1,4 +1,4 @@
-"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of names and of bit groups."""
+"""Vectors of points whose raw number is the value (integers, enums, flags, bits), names and bit groups."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def whole(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
-    """Decoding, encoding and checking of a point without a scale, for each setting of what it depends on."""
+    """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
     for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
         limits = oracle.limits(point, settings)
         lines.set("with", settings)
@@ -41,7 +41,7 @@ def _sheet(lines: Lines, point: Point, limits: samples.Limits, *, deep: bool) ->
     if not point.writable:
         return
     ends = (point.least - 1, point.greatest + 1, top - 1, -top) if deep else ()
-    for count in {**decoded, **samples.edges(limits if deep else samples.own(limits)), **dict.fromkeys(ends)}:
+    for count in {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}:
         if -top <= count < top:
             put = with_fixed(point, count)
             status = admit(point, put, limits, by_value=True)
@@ -52,17 +52,17 @@ def _sheet(lines: Lines, point: Point, limits: samples.Limits, *, deep: bool) ->
 
 
 def _raws(point: Point, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """Those, with the constant bits put in too, the numbers of the enum (in depth all), and each flag alone."""
-    found = dict.fromkeys(raws)
-    found.update({with_fixed(point, raw): None for raw in raws})
+    """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    raws_to_try = dict.fromkeys(raws)
+    raws_to_try.update({with_fixed(point, raw): None for raw in raws})
     if point.enum is not None:
-        found.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
-    found.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
-    return found
+        raws_to_try.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
+    raws_to_try.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
+    return raws_to_try
 
 
 def with_fixed(point: Point, raw: int) -> int:
-    """A raw number with the bits put in that are always written as a constant; what the type cannot hold stays."""
+    """A raw number with the constant bits set; unchanged if the type cannot hold it."""
     fixed = point.fixed
     if fixed is None or point.bits is not None or not point.least <= raw <= point.greatest:
         return raw
@@ -70,7 +70,7 @@ def with_fixed(point: Point, raw: int) -> int:
 
 
 def names(lines: Lines, point: Point, *, deep: bool) -> None:
-    """Each named number of an enum or of a digit, and numbers without a name."""
+    """Add vectors of the names of an enum, and of numbers without a name."""
     enum = point.digits.enum if point.digits is not None else point.enum
     if enum is None:
         return
@@ -88,7 +88,7 @@ def names(lines: Lines, point: Point, *, deep: bool) -> None:
 
 
 def specials(lines: Lines, point: Point) -> None:
-    """The special codes, and what the raw numbers at their ends and beside them are called."""
+    """Add vectors of the special codes, and of raw numbers at their ends and beside them."""
     for special in point.specials:
         lines.add("special", special.name, special.low, special.high)
     for raw in dict.fromkeys(samples.codes(point)):
@@ -97,7 +97,7 @@ def specials(lines: Lines, point: Point) -> None:
 
 
 def flags(lines: Lines, point: Point) -> None:
-    """Each flag alone, all but each flag, and each of its named numbers, with the names of numbers of several bits."""
+    """Add vectors of flags: each flag alone, all others, and the named numbers of flags of several bits."""
     full = (1 << point.width) - 1
     for flag in point.flags:
         ones = (1 << flag.width) - 1
@@ -114,13 +114,13 @@ def flags(lines: Lines, point: Point) -> None:
 
 
 def fixed(lines: Lines, point: Point) -> None:
-    """The bits of the word that are always written as a constant."""
+    """Add the vector of the bits that are always written as a constant."""
     if point.fixed is not None:
         lines.add("fixed", point.fixed.mask, point.fixed.bits)
 
 
 def bits(lines: Lines, point: Point) -> None:
-    """A bit group taken out of its word, and another number put in."""
+    """Add vectors of a bit group: taken out of its word, and replaced in it."""
     if point.bits is None:
         return
     low, ones = point.bits[1], (1 << point.width) - 1

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         code: NotRequired[str]
         references: NotRequired[Mapping[str, int | str]]
         unit: NotRequired[str]
+        display: NotRequired[int]
         allowed: NotRequired[Allowed]
         default: NotRequired[float]
         fixed: NotRequired[tuple[int, int]]
@@ -132,7 +133,8 @@ def telegram(name: str, *addresses: int, index: int | None = None) -> Place:
 class Facts:
     """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant.
 
-    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `fixed` is a
+    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `display` is
+    with how many decimals people see its value, if the description says so. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
     it too, such as another point or a firmware.
@@ -145,6 +147,7 @@ class Facts:
     code: str | None = None
     references: Mapping[str, int | str] = {}
     unit: str = ""
+    display: int | None = None
     allowed: Allowed | None = None
     default: float | None = None
     fixed: tuple[int, int] | None = None

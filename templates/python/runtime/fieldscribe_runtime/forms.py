@@ -11,7 +11,7 @@ from .arguments import whole
 from .errors import CodecError, RangeError, UnknownValueError
 from .fast import chosen, found, itself, listed, same
 from .records import Record
-from .rules import Bound, Raws, high_end, low_end
+from .rules import Bound, Raws, decimal_text, high_end, low_end
 from .special import NO_CODES
 
 if TYPE_CHECKING:
@@ -117,9 +117,9 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         """The least and the greatest number of `width` bits that the form knows, where nothing else bounds them."""
         return self.wire.limits(width)
 
-    def shown(self, raw: int, raws: Raws) -> str:
-        """The raw number as people read it, in the unit."""
-        return str(raw)
+    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
+        """The raw number as people read it, in the unit; a quantity with so many decimals where `display` says it."""
+        return str(raw) if display is None else decimal_text(raw, 1, display)
 
     def same(self, raw: int, other: int) -> bool:
         """Whether two raw numbers mean the same."""

@@ -44,8 +44,7 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Special codes", f"{', '.join(point.special)} (as {name}.special.{next(iter(point.special))})"
     if isinstance(point, Encoding) and (text := _range(point)):
         yield "What may be written", text
-    if facts.default is not None:
-        yield "Default", f"{facts.default:.12g} {facts.unit}".rstrip()
+    yield from _values(point, name)
     if facts.fixed is not None:
         yield "Bits that are always written", f"{facts.fixed[1]:04X}h in {facts.fixed[0]:04X}h"
     for text, names_of in (("Its scale needs", point.scale_needs), ("Its limits need", point.limit_needs)):
@@ -55,6 +54,15 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Only for", f"{facts.only_for[0]} {' or '.join(facts.only_for[1])}"
     if facts.variant is not None:
         yield "Only for", " ".join(facts.variant)
+
+
+def _values(point: Point, name: str) -> Iterator[tuple[str, str]]:
+    """How a person sees its values, and which one the factory set."""
+    facts = point.facts
+    if facts.display is not None:
+        yield "Shown", f"with {facts.display} decimal{'' if facts.display == 1 else 's'}, by {name}.text(value)"
+    if facts.default is not None:
+        yield "Default", f"{facts.default:.12g} {facts.unit}".rstrip()
 
 
 def _is_word(point: Point) -> bool:

@@ -55,7 +55,9 @@ class Point(Guided):
         return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.label}: {self.facts.where}>"
+        display = self.facts.display
+        shown = "" if display is None else f", shown with {display} decimal{'' if display == 1 else 's'}"
+        return f"<{type(self).__name__} {self.label}: {self.facts.where}{shown}>"
 
     def _guide(self) -> str:
         from .guide import described  # nobody needs it before asking for help
@@ -201,8 +203,32 @@ class Point(Guided):
         """Whether two raw numbers mean the same."""
         return self._form.same(raw, other)
 
+    def text(self, value: Any, raws: Raws = NO_RAWS) -> str:
+        """A value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50.00 Hz`.
+
+        It has as many decimals as the description says, rounded from what the device holds for the value; without that
+        as many as it takes. `raws` holds the raw numbers that the scale needs of others. Raises as `encode` does, but
+        whether the value may be written does not matter.
+        """
+        if isinstance(value, Special):
+            return value.name
+        try:
+            raw = self._form.converted(value, raws)
+            if raw is None:
+                raise RangeError(f"{_shown(value)} is no value of this point")
+        except CodecError as error:
+            raise self._named(error) from None
+        return self.told(self._within(raw, *self.wire.limits(self.width)), raws)
+
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
-        """A raw number as people read it, with the unit; as `raw ...` where `raws` do not say what it means."""
+        """A raw number as `text` says its value; as `raw ...` where `raws` do not say what it means."""
+        return self._told(raw, raws, self.facts.display)
+
+    def told_exactly(self, raw: int, raws: Raws = NO_RAWS) -> str:
+        """The same with all decimals, for messages: rounding could make two numbers look alike."""
+        return self._told(raw, raws, None)
+
+    def _told(self, raw: int, raws: Raws, display: int | None) -> str:
         raw = self._number(raw)
         low, high = self.wire.limits(self.width)
         if not low <= raw <= high:
@@ -211,7 +237,7 @@ class Point(Guided):
         if code is not None:
             return code.name
         try:
-            return self._form.shown(raw, raws) + self._unit
+            return self._form.shown(raw, raws, display) + self._unit
         except CodecError:
             return f"raw {raw}"
 

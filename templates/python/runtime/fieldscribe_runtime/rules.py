@@ -42,6 +42,14 @@ def round_ratio(num: int, den: int) -> int:
     return size if (num < 0) == (den < 0) else -size
 
 
+def decimal_text(num: int, den: int, decimals: int) -> str:
+    """`num / den` with so many decimals: to nearest, halves away from zero; what rounds to zero has no sign."""
+    count = round_ratio(num * 10**decimals, den)
+    digits = f"{abs(count):0{decimals + 1}d}"
+    sign, split = "-" if count < 0 else "", len(digits) - decimals
+    return f"{sign}{digits[:split]}.{digits[split:]}" if decimals else f"{sign}{digits}"
+
+
 def round_float(value: float) -> int:
     """A finite float to the nearest integer, halves away from zero."""
     whole = math.trunc(value)

@@ -143,7 +143,8 @@ class Session(NamedPoints, ABC):
                     raise
                 answered = point.from_words(error.answered)
                 if not point.same(raw, answered):
-                    text = f"{point.told(raw, raws)} was written, and the device answered {point.told(answered, raws)}"
+                    wrote, has = (point.told_exactly(one, raws) for one in (raw, answered))
+                    text = f"{wrote} was written, and the device answered {has}"
                     raise EchoError(text, error.written, error.answered) from None
 
     def _put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:

@@ -66,9 +66,9 @@ class _Around(Form[R, W]):
         """As in the form."""
         return self.form.limits(width)
 
-    def shown(self, raw: int, raws: Raws) -> str:
+    def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
         """As in the form."""
-        return self.form.shown(raw, raws)
+        return self.form.shown(raw, raws, display)
 
     def same(self, raw: int, other: int) -> bool:
         """As in the form."""

@@ -3,7 +3,8 @@
 
 use core::fmt;
 
-use crate::Error;
+use crate::error::lead;
+use crate::{Error, Point};
 
 /// Why a message cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -81,14 +82,14 @@ impl fmt::Display for ParseError {
 
 impl core::error::Error for ParseError {}
 
-/// Why a telegram has no word, or no words that belong together.
+/// Why a telegram has no word, or no words that belong together. The text beside a variant is the point's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ReceiveError {
     /// A frame with the word never came.
-    Missing,
+    Missing(Option<&'static str>),
     /// The words are of two frames, and the high one may have changed between them.
-    Torn,
+    Torn(Option<&'static str>),
     /// The words came and have no value.
     Point(Error),
 }
@@ -98,20 +99,41 @@ impl ReceiveError {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Missing => "missing",
-            Self::Torn => "torn",
+            Self::Missing(_) => "missing",
+            Self::Torn(_) => "torn",
             Self::Point(error) => error.name(),
+        }
+    }
+
+    /// The name of the point that it is about, if it is about one.
+    #[must_use]
+    pub const fn point(self) -> Option<&'static str> {
+        match self {
+            Self::Missing(point) | Self::Torn(point) => point,
+            Self::Point(error) => error.point(),
+        }
+    }
+
+    /// The same about this point, where it does not say yet which it is about.
+    #[must_use]
+    pub fn of<P: Point>(self) -> Self {
+        match self {
+            Self::Missing(point) => Self::Missing(point.or(Some(P::NAME))),
+            Self::Torn(point) => Self::Torn(point.or(Some(P::NAME))),
+            Self::Point(error) => Self::Point(error.of::<P>()),
         }
     }
 }
 
 impl fmt::Display for ReceiveError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing => formatter.write_str("the frame with the word never came"),
-            Self::Torn => formatter.write_str("the words may belong to different moments"),
-            Self::Point(error) => error.fmt(formatter),
-        }
+        let (point, text) = match self {
+            Self::Missing(point) => (point, "the frame with the word never came"),
+            Self::Torn(point) => (point, "the words may belong to different moments"),
+            Self::Point(error) => return error.fmt(formatter),
+        };
+        lead(*point, formatter)?;
+        formatter.write_str(text)
     }
 }
 

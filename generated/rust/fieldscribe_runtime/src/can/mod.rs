@@ -19,7 +19,7 @@ mod message;
 mod receiver;
 
 pub use client::{AsyncClient, AsyncTransport, Client, ClientError};
-pub use client::{Listener, LocalClient, LocalTransport, Transport};
+pub use client::{Hears, Listener, LocalClient, LocalTransport, Transport};
 pub use error::{BuildError, ParseError, ReceiveError};
 pub use message::{Content, Dialogue, Message, Profile, Role};
 pub use receiver::{Received, Receiver, Slot, Telegram};
@@ -76,4 +76,9 @@ impl Frame {
 }
 
 /// A point whose words are read and written one by one, each by messages that name its address.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no parameter: nobody asks for it or writes it by its address",
+    label = "a point of a telegram",
+    note = "`client.receive::<P>()` waits for it; a `Receiver` of the telegram has what was heard"
+)]
 pub trait Parameter: Point {}

@@ -3,7 +3,7 @@
 
 use crate::error::{Outside, Refused};
 use crate::form::checked;
-use crate::{Error, Point, Writable};
+use crate::{Error, Point, Shown, Writable};
 
 /// A pattern of a binary floating-point number.
 pub trait Pattern: Copy {
@@ -51,6 +51,14 @@ impl Pattern for u64 {
 #[inline]
 pub fn decode<P: Point<Raw: Pattern>, V: From<f64>>(raw: P::Raw, (): ()) -> V {
     raw.number().into()
+}
+
+/// What people see of the number.
+///
+/// # Errors
+/// None.
+pub fn shown<P: Point<Raw: Pattern>>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
+    Ok(Shown::float::<P>(raw.number()))
 }
 
 /// The pattern nearest to a value, checked.

@@ -2,9 +2,10 @@
 //! Points that are their raw numbers, or what is made of these alone.
 
 pub use crate::check::within as check;
+use crate::display::per_unit;
 use crate::error::{Outside, Refused};
 use crate::form::stored;
-use crate::{Error, Point, Raw, Writable};
+use crate::{Error, Point, Raw, Shown, Writable};
 
 /// The raw number, or what is made of it.
 #[inline]
@@ -16,6 +17,17 @@ pub fn decode<P: Point, V: From<P::Raw>>(raw: P::Raw, (): ()) -> V {
 #[inline]
 pub fn decode_count<P: Point<Raw: Into<C>>, C>(raw: P::Raw, (): ()) -> C {
     raw.into()
+}
+
+/// What people see of the raw number.
+///
+/// # Errors
+/// [`Error::Overflow`], which no raw number comes upon.
+pub fn shown<P: Point>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
+    let count = raw.to_i128().checked_mul(per_unit::<P>().into());
+    count
+        .map(Shown::count::<P>)
+        .ok_or(Error::Overflow(Some(P::NAME)))
 }
 
 /// The raw number, checked.

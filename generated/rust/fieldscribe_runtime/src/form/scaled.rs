@@ -3,13 +3,14 @@
 
 use core::marker::PhantomData;
 
-use crate::arithmetic::{quotient, to_f64};
+use crate::arithmetic::{div_round_i128, quotient, to_f64};
 pub use crate::check::within as check;
+use crate::display;
 use crate::error::{Outside, Refused};
 use crate::form::{in_counts, nearest, per_unit, Count};
 use crate::path::Path;
 use crate::scale::{below, Line};
-use crate::{Error, FixedScale, Raw, Writable};
+use crate::{Error, FixedScale, Raw, Shown, Writable};
 
 const EXACT: u32 = 53;
 
@@ -45,6 +46,19 @@ pub fn decode<P: FixedScale, V: From<f64>>(raw: P::Raw, (): ()) -> V {
 #[inline]
 pub fn decode_count<P: FixedScale, C: Count>(raw: P::Raw, (): ()) -> C {
     C::truncated(Settled::<P, C>::DECODE.run(raw.to_i64()))
+}
+
+/// What people see of the value, rounded from the exact one.
+///
+/// # Errors
+/// [`Error::Overflow`], which no raw number of a point comes upon whose decimals were checked.
+pub fn shown<P: FixedScale>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
+    let line = P::SCALE.decoding(i128::from(display::per_unit::<P>()));
+    let product = raw.to_i128().checked_mul(line.multiply);
+    let sum = product.and_then(|product| product.checked_add(line.add));
+    let sum = sum.ok_or(Error::Overflow(Some(P::NAME)))?;
+    let count = div_round_i128(sum, line.divide.unsigned_abs());
+    Ok(Shown::count::<P>(count))
 }
 
 /// The raw number nearest to a value, checked; each step is rounded to binary64.

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::arithmetic::div_round_i128;
 pub use crate::check::within as check;
-pub use crate::form::scaled::{encode, encode_count};
+pub use crate::form::scaled::{encode, encode_count, shown};
 use crate::form::{per_unit, scaled};
 use crate::scale::Line;
 use crate::{Error, FixedScale, Raw};

@@ -3,7 +3,7 @@
 
 use super::function::{is_read, longest_count, read_function, write_function};
 use super::{crc, Framing, ReplyError, Request};
-use crate::{Error, Readable};
+use crate::{Decoded, Error, NeedsNothing, Readable};
 
 #[derive(Clone, Copy, Debug)]
 enum Items<'a> {
@@ -55,7 +55,7 @@ impl Reply<'_> {
     ///
     /// # Errors
     /// [`Error::WrongSpace`] if the function is neither the one that reads the point nor the one that writes a single
-    /// item of its space, [`Error::WrongLength`] if the reply does not bring all of the point.
+    /// item of its space, [`Error::NotBrought`] if the reply does not bring all of the point.
     pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error> {
         let reads = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
         if self.function != reads && self.function != write_function(P::SPACE, 1) {
@@ -63,8 +63,25 @@ impl Reply<'_> {
         }
         let offset = P::ADDRESS.checked_sub(self.address);
         let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
-        let places = places.ok_or(Error::WrongLength(Some(P::NAME)))?;
-        P::from_received(places.map_while(|place| self.item(place)))
+        let items = places.map(|places| places.map_while(|place| self.item(place)));
+        let raw = items.and_then(|items| P::from_received(items).ok());
+        raw.ok_or(Error::NotBrought(Some(P::NAME)))
+    }
+
+    /// The value of a point that the reply brings.
+    ///
+    /// # Errors
+    /// As for `raw`; what decoding says.
+    pub fn value<P: Readable<Factors: NeedsNothing>>(&self) -> Result<P::Value, Error> {
+        self.value_with::<P>(NeedsNothing::nothing())
+    }
+
+    /// The value of a point that the reply brings, by the raw numbers that its scale needs.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn value_with<P: Readable>(&self, with: P::Factors) -> Result<P::Value, Error> {
+        P::decode_with(self.raw::<P>()?, with).into_result()
     }
 }
 
@@ -186,11 +203,29 @@ impl Request<'_> {
     }
 }
 
-/// The length of an RTU reply as far as its first bytes tell; none if there are too few or the function is unknown.
+/// The length of a reply as far as its first bytes tell: three of RTU, six of TCP. None if there are too few, if the
+/// function is unknown, or if the bytes are no head.
 ///
-/// With it a transport knows when a reply is complete without waiting for silence on the line.
+/// With it a transport knows when a reply is complete without waiting for silence on the line:
+///
+/// ```
+/// use fieldscribe_runtime::modbus::{reply_length, Framing};
+///
+/// assert_eq!(reply_length(Framing::Rtu, &[1, 3, 2]), Some(7));
+/// assert_eq!(reply_length(Framing::Tcp, &[0, 1, 0, 0, 0, 5]), Some(11));
+/// ```
 #[must_use]
-pub fn reply_length(head: &[u8]) -> Option<usize> {
+pub fn reply_length(framing: Framing, head: &[u8]) -> Option<usize> {
+    match framing {
+        Framing::Rtu => rtu_reply_length(head),
+        Framing::Tcp => match *head {
+            [_, _, 0, 0, high, low, ..] => Some(usize::from(u16::from_be_bytes([high, low])) + 6),
+            _ => None,
+        },
+    }
+}
+
+fn rtu_reply_length(head: &[u8]) -> Option<usize> {
     match head {
         [_, function, ..] if longest_count(function & 0x7F).is_none() => None,
         [_, function @ (1..=4), count, ..] => Some(rtu_length(*function, *count)),

@@ -162,12 +162,11 @@ impl<'a> Request<'a> {
         }
         let most = profile.most(self.function).ok_or(BuildError::BadFunction)?;
         let (least, greatest) = profile.units;
-        let fits = if profile.is_broadcast(self.unit) {
-            profile.broadcasts(self.function)
-        } else {
-            (least..=greatest).contains(&self.unit)
-        };
-        if !fits {
+        if profile.is_broadcast(self.unit) {
+            if !profile.broadcasts(self.function) {
+                return Err(BuildError::NotForAll);
+            }
+        } else if !(least..=greatest).contains(&self.unit) {
             return Err(BuildError::BadUnit);
         }
         let values = self.values.as_slice();

@@ -8,9 +8,10 @@ use super::{
     Value, LONGEST,
 };
 use crate::client::{AsyncTransport, LocalTransport, Transport};
+use crate::error::lead;
 use crate::point::joined;
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error};
-use crate::{Raw, Readable, Whole, Writable};
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
+use crate::{Point, Raw, Readable, Whole, Writable};
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
@@ -19,20 +20,48 @@ const SENT: usize = 4 + 2 * (4 + WORDS);
 
 /// Why a point could not be read or written.
 ///
-/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
+/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
+/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded, or is not in the telegram.
     Point(Error),
     /// The telegram could not be built.
-    Build(BuildError),
+    Build(BuildError, Option<&'static str>),
     /// The answer was none, or the drive refused.
-    Reply(ParseError),
+    Reply(ParseError, Option<&'static str>),
     /// The drive answered a write with this other value.
-    EchoMismatch(Value),
+    EchoMismatch(Value, Option<&'static str>),
     /// The transport failed.
-    Transport(E),
+    Transport(E, Option<&'static str>),
+}
+
+impl<E> ClientError<E> {
+    /// The name of the point that it is about, if it is about one.
+    #[must_use]
+    pub const fn point(&self) -> Option<&'static str> {
+        match self {
+            Self::Point(error) => error.point(),
+            Self::Build(_, point)
+            | Self::Reply(_, point)
+            | Self::EchoMismatch(_, point)
+            | Self::Transport(_, point) => *point,
+        }
+    }
+
+    /// The same about this point, where it does not say yet which it is about.
+    #[must_use]
+    pub fn of<P: Point>(mut self) -> Self {
+        match &mut self {
+            Self::Point(error) => *error = error.of::<P>(),
+            Self::Build(_, point)
+            | Self::Reply(_, point)
+            | Self::EchoMismatch(_, point)
+            | Self::Transport(_, point) => *point = point.or(Some(P::NAME)),
+        }
+        self
+    }
 }
 
 impl<E> From<Error> for ClientError<E> {
@@ -43,24 +72,30 @@ impl<E> From<Error> for ClientError<E> {
 
 impl<E> From<BuildError> for ClientError<E> {
     fn from(error: BuildError) -> Self {
-        Self::Build(error)
+        Self::Build(error, None)
     }
 }
 
 impl<E> From<ParseError> for ClientError<E> {
     fn from(error: ParseError) -> Self {
-        Self::Reply(error)
+        Self::Reply(error, None)
     }
 }
 
 impl<E: fmt::Display> fmt::Display for ClientError<E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::Point(error) = self {
+            return error.fmt(formatter);
+        }
+        lead(self.point(), formatter)?;
         match self {
-            Self::Point(error) => error.fmt(formatter),
-            Self::Build(error) => error.fmt(formatter),
-            Self::Reply(error) => error.fmt(formatter),
-            Self::EchoMismatch(value) => write!(formatter, "the drive answered {value} to a write"),
-            Self::Transport(error) => error.fmt(formatter),
+            Self::Point(_) => Ok(()),
+            Self::Build(error, _) => error.fmt(formatter),
+            Self::Reply(error, _) => error.fmt(formatter),
+            Self::EchoMismatch(value, _) => {
+                write!(formatter, "the drive answered {value} to a write")
+            }
+            Self::Transport(error, _) => error.fmt(formatter),
         }
     }
 }
@@ -68,7 +103,7 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Transport(error) => error.source(),
+            Self::Transport(error, _) => error.source(),
             _ => None,
         }
     }
@@ -126,7 +161,7 @@ impl Drive {
         process: &Process,
     ) -> Result<(&[u8], &mut [u8]), BuildError> {
         if request.unit != self.unit {
-            return Err(BuildError::BadUnit);
+            return Err(BuildError::OtherUnit);
         }
         let words = process.words.get(..usize::from(self.link.pzd));
         let words = words.ok_or(BuildError::BadLink)?;
@@ -193,7 +228,7 @@ impl Drive {
         self.changed(|all| {
             for (position, word) in P::ADDRESSES.iter().zip(words) {
                 *all.get_mut(usize::from(*position))
-                    .ok_or(Error::WrongLength(None))? = *word;
+                    .ok_or(Error::BeyondLink(None))? = *word;
             }
             Ok(())
         })
@@ -204,7 +239,7 @@ impl Drive {
     fn with_word(&self, position: u16, word: u16) -> Result<Process, Error> {
         self.changed(|all| {
             let place = all.get_mut(usize::from(position));
-            *place.ok_or(Error::WrongLength(None))? = word;
+            *place.ok_or(Error::BeyondLink(None))? = word;
             Ok(())
         })
     }
@@ -213,7 +248,7 @@ impl Drive {
     fn with_bits<P: Sent + BitGroup>(&self, raw: P::Raw) -> Result<Process, Error> {
         self.changed(|all| {
             let word = all.get_mut(usize::from(P::ADDRESS));
-            let word = word.ok_or(Error::WrongLength(None))?;
+            let word = word.ok_or(Error::BeyondLink(None))?;
             *word = P::insert(*word, raw);
             Ok(())
         })
@@ -226,7 +261,7 @@ impl Drive {
     ) -> Result<Process, Error> {
         let mut words = self.process.words;
         let linked = words.get_mut(..usize::from(self.link.pzd));
-        change(linked.ok_or(Error::WrongLength(None))?)?;
+        change(linked.ok_or(Error::BeyondLink(None))?)?;
         Ok(Process {
             words,
             is_changed: self.process.is_changed || words != self.process.words,
@@ -248,7 +283,7 @@ impl Drive {
             return Err(Error::NotHeard(None));
         }
         let word = heard.get(usize::from(position));
-        word.copied().ok_or(Error::WrongLength(None))
+        word.copied().ok_or(Error::BeyondLink(None))
     }
 }
 
@@ -289,12 +324,12 @@ macro_rules! client {
             /// Sets a point of the process data, which the next telegram carries.
             ///
             /// # Errors
-            /// What encoding says; [`Error::WrongLength`] if the link has not so many words.
+            /// What encoding says; [`Error::BeyondLink`] if the link has not so many words.
             pub fn set<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
-                P: Encodable<With = ()> + Whole + Sent,
+                P: Encodable<With: NeedsNothing> + Whole + Sent,
             {
-                self.set_with::<P>(value, ())
+                self.set_with::<P>(value, NeedsNothing::nothing())
             }
 
             /// As `set`, by the raw numbers that the point's scale and limits need.
@@ -314,9 +349,9 @@ macro_rules! client {
             /// The same.
             pub fn set_count<P>(&mut self, count: P::Count) -> Result<(), Error>
             where
-                P: CountWritable<With = ()> + Whole + Sent,
+                P: CountWritable<With: NeedsNothing> + Whole + Sent,
             {
-                self.set_count_with::<P>(count, ())
+                self.set_count_with::<P>(count, NeedsNothing::nothing())
             }
 
             /// As `set_count`, by the raw numbers that the point's scale and limits need.
@@ -333,10 +368,10 @@ macro_rules! client {
             /// Sets a group of bits of the process data, which the next telegram carries.
             ///
             /// # Errors
-            /// What encoding says; [`Error::WrongLength`] if the link has not so many words.
+            /// What encoding says; [`Error::BeyondLink`] if the link has not so many words.
             pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
-                P: Encodable<With = ()> + BitGroup + Sent,
+                P: Encodable<With: NeedsNothing> + BitGroup + Sent,
             {
                 self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 Ok(())
@@ -346,7 +381,7 @@ macro_rules! client {
             /// caller's.
             ///
             /// # Errors
-            /// [`Error::WrongLength`] if the link has not so many words.
+            /// [`Error::BeyondLink`] if the link has not so many words.
             pub fn set_word(&mut self, position: u16, word: u16) -> Result<(), Error> {
                 self.drive.process = self.drive.with_word(position, word)?;
                 Ok(())
@@ -369,13 +404,13 @@ macro_rules! client {
             /// A point of the process data of the last answer, also of one that refused a task.
             ///
             /// # Errors
-            /// What decoding says; [`Error::NotHeard`] if the last telegram was not answered; [`Error::WrongLength`] if
+            /// What decoding says; [`Error::NotHeard`] if the last telegram was not answered; [`Error::BeyondLink`] if
             /// the link has not so many words.
             pub fn heard<P>(&self) -> Result<P::Value, Error>
             where
-                P: Readable<Factors = ()> + Received,
+                P: Readable<Factors: NeedsNothing> + Received,
             {
-                self.heard_with::<P>(())
+                self.heard_with::<P>(NeedsNothing::nothing())
             }
 
             /// As `heard`, by the raw numbers that the point's scale needs.
@@ -395,9 +430,9 @@ macro_rules! client {
             /// The same.
             pub fn heard_count<P>(&self) -> Result<P::Count, Error>
             where
-                P: CountReadable<Factors = ()> + Received,
+                P: CountReadable<Factors: NeedsNothing> + Received,
             {
-                self.heard_count_with::<P>(())
+                self.heard_count_with::<P>(NeedsNothing::nothing())
             }
 
             /// As `heard_count`, by the raw numbers that the point's scale needs.
@@ -416,7 +451,7 @@ macro_rules! client {
             /// The answer to a request; the telegram carries the process data too.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells; [`BuildError::BadUnit`] for a request to another unit, which is not to
+            /// Whatever [`ClientError`] tells; [`BuildError::OtherUnit`] for a request to another unit, which is not to
             /// take this one's process data.
             pub $($async)? fn exchange(
                 &mut self,
@@ -433,7 +468,7 @@ macro_rules! client {
             ) -> Result<Reply<'_>, ClientError<T::Error>> {
                 let (sent, space) = self.drive.telegrams(&request, &process)?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
-                let length = answer.map_err(ClientError::Transport)?;
+                let length = answer.map_err(|error| ClientError::Transport(error, None))?;
                 Ok(self.drive.reply(&request, &process, length)?)
             }
 
@@ -463,7 +498,7 @@ macro_rules! client {
             ) -> Result<(), ClientError<T::Error>> {
                 let sent = self.drive.for_all(masks)?;
                 let answer = self.transport.exchange(sent, &mut [])$($wait)*;
-                answer.map_err(ClientError::Transport)?;
+                answer.map_err(|error| ClientError::Transport(error, None))?;
                 Ok(())
             }
 
@@ -473,9 +508,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn send<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + Whole + Sent,
+                P: Encodable<With: NeedsNothing> + Whole + Sent,
             {
-                self.send_with::<P>(value, ())$($wait)*
+                self.send_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `send`, by the raw numbers that the point's scale and limits need.
@@ -492,9 +527,45 @@ macro_rules! client {
             {
                 let words = P::encode_with(value, with)?.into_words();
                 let process = self.drive.with_words::<P>(words.as_ref())?;
+                self.send_process::<P>(process)$($wait)*
+            }
+
+            /// As `send`, from a count: the value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn send_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable<With: NeedsNothing> + Whole + Sent,
+            {
+                self.send_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
+            }
+
+            /// As `send_count`, by the raw numbers that the point's scale and limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn send_count_with<P>(
+                &mut self,
+                count: P::Count,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: CountWritable + Whole + Sent,
+            {
+                let words = P::encode_count_with(count, with)?.into_words();
+                let process = self.drive.with_words::<P>(words.as_ref())?;
+                self.send_process::<P>(process)$($wait)*
+            }
+
+            /// Sends process data that are new in a point.
+            $($async)? fn send_process<P: Sent>(
+                &mut self,
+                process: Process,
+            ) -> Result<(), ClientError<T::Error>> {
                 let request = Request::cyclic(self.drive.unit);
-                self.exchange_with(request, process)$($wait)*?;
-                Ok(())
+                let reply = self.exchange_with(request, process)$($wait)*;
+                reply.map(drop).map_err(ClientError::of::<P>)
             }
 
             /// Sets a group of bits of the process data and sends it. It stays set if the drive answers.
@@ -503,12 +574,10 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + BitGroup + Sent,
+                P: Encodable<With: NeedsNothing> + BitGroup + Sent,
             {
                 let process = self.drive.with_bits::<P>(P::encode(value)?)?;
-                let request = Request::cyclic(self.drive.unit);
-                self.exchange_with(request, process)$($wait)*?;
-                Ok(())
+                self.send_process::<P>(process)$($wait)*
             }
 
             /// The value of a point of the process data, which the drive is asked for.
@@ -517,9 +586,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn receive<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
             where
-                P: Readable<Factors = ()> + Received,
+                P: Readable<Factors: NeedsNothing> + Received,
             {
-                self.receive_with::<P>(())$($wait)*
+                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// As `receive`, by the raw numbers that the point's scale needs.
@@ -533,8 +602,34 @@ macro_rules! client {
             where
                 P: Readable + Received,
             {
-                self.cycle()$($wait)*?;
+                self.cycle()$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(self.heard_with::<P>(with)?)
+            }
+
+            /// As `receive`, as a count: the value in units of `10^-DECIMALS`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable<Factors: NeedsNothing> + Received,
+            {
+                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
+            }
+
+            /// As `receive_count`, by the raw numbers that the point's scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_count_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: CountReadable + Received,
+            {
+                self.cycle()$($wait)*.map_err(ClientError::of::<P>)?;
+                Ok(self.heard_count_with::<P>(with)?)
             }
 
             /// A parameter's raw number.
@@ -546,7 +641,7 @@ macro_rules! client {
                 P: Readable + Parameter,
             {
                 let request = Request::read::<P>(self.drive.unit);
-                let reply = self.exchange(request)$($wait)*?;
+                let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(reply.raw::<P>()?)
             }
 
@@ -556,9 +651,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
             where
-                P: Readable<Factors = ()> + Parameter,
+                P: Readable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_with::<P>(())$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's value, by the raw numbers that its scale needs.
@@ -582,9 +677,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
             where
-                P: CountReadable<Factors = ()> + Parameter,
+                P: CountReadable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_count_with::<P>(())$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's count, by the raw numbers that its scale needs.
@@ -608,9 +703,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + Whole + Parameter,
+                P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_with::<P>(value, ())$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write`, by the raw numbers that the point's scale and limits need.
@@ -635,9 +730,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
             where
-                P: CountWritable<With = ()> + Whole + Parameter,
+                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_count_with::<P>(count, ())$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_count`, by the raw numbers that the point's scale and limits need.
@@ -662,9 +757,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_raw_with::<P>(raw, ())$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_raw`, by the raw numbers that the point's limits need.
@@ -689,9 +784,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn store<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + Whole + Parameter,
+                P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_with::<P>(value, ())$($wait)*
+                self.store_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store`, by the raw numbers that the point's scale and limits need.
@@ -716,9 +811,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn store_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
             where
-                P: CountWritable<With = ()> + Whole + Parameter,
+                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_count_with::<P>(count, ())$($wait)*
+                self.store_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store_count`, by the raw numbers that the point's scale and limits need.
@@ -743,9 +838,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn store_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.store_raw_with::<P>(raw, ())$($wait)*
+                self.store_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `store_raw`, by the raw numbers that the point's limits need.
@@ -770,7 +865,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
@@ -786,7 +881,7 @@ macro_rules! client {
                 value: P::Value,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
@@ -798,11 +893,11 @@ macro_rules! client {
                 &mut self,
                 request: Request,
             ) -> Result<(), ClientError<T::Error>> {
-                let reply = self.exchange(request)$($wait)*?;
+                let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 if request.is_confirmed::<P>(&reply) {
                     Ok(())
                 } else {
-                    Err(ClientError::EchoMismatch(reply.value()))
+                    Err(ClientError::EchoMismatch(reply.value(), Some(P::NAME)))
                 }
             }
 
@@ -812,7 +907,7 @@ macro_rules! client {
                 P: Readable + BitGroup + Parameter,
             {
                 let request = Request::read::<P>(self.drive.unit);
-                let reply = self.exchange(request)$($wait)*?;
+                let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(reply.word().map_err(Error::of::<P>)?)
             }
         }

@@ -193,7 +193,7 @@ impl Request {
 /// No unit answers.
 ///
 /// # Errors
-/// [`BuildError::BadLink`], [`BuildError::BufferTooSmall`].
+/// [`BuildError::NoBroadcast`], [`BuildError::BadLink`], [`BuildError::BufferTooSmall`].
 pub fn broadcast(
     profile: &Profile,
     link: Link,
@@ -201,7 +201,7 @@ pub fn broadcast(
     words: &[u16],
     buffer: &mut [u8],
 ) -> Result<usize, BuildError> {
-    let address = profile.broadcast.ok_or(BuildError::BadLink)?;
+    let address = profile.broadcast.ok_or(BuildError::NoBroadcast)?;
     if !profile.takes_pzd(link, words) {
         return Err(BuildError::BadLink);
     }

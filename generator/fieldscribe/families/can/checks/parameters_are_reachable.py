@@ -1,4 +1,4 @@
-"""Parameters can be read and written as they say: there are messages for it."""
+"""Every parameter that says it is read or written has a message for that."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from fieldscribe.families.can.frames import carries
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
+    from fieldscribe.resolve.subject import Subject
 
 
 def check(subject: Subject) -> None:
@@ -23,15 +23,17 @@ def _messages(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str,
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(
         list(subject.scope.listed("messages"))
     ):
-        return  # what could not be read may be what is missing
-    asked = [one for one in subject.messages if one.direction == "request" and carries(one, "address")]
-    answered = {one.answers for one in subject.messages if one.answers is not None and carries(one, "raw")}
-    reads = any(not carries(one, "raw") and one.name in answered for one in asked)
-    writes = any(carries(one, "raw") for one in asked)
+        return  # the missing message may be one that could not be read
+    asked = [message for message in subject.messages if message.direction == "request" and carries(message, "address")]
+    answered = {
+        message.answers for message in subject.messages if message.answers is not None and carries(message, "raw")
+    }
+    reads = any(not carries(message, "raw") and message.name in answered for message in asked)
+    writes = any(carries(message, "raw") for message in asked)
     hint = "add {} under `messages`, or correct `access`"
     if not reads:
-        told = hint.format("a request with `address`, and a response with `raw` that answers it")
-        yield sum(one.readable for one in points), "no message reads a parameter", told
+        what_to_add = hint.format("a request with `address`, and a response with `raw` that answers it")
+        yield sum(point.readable for point in points), "no message reads a parameter", what_to_add
     if not writes:
-        told = hint.format("a request with `address` and `raw`")
-        yield sum(one.writable for one in points), "no message writes a parameter", told
+        what_to_add = hint.format("a request with `address` and `raw`")
+        yield sum(point.writable for point in points), "no message writes a parameter", what_to_add

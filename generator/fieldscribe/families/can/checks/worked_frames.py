@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, answers_nothing, from_words, hex_of, no_frame
-from fieldscribe.checks.subject import Printed, Subject
+from fieldscribe.checks.frames_agree import Seen, from_words, hex_of, report_no_frame, report_no_request
 from fieldscribe.families.can.facts import identifier_of
 from fieldscribe.families.can.frames import LENGTH, CanFrame, Parsed, checksum, parse
+from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
@@ -18,40 +18,40 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    """A frame as a message to or from a unit."""
+    """A frame read as a message to or from a unit."""
 
     message: Message
     unit: int
     parsed: Parsed
 
 
-def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
-    """What the frame is; its request is the message that it was read as."""
-    frame = one.frame
+def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+    """The frame as a message of the device; `Seen.request` is that message."""
+    frame = open_frame.frame
     if len(frame.printed) != LENGTH:
-        return no_frame(subject, one, f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed")
+        return report_no_frame(subject, open_frame, f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed")
     asked: _Heard | None = None
     if frame.direction == "response":
-        answers_nothing(subject, one)
+        report_no_request(subject, open_frame)
         before = seen.get(frame.answers or "")
         asked = before.request if before is not None else None
     if identifier_of(frame) is None or (frame.direction == "response" and asked is None):
         return Seen(replace(frame, valid=False))
     tried = _tried(subject, frame, asked)
-    frame, heard = _summed(subject, one, tried)
+    frame, heard = _summed(subject, open_frame, tried)
     fault = _fault(subject, frame, tried, heard, asked)
     if fault is not None or heard is None:
-        return no_frame(subject, one, fault or "")
+        return report_no_frame(subject, open_frame, fault or "")
     return Seen(frame, heard, _carries(subject, heard, frame))
 
 
 def _fault(
     subject: Subject, frame: Frame, tried: list[_Heard], heard: _Heard | None, asked: _Heard | None
 ) -> str | None:
-    """Why the frame is no message of the device, or does not answer what was asked."""
+    """Why the frame is no message of the device, or does not answer its request."""
     what = f"does not answer `{frame.answers}`" if asked is not None else "is no message of this device"
     if heard is None:
-        faults = {found.parsed.status.replace("_", " ") for found in tried} or {"wrong id"}
+        faults = {heard.parsed.status.replace("_", " ") for heard in tried} or {"wrong id"}
         return f"this {what}: {', '.join(sorted(faults))}"
     low, high = subject.bus.units
     if not low <= heard.unit <= high:
@@ -62,7 +62,7 @@ def _fault(
 
 
 def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]:
-    """The frame as each of the messages that it could be."""
+    """The frame read as each message that it could be."""
     result = []
     number = identifier_of(frame)
     for message in subject.messages:
@@ -74,19 +74,19 @@ def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]
 
 
 def _unit(message: Message, number: int, data: bytes, otherwise: int) -> int:
-    """The unit that a message is to or from, if it says so."""
+    """The unit that a message is to or from, where a byte of it says so."""
     if message.adds_unit:
         return number - message.identifier
-    found = otherwise
+    unit = otherwise
     for role, byte in zip(message.roles, data, strict=True):
         if role.kind == "unit" and role.number == 0:
-            found = byte
-    return found
+            unit = byte
+    return unit
 
 
-def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
-    """The frame with its checksum put right, and what it then is; None if it is none of these messages."""
-    frame, number = one.frame, identifier_of(one.frame)
+def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
+    """The frame with its checksum corrected, read as one of these messages; None if it is none of them."""
+    frame, number = open_frame.frame, identifier_of(open_frame.frame)
     for heard in tried:
         if heard.parsed.status == "ok":
             return frame, heard
@@ -97,9 +97,9 @@ def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Fram
         sums = [byte for byte, role in enumerate(heard.message.roles) if role.kind == "xor"]
         for byte in sums:
             data[byte] = checksum(data, heard.message.roles[byte].number)
-        printed, taken = (hex_of(bytes(one[byte] for byte in sums)) for one in (frame.printed, data))
+        printed, taken = (hex_of(bytes(data_bytes[byte] for byte in sums)) for data_bytes in (frame.printed, data))
         message = f"the checksum {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, one.raw.span("bytes"), message))
+        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, open_frame.raw.span("bytes"), message))
         right = bytes(data)
         parsed = parse(heard.message, heard.unit, CanFrame(number, right))
         return replace(frame, corrected=right, valid=False), replace(heard, parsed=parsed)
@@ -107,7 +107,7 @@ def _summed(subject: Subject, one: OpenFrame, tried: list[_Heard]) -> tuple[Fram
 
 
 def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
-    """What a frame brings: the word of one parameter, or some words of a telegram."""
+    """Finds the raw numbers in a frame: the word of a parameter, or words of a telegram."""
     roles = heard.message.roles
     has_raw = any(role.kind == "raw" for role in roles)
     words: dict[int, int] = {}

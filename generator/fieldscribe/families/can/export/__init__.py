@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 def limits(bus: Bus | None) -> dict[str, object]:
-    """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
-    own = CanBus() if bus is None else of_bus(bus)
-    return {"bitrate": own.bitrate, "identifier_bits": own.identifier_bits}
+    """The family's own facts of a bus; empty values for a bus of another family."""
+    can_bus = CanBus() if bus is None else of_bus(bus)
+    return {"bitrate": can_bus.bitrate, "identifier_bits": can_bus.identifier_bits}
 
 
 def export(form: str, device: Device, unit: int | None) -> bytes:
     """The device in a form that only this family has. Raises ExportError."""
-    del form  # there is one
+    del form  # the family has only this one
     from fieldscribe.families.can.export.dbc import export_dbc
 
     return export_dbc(device, unit).encode("latin-1")

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Flag, Point
 
 _MOST_CODES = 32
-"""A band of more special codes is said in the comment alone: a database names single numbers."""
+"""A longer band of special codes goes to the comment only: a database names single numbers."""
 
 _HALVES = ("high", "low")
 
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """A signal without its place in the frame: `address` is its first word in the telegram, the high one."""
+    """A signal without its place in the frame. `address` is its first word in the telegram, the high word."""
 
     name: str
     address: int
@@ -41,7 +41,7 @@ class Meaning:
 
 
 def signals_of_point(device: Device, point: Point, per_frame: int, *, joins: bool) -> Iterator[Meaning]:
-    """The signal that a point is; a number whose words are in two frames, or in falling order, is a signal a word.
+    """The signal of a point; one signal for each word where its words lie in two frames or in falling order.
 
     `joins` says whether neighbouring words of a frame are one number to a database.
     """
@@ -56,8 +56,8 @@ def signals_of_point(device: Device, point: Point, per_frame: int, *, joins: boo
     for place, address in enumerate(addresses):
         name = _HALVES[place] if len(addresses) == 2 else f"word_{place + 1}"
         count = len(addresses)
-        said = f"{comment}. Word {place + 1} of {count}, the high part first; a database cannot put them together"
-        yield Meaning(f"{point.name}_{name}", address, 1, None, False, "1", "0", "0", "65535", "", line(said), ())
+        remark = f"{comment}. Word {place + 1} of {count}, the high part first; a database cannot put them together"
+        yield Meaning(f"{point.name}_{name}", address, 1, None, False, "1", "0", "0", "65535", "", line(remark), ())
 
 
 def _meaning(point: Point, comment: str) -> Meaning:
@@ -88,10 +88,10 @@ def decimal(number: Fraction) -> str:
 
 def _names(point: Point) -> Iterator[tuple[int, str]]:
     seen: set[int] = set()
-    for one in point.specials if not point.info.floating else ():
-        if one.high - one.low < _MOST_CODES:
-            seen.update(range(one.low, one.high + 1))
-            yield from ((raw, one.name) for raw in range(one.low, one.high + 1))
+    for special in point.specials if not point.info.floating else ():
+        if special.high - special.low < _MOST_CODES:
+            seen.update(range(special.low, special.high + 1))
+            yield from ((raw, special.name) for raw in range(special.low, special.high + 1))
     for entry in point.enum.entries if point.enum is not None else ():
         if entry.raw not in seen:
             yield entry.raw, entry.name
@@ -101,23 +101,23 @@ def _flag_text(flag: Flag, point: Point) -> str:
     """A flag with what its numbers mean, in English: `bits 7..6 fault_class_3: 0 Inactive, 3 Active`."""
     head = f"{'bit' if flag.width == 1 else 'bits'} {wording.flag_bits(flag, point)} {flag.name}"
     if flag.values:
-        return f"{head}: " + ", ".join(f"{one.raw} {one.title['en']}" for one in flag.values)
+        return f"{head}: " + ", ".join(f"{value.raw} {value.title['en']}" for value in flag.values)
     return head + (", true when 0" if flag.width == 1 and flag.active == 0 else "")
 
 
 def _comment(device: Device, point: Point) -> str:
-    """The title, with what a database cannot say: a rule that needs other points, the bits of a word."""
+    """The title, and facts that a database has no place for: rules that need other points, bits of a word."""
     parts = [point.title["en"]]
     if not point.generated:
         parts.append(f"Raw: {point.reason or 'the manual leaves it open'}")
     elif fixed_rule(point) is None:
-        by_name = {one.name: one for one in device.points}
+        by_name = {named.name: named for named in device.points}
         parts.append(f"Raw: the value is {wording.scale_text(point, by_name)}")
     if point.flags:
         parts += [_flag_text(flag, point) for flag in point.flags]
-    for one in point.specials:
-        if point.info.floating or one.high - one.low >= _MOST_CODES or len(point.addresses) > 1:
-            parts.append(f"No quantity: {wording.special_numbers(one, point.width)} {one.name}")
+    for special in point.specials:
+        if point.info.floating or special.high - special.low >= _MOST_CODES or len(point.addresses) > 1:
+            parts.append(f"No quantity: {wording.special_numbers(special, point.width)} {special.name}")
     printed = ", ".join(f"{key} {number}" for key, number in point.references.items())
     if printed:
         parts.append(f"In the manual: {printed}")

@@ -1,4 +1,4 @@
-"""The messages of a CAN device as those of a database: which bits are which signal, and what selects it."""
+"""The messages of a CAN device for a database: the bits of each signal, and the multiplexer that selects it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Signal:
 
     @property
     def multiplexing(self) -> str:
-        """How the line of the signal says by what it is selected, and whether it selects others."""
+        """The mark of a signal that a multiplexer value selects (`m3`), of a multiplexer (`M`), or of both (`m3M`)."""
         return ("" if self.switch is None else f"m{self.switch[1]}") + ("M" if self.switches else "")
 
 
@@ -61,14 +61,14 @@ class DbcMessage:
 
 def messages_of(device: Device, unit: int) -> list[DbcMessage]:
     """The messages of a database for one unit. Raises ExportError."""
-    found: dict[tuple[int, bool], list[Message]] = {}
+    by_identifier: dict[tuple[int, bool], list[Message]] = {}
     for message in device.messages:
-        found.setdefault((message.identifier, message.adds_unit), []).append(message)
+        by_identifier.setdefault((message.identifier, message.adds_unit), []).append(message)
     shorts: set[str] = set()
-    messages = [_message(device, unit, group) for group in found.values()]
-    for one in messages:
-        one.short = _own(one.name, shorts, _MOST_NAME)
-    return messages
+    dbc_messages = [_message(device, unit, group) for group in by_identifier.values()]
+    for dbc_message in dbc_messages:
+        dbc_message.short = _unique(dbc_message.name, shorts, _MOST_NAME)
+    return dbc_messages
 
 
 def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
@@ -89,15 +89,15 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
     for message in group:
         switch = None if selector is None else ("message", message.roles[selector].number)
         result.signals += [
-            one if one.switch is not None else replace(one, switch=switch)
-            for one in _signals(device, message, unit, skip=selector)
+            signal if signal.switch is not None else replace(signal, switch=switch)
+            for signal in _signals(device, message, unit, skip=selector)
         ]
     result.signals = _named(result.signals)
     return result
 
 
 def _selector(group: list[Message]) -> int:
-    """The byte that is another constant in each message. Raises ExportError."""
+    """The byte that has a different constant in each message. Raises ExportError."""
     for place in range(_BYTES):
         roles = [message.roles[place] for message in group if place < len(message.roles)]
         numbers = {role.number for role in roles if role.kind == "constant"}
@@ -108,7 +108,7 @@ def _selector(group: list[Message]) -> int:
 
 
 def _signals(device: Device, message: Message, unit: int, skip: int | None) -> Iterator[Signal]:
-    """The signals of one message; those of a telegram carry their own switch."""
+    """The signals of one message; those of a telegram know their multiplexer already."""
     for kind, places in _fields(message.roles, skip):
         roles = [message.roles[place] for place in places]
         if kind == "constant":
@@ -128,7 +128,7 @@ def _signals(device: Device, message: Message, unit: int, skip: int | None) -> I
             units = (unit, unit) if message.adds_unit else device.bus.units
             yield _number(device, message, kind, places, units)
         elif kind == "multiplexer":
-            telegram = next((one for one in device.telegrams if one.message == message.name), None)
+            telegram = next((candidate for candidate in device.telegrams if candidate.message == message.name), None)
             slots = -(-telegram.words // message.words) if telegram is not None and message.words else 256
             yield Signal(f"{message.name}_multiplexer", 8 * places[0] + 7, 8, greatest=str(slots - 1), switches=True,
                          comment="Which words of the telegram follow")  # fmt: skip
@@ -138,14 +138,16 @@ def _signals(device: Device, message: Message, unit: int, skip: int | None) -> I
 
 
 def _fields(roles: Sequence[Role], skip: int | None) -> Iterator[tuple[str, list[int]]]:
-    """Runs of bytes of one kind, without words."""
+    """The runs of neighbouring bytes of one kind, without the words of a telegram."""
     places = [place for place in range(len(roles)) if place != skip and roles[place].kind != "word"]
-    for (kind, _), run in groupby(enumerate(places), lambda one: (roles[one[1]].kind, one[1] - one[0])):
+    for (kind, _), run in groupby(
+        enumerate(places), lambda numbered: (roles[numbered[1]].kind, numbered[1] - numbered[0])
+    ):
         yield kind, [place for _, place in run]
 
 
 def _number(device: Device, message: Message, kind: str, places: list[int], units: tuple[int, int]) -> Signal:
-    """The unit, the parameter's id or its word."""
+    """The signal for the unit, the parameter's id or the parameter's word."""
     name = {"unit": "unit", "address": "parameter", "raw": "value"}[kind]
     start, size, big = span_of({message.roles[place].number: place for place in places}, message.name)
     low, high = units if kind == "unit" else (0, (1 << size) - 1)
@@ -157,7 +159,7 @@ def _number(device: Device, message: Message, kind: str, places: list[int], unit
 
 
 def span_of(bytes_by_shift: dict[int, int], name: str) -> tuple[int, int, bool]:
-    """(start bit, size, big endian) of whole bytes, each given by how far it lies above bit 0. Raises ExportError."""
+    """(start bit, size, big endian) of bytes, each given by its distance from bit 0. Raises ExportError."""
     shifts = sorted(bytes_by_shift, reverse=True)
     places = [bytes_by_shift[shift] for shift in shifts]
     size = 8 * len(places)
@@ -171,7 +173,7 @@ def span_of(bytes_by_shift: dict[int, int], name: str) -> tuple[int, int, bool]:
 
 
 def _parameter_names(device: Device) -> Iterator[tuple[int, str]]:
-    """The parameters by id; of several that share a word all names, of a text the number of the word too."""
+    """The names of parameters by id: all names where several share a word; with the number of the word for texts."""
     names: dict[int, dict[str, None]] = {}
     for point in device.points:
         if point.space != "parameter" or not point.generated:
@@ -184,7 +186,7 @@ def _parameter_names(device: Device) -> Iterator[tuple[int, str]]:
 
 
 def _telegram(device: Device, message: Message, telegram: Telegram) -> Iterator[Signal]:
-    """The points of a telegram; what cannot be one signal is said in the comment of those that it becomes."""
+    """The signals for the points of a telegram."""
     taken: dict[tuple[int, int], str] = {}
     multiplexed = any(role.kind == "multiplexer" for role in message.roles)
     for point in _points(device, telegram):
@@ -207,27 +209,27 @@ def _telegram(device: Device, message: Message, telegram: Telegram) -> Iterator[
 
 
 def _joins(message: Message) -> bool:
-    """Whether all words of a frame are neighbours with the high byte first, as a big-endian number has them."""
+    """Whether the words of a frame lie side by side with the high byte first, as in one big-endian number."""
     places = [place for place, role in enumerate(message.roles) if role.kind == "word"]
     numbers = [message.roles[place].number for place in places]
     return numbers == list(range(len(numbers))) and places[-1] - places[0] == len(places) - 1
 
 
 def _points(device: Device, telegram: Telegram) -> Iterator[Point]:
-    """The points of a telegram, reserved ones too; of variants that mean the same one."""
+    """The points of a telegram, also reserved ones; of variants that mean the same only the first."""
     seen: dict[str, Point] = {}
     for point in device.points:
         if point.telegram != telegram.name or not point.addresses:
             continue
         facts = ("addresses", "type", "bits", "unit", "scale", "enum")
-        if point.name in seen and all(getattr(point, one) == getattr(seen[point.name], one) for one in facts):
+        if point.name in seen and all(getattr(point, fact) == getattr(seen[point.name], fact) for fact in facts):
             continue
         seen[point.name] = point
         yield point
 
 
 def _placed(message: Message, meaning: Meaning, word: int, switch: tuple[str, int] | None) -> Signal:
-    """The bits of a signal in the frame."""
+    """The signal at its bits in the frame."""
     bytes_of = {16 * (meaning.words - 1 - (role.number // 2 - word)) + (0 if role.number & 1 else 8): place
                 for place, role in enumerate(message.roles)
                 if role.kind == "word" and word <= role.number // 2 < word + meaning.words}  # fmt: skip
@@ -252,17 +254,20 @@ def _mask(mask: int) -> str:
 
 
 def _named(signals: list[Signal]) -> list[Signal]:
-    """Each signal with a name and a short name of its own; those that others are selected by come first."""
+    """The signals, each with a unique name and a unique short name."""
     names: set[str] = set()
     shorts: set[str] = set()
-    return [replace(one, name=_own(one.name, names), short=_own(one.name, shorts, _MOST_NAME)) for one in signals]
+    return [
+        replace(signal, name=_unique(signal.name, names), short=_unique(signal.name, shorts, _MOST_NAME))
+        for signal in signals
+    ]
 
 
-def _own(name: str, taken: set[str], most: int | None = None) -> str:
-    """The name, no longer than the format allows, with a number behind it if another has it."""
-    own, count = name[:most], 1
-    while own in taken:
+def _unique(name: str, taken: set[str], most: int | None = None) -> str:
+    """A unique name, at most so long; it gets a number if another has it."""
+    free_name, count = name[:most], 1
+    while free_name in taken:
         count += 1
-        own = f"{name[: None if most is None else most - 1 - len(str(count))]}_{count}"
-    taken.add(own)
-    return own
+        free_name = f"{name[: None if most is None else most - 1 - len(str(count))]}_{count}"
+    taken.add(free_name)
+    return free_name

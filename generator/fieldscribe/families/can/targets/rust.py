@@ -12,7 +12,7 @@ from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import OfFamily, Table
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
-from fieldscribe.targets.rust.literals import integer, mask, type_name
+from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -145,6 +145,25 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
         yield Table("can_telegram", "can_telegram", tuple(row_of(one, ("(frames)",)) for one in heard))
 
 
+def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
+    """The first telegram with a point that needs no other, and how its points are told."""
+    come = {one.point.item: one for one in scope.subjects if _received(one, scope) is not None}
+    plain = [one for one in come.values() if not one.factors and not one.point.specials]
+    if not plain:
+        return "", ()
+    first = next((one for one in plain if one.form == "scaled"), plain[0])
+    lines = [f"let value = client.receive::<p::{first.name}>()?; // waits for its next frame"]
+    lines.append('println!("it is {value:?}");')
+    needy = (one for one in come.values() if one.factors and one.point.telegram == first.point.telegram)
+    for one in (one for one in needy if all(name in come for name in one.factors)):
+        fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in one.factors)
+        lines += ["let heard = client.listener(); // what came so far"]
+        lines += [f"let with = with::{one.factors_struct} {{ {fields} }};"]
+        lines += [f'println!("it is {{:?}}", heard.value_with::<p::{one.name}>(with)?);']
+        break
+    return f"telegrams::{type_name(first.point.telegram or '')}", tuple(lines)
+
+
 def tables_of_frames(device: Device) -> Iterator[Table]:
     """The telegrams that come in frames."""
     carriers = {one.name for one in device.messages if one.words}
@@ -162,4 +181,6 @@ IN_RUST = OfFamily(
     tables_of_points=tables_of_points,
     tables_of_frames=tables_of_frames,
     refusals="constant",
+    names=("Frame",),
+    heard=heard,
 )

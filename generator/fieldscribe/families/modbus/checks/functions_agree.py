@@ -1,23 +1,23 @@
-"""Functions carry what is asked of them: the printed amount of data, the points of each space, all words of a point."""
+"""Functions suffice: for the printed number of bytes, for each space with points, for all words of a point."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Printed
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
 
 _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
 
 def check(subject: Subject) -> None:
-    """Functions whose printed bytes do not follow from their largest count, and spaces that no function reaches."""
+    """Findings for printed numbers of bytes that do not follow from the largest count, and for unreachable spaces."""
     bus = subject.scope.bus
     if bus is None:
         return
@@ -38,9 +38,9 @@ def check(subject: Subject) -> None:
 
 
 def _reached(subject: Subject, bus: Map) -> None:
-    """One finding for each space whose points could be read or written, but by no function of the device."""
+    """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
-    points = [one.point for one in subject.resolved if one.point.generated]
+    points = [resolved.point for resolved in subject.resolved if resolved.point.generated]
     for space, functions in SPACES.items():
         inside = [point for point in points if point.space == space]
         writers = {functions.write_one, functions.write_many} - {None}
@@ -55,19 +55,19 @@ def _reached(subject: Subject, bus: Map) -> None:
 
 
 def _at_once(subject: Subject) -> None:
-    """One finding for each function whose requests are shorter than points that only it reads or writes."""
+    """One finding for each function whose requests have too few words for points that only it can read or write."""
     most = profile_of(subject.bus).most
     too_long: dict[tuple[str, int], list[Resolved]] = {}
-    for one in subject.resolved:
-        point = one.point
-        if not point.generated or "type" in one.draft.failed or point.space not in SPACES:
+    for resolved in subject.resolved:
+        point = resolved.point
+        if not point.generated or "type" in resolved.draft.failed or point.space not in SPACES:
             continue
         functions = SPACES[point.space]
         if point.readable and functions.read in most and _span(point) > most[functions.read]:
-            too_long.setdefault(("read", functions.read), []).append(one)
+            too_long.setdefault(("read", functions.read), []).append(resolved)
         many = functions.write_many
         if point.writable and many is not None and point.words > 1 and point.words > most.get(many, 1):
-            too_long.setdefault(("write", many), []).append(one)
+            too_long.setdefault(("write", many), []).append(resolved)
     for (verb, function), points in too_long.items():
         _report_too_long(subject, verb, function, points, most.get(function))
 

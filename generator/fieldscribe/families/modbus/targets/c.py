@@ -26,7 +26,7 @@ from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Block, Command, Device, Place, Point
     from fieldscribe.targets.c.scope import HeaderScope
@@ -51,8 +51,8 @@ class BlocksView:
 
     name: str
     array: str
-    count_name: str
-    rows: tuple[tuple[str, str, str], ...]
+    rows: tuple[tuple[str, str, str, str], ...]
+    """Function, address and count of each, and what it holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +92,8 @@ class BusView:
     rtu: str
     tcp: str
     blocks: tuple[BlocksView, ...]
+    block_most: Define
+    """The items of the largest block."""
     layouts: tuple[Descriptor, ...]
     frames: tuple[FrameView, ...]
     commands: tuple[CommandView, ...]
@@ -104,7 +106,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     bus = device.bus
     functions = tuple(
         (
-            hexadecimal(code.number, 2),
+            unsigned(code.number),
             f"{min(code.most or _MOST[code.number], _MOST[code.number])}U",
             "true" if code.number in _BROADCAST and code.broadcast is not False else "false",
             c_comment(code.name),
@@ -115,6 +117,8 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     numbers = frozenset(code.number for code in bus.functions)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     layouts = Layouts(scope)
+    labels = {point.name: point.code or point.name for point in device.points}
+    all_blocks = [one for blocks in device.blocks.values() for one in blocks]
     frames = [
         _frame(point, views[point.item], numbers, layouts)
         for point in device.points
@@ -128,7 +132,8 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         pads="true" if of_bus(bus).pad_coil_bytes == "even" else "false",
         rtu="true" if "rtu" in framings_of(bus) else "false",
         tcp="true" if "tcp" in framings_of(bus) else "false",
-        blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),
+        blocks=tuple(_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks),
+        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((one.count for one in all_blocks), default=0))),
         layouts=layouts.descriptors,
         frames=tuple(one for one in frames if one is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
@@ -141,8 +146,10 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     """Every identifier of the header, by what it belongs to."""
     own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
+    if bus.blocks:
+        yield Owner("target", "the largest block"), (bus.block_most[0],)
     for blocks in bus.blocks:
-        yield Owner("group", blocks.name), (blocks.array, blocks.count_name)
+        yield Owner("group", blocks.name), (blocks.array,)
     for command, made in zip(device.commands, bus.commands, strict=True):
         yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
     yield from names_of_exceptions(device, bus.exceptions)
@@ -196,7 +203,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
 
 
 def _place(function: int, addresses: tuple[int, ...], words: int) -> str:
-    return f"{{{hexadecimal(function, 2)}, {hexadecimal(min(addresses))}, {words}U}}"
+    return f"{{{unsigned(function)}, {hexadecimal(min(addresses))}, {words}U}}"
 
 
 def _text(point: Point, view: PointView) -> str:
@@ -216,10 +223,17 @@ def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
     return next((number for number in wanted if number in functions), 0)
 
 
-def _blocks(group: str, blocks: tuple[Block, ...], scope: HeaderScope) -> BlocksView:
-    rows = tuple((hexadecimal(one.function, 2), hexadecimal(one.address), unsigned(one.count)) for one in blocks)
-    name = f"{scope.upper}_{upper(group)}_BLOCKS_COUNT"
-    return BlocksView(group, f"{scope.prefix}_{group}_blocks", name, rows)
+def _blocks(group: str, blocks: tuple[Block, ...], labels: Mapping[str, str], scope: HeaderScope) -> BlocksView:
+    rows = tuple(
+        (unsigned(one.function), hexadecimal(one.address), unsigned(one.count), _holds(one, labels)) for one in blocks
+    )
+    return BlocksView(group, f"{scope.prefix}_{group}_blocks", rows)
+
+
+def _holds(block: Block, labels: Mapping[str, str]) -> str:
+    """The first and the last point of a block, by their codes where they have some."""
+    ends = dict.fromkeys(labels[name] for name in (block.points[0], block.points[-1]))
+    return c_comment("..".join(ends))
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
@@ -229,7 +243,7 @@ def _command(command: Command, scope: HeaderScope) -> CommandView:
     if command.wears is not None:
         comment += f"; the memory stands {command.wears} writes"
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
-    write = f"{{{hexadecimal(command.function, 2)}, {macro}_ADDRESS, 1U}}"
+    write = f"{{{unsigned(command.function)}, {macro}_ADDRESS, 1U}}"
     name = f"{scope.prefix}_command_{command.name}"
     descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}")
     return CommandView(descriptor, f"{comment}.", defines)

@@ -88,4 +88,4 @@ def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
         yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
 
 
-IN_RUST = OfFamily(context)
+IN_RUST = OfFamily(context, names=("Framing",))

@@ -1,26 +1,26 @@
-"""The codes of USS name each other: a task its responses, a response and an error value the tasks that can get them."""
+"""Tasks, responses and error values of USS name each other alike on both sides."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Printed
 from fieldscribe.families.uss.facts import FAMILY
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.bus import code_list
+from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Code
+    from fieldscribe.resolve.subject import Subject
 
 _LISTS = ("answers", "refusals")
 
 
 def check(subject: Subject) -> None:
-    """Codes that name one that does not name them back, codes that do not exist, and printed lists that disagree."""
+    """Findings for codes that are named on one side only or do not exist, and for printed lists that disagree."""
     bus = subject.scope.bus
     if bus is None or not subject.bus_is_whole:
         return
@@ -32,7 +32,7 @@ def check(subject: Subject) -> None:
 
 
 def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, Map, Span]]:
-    """Each code that is written as a mapping, with that and the place of its number."""
+    """Each code that is written as a mapping, with the mapping and the place of its number."""
     by_name = {code.name: code for code in subject.bus.codes(section)}
     for key, raw in bus.get(section, {}).items():
         if isinstance(raw, Map) and raw["name"] in by_name:
@@ -40,7 +40,7 @@ def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, M
 
 
 def _named_back(subject: Subject, bus: Map) -> None:
-    """Tasks and responses name each other, or neither."""
+    """Findings for tasks and responses of which only one names the other."""
     tasks = {code.number: {*code.answers, *code.refusals} for code in subject.bus.functions}
     responses = {code.number: set(code.answers) for code in subject.bus.codes("responses")}
     for task, raw, _ in _written(subject, bus, "functions"):
@@ -55,15 +55,15 @@ def _named_back(subject: Subject, bus: Map) -> None:
                 _one_sided(subject, raw.span("answers"), *names, number in tasks)
 
 
-def _one_sided(subject: Subject, span: Span, one: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
+def _one_sided(subject: Subject, span: Span, code: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
     what = "which does not name it back" if exists else "which does not exist"
-    message = f"the {one[0]} {one[1]} names the {other[0]} {other[1]}, {what}"
+    message = f"the {code[0]} {code[1]} names the {other[0]} {other[1]}, {what}"
     hint = "take one of them in both lists, and give what is printed under `printed` with an erratum"
     subject.report.error("codes-disagree", message, span, hint if exists else f"declare it, or leave it out; {hint}")
 
 
 def _refused(subject: Subject, bus: Map) -> None:
-    """An error value belongs to tasks that can be refused."""
+    """Findings for error values of tasks that do not exist or are never refused."""
     tasks = {code.number: code for code in subject.bus.functions}
     for error, raw, _ in _written(subject, bus, "exceptions"):
         for number in error.answers:
@@ -76,17 +76,17 @@ def _refused(subject: Subject, bus: Map) -> None:
 
 
 def _printed(subject: Subject, code: Code, raw: Map, about: str) -> None:
-    """The lists as printed, where they are not what was taken."""
+    """Compare the printed lists with those that were taken."""
     printed: Map = raw.get("printed") or Map(raw.file, raw.at)
     for key in _LISTS:
         if key not in printed:
             continue
         taken = sorted(getattr(code, key))
-        said = sorted(code_list(subject.scope, printed, key))
-        if said != taken:
-            message = f"the {key} {_list(said)} are printed for the {about} {code.number}, taken are {_list(taken)}"
-            found = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
-            subject.disagrees(found)
+        codes = sorted(code_list(subject.scope, printed, key))
+        if codes != taken:
+            message = f"the {key} {_list(codes)} are printed for the {about} {code.number}, taken are {_list(taken)}"
+            disagreement = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
+            subject.disagrees(disagreement)
 
 
 def _list(numbers: list[int]) -> str:

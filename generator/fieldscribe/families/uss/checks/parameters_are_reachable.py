@@ -1,4 +1,4 @@
-"""Parameters can be read and written as they say: there are tasks for it."""
+"""Every parameter that says it is read or written has a task for that."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from fieldscribe.families.uss.telegrams import READ_TASK, write_task
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
+    from fieldscribe.resolve.subject import Subject
 
 _SHORT = 3
-"""The length of a parameter part that has room for one word of a value."""
+"""The words of a parameter part that carries values of one word only."""
 
 
 def check(subject: Subject) -> None:
@@ -36,7 +36,7 @@ def _tasks(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str, st
         yield wide, f"a parameter part of {_SHORT} words carries no value of 32 bits", hint
         hint = "list the task under `functions`, or correct `access` or `keeps`"
     if READ_TASK not in known:
-        yield sum(one.readable for one in points), f"the device has no task {READ_TASK}, which reads a value", hint
+        yield sum(point.readable for point in points), f"the device has no task {READ_TASK}, which reads a value", hint
     needed: dict[int, int] = {}
     for point in points:
         for keep in {"yes": (True,), "no": (False,)}.get(point.keeps or "", (False, True)) if point.writable else ():

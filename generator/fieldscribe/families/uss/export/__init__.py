@@ -14,8 +14,13 @@ if TYPE_CHECKING:
 
 def limits(bus: Bus | None) -> dict[str, object]:
     """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
-    own = UssBus() if bus is None else of_bus(bus)
-    return {"pkw": list(own.pkw), "pzd": list(own.pzd), "variant_pzd": dict(own.variant_pzd), "bitrate": own.bitrate}
+    uss_bus = UssBus() if bus is None else of_bus(bus)
+    return {
+        "pkw": list(uss_bus.pkw),
+        "pzd": list(uss_bus.pzd),
+        "variant_pzd": dict(uss_bus.variant_pzd),
+        "bitrate": uss_bus.bitrate,
+    }
 
 
 def places(bus: Bus, point: Point) -> tuple[Place, ...]:
@@ -29,5 +34,5 @@ def places(bus: Bus, point: Point) -> tuple[Place, ...]:
         tasks += [("ram", write_task(point.words, array=array, keep=False))] if point.keeps != "yes" else []
         tasks += [("write", write_task(point.words, array=array, keep=True))] if point.keeps != "no" else []
     first = point.places[0]
-    found = [Place(purpose, first.space, first.addresses, task) for purpose, task in tasks if task in known]
-    return tuple(found) or point.places
+    known_places = [Place(purpose, first.space, first.addresses, task) for purpose, task in tasks if task in known]
+    return tuple(known_places) or point.places

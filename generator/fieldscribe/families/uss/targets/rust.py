@@ -98,4 +98,4 @@ def _process_ways(subject: CratePoint, direction: str) -> Iterator[Way]:
         yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
 
 
-IN_RUST = OfFamily(context, traits, identifiers, ways)
+IN_RUST = OfFamily(context, traits, identifiers, ways, names=("Link",))

@@ -1,4 +1,4 @@
-"""What differs from family to family: the items of a crate that are no points, and what points can do on their bus."""
+"""What differs between families: the items of a crate beside the points, and how points travel on their bus."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 Tokens = tuple[str, ...]
-"""Words of a row, between which it may be broken."""
+"""The tokens of a row, between which a line may be broken."""
 
 Needs = tuple[tuple[str, Tokens], ...]
 """Structs and their fields."""
@@ -27,9 +27,9 @@ Way = tuple[str, str, Needs]
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """The function that a table of conformance becomes, the runner's function behind it, and its rows.
+    """A table of the conformance program: its function, the function of the runner that it calls, and its rows.
 
-    `kind` is that of the vectors of whole exchanges which it answers; empty for all others.
+    `kind` is the kind of the vectors of whole exchanges that it answers; empty for any other table.
     """
 
     name: str
@@ -44,18 +44,24 @@ class Table:
 
 
 def nothing(*_: object) -> tuple[()]:
-    """For families that have none."""
+    """For families that have nothing to add."""
     return ()
+
+
+def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+    """For families whose devices send nothing unasked."""
+    return "", ()
 
 
 @dataclass(frozen=True, slots=True)
 class OfFamily:
     """What the part `targets.rust` of a family offers as `IN_RUST`.
 
-    `context` is what the template of the family's items sees, `<family>.rs.j2`; `traits` are those that a point
-    implements for its bus, each in a line; `identifiers` those of the family's own items. The conformance program asks
-    for further `ways` of a point, for tables of points and of frames that only this family has, and for the kind of
-    vectors that the codes of refusals are.
+    `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
+    traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to
+    read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
+    for the codes of refusals. The first page of a crate imports these `names`; `heard` is the telegram to which it
+    listens, as a type, and the lines that use points of it.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -65,9 +71,11 @@ class OfFamily:
     tables_of_points: Callable[[CrateScope], Iterable[Table]] = nothing
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
+    names: tuple[str, ...] = ()
+    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:
-    """What the family of that name says of itself."""
-    said: OfFamily = family(name).part("targets.rust").IN_RUST
-    return said
+    """The part `targets.rust` of the family of that name."""
+    part: OfFamily = family(name).part("targets.rust").IN_RUST
+    return part

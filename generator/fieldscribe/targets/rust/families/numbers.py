@@ -15,22 +15,22 @@ if TYPE_CHECKING:
     from fieldscribe.model import Code
 
 Constant = tuple[str, tuple[str, ...]]
-"""What a doc comment says of a constant, and its lines."""
+"""The doc comment of a constant, and its lines."""
 
 
 def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Constant, ...]:
-    """A constant of that type for each code; `what` is the word by which people know its number."""
+    """A constant of that type for each code; `what` is the word for its number in the doc comment."""
     return tuple(
         (
-            f"{sentence(one.name).rstrip('.')}: {what} {one.number}." if what else sentence(one.name),
-            binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number)),
+            f"{sentence(code.name).rstrip('.')}: {what} {code.number}." if what else sentence(code.name),
+            binding(4, f"pub const {code.name.upper()}: {type_}", integer(code.number)),
         )
-        for one in codes
+        for code in codes
     )
 
 
 def code_names(codes: Iterable[Code]) -> tuple[str, ...]:
-    """The arms that turn a code, each once, into its name."""
+    """The match arms from codes to their names, each code once."""
     named = {code.number: code.name for code in reversed(tuple(codes))}
     arms = (arm(12, name.upper(), f"Some({rust_string(name)})") for _, name in sorted(named.items()))
     return tuple(line for lines in arms for line in lines)

@@ -92,8 +92,8 @@ impl can::AsyncTransport for Bus {
 fn name(error: ClientError<()>) -> &'static str {
     match error {
         ClientError::Point(error) => error.name(),
-        ClientError::Build(error) => error.name(),
-        ClientError::EchoMismatch(_) => "echo_mismatch",
+        ClientError::Build(error, _) => error.name(),
+        ClientError::EchoMismatch(_, _) => "echo_mismatch",
         ClientError::Telegram(error) => error.name(),
         _ => "timeout",
     }

@@ -101,9 +101,9 @@ fn framing(vector: &Vector) -> Framing {
 fn name(error: ClientError<()>) -> &'static str {
     match error {
         ClientError::Point(error) => error.name(),
-        ClientError::Build(error) => error.name(),
-        ClientError::Reply(error) => error.name(),
-        ClientError::Transport(()) => "timeout",
+        ClientError::Build(error, _) => error.name(),
+        ClientError::Reply(error, _) => error.name(),
+        _ => "timeout",
     }
 }
 

@@ -15,6 +15,7 @@ use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED
 made_up!(Word u16, Holding 0x10, &[0x10], 1);
 made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
 made_up!(Group u16, Holding 0x30, &[0x30], 1);
+made_up!(Wide u32, Holding 0x21, &[0x21, 0x22], 2);
 made_up!(Beyond u32, Holding 0xFFFF, &[0xFFFF], 2);
 made_up!(Relay bool, Coil 0x40, &[0x40], 1);
 
@@ -72,6 +73,11 @@ fn errors() {
                 BuildError::BadFraming,
                 "bad_framing",
                 "the device does not speak this framing",
+            ),
+            (
+                BuildError::NotForAll,
+                "bad_unit",
+                "this cannot be sent to all units",
             ),
             (
                 BuildError::BadUnit,
@@ -174,12 +180,19 @@ fn errors() {
             "the device has no such unit number",
         ),
         (ReplyError::BadCrc.into(), "the checksum is wrong"),
-        (ClientError::Transport(Lost), "nothing came"),
+        (ClientError::Transport(Lost, None), "nothing came"),
     ];
+    let about = |error: ClientError<Lost>| (error.point(), chain(&error.of::<Word>()));
+    for (error, shown) in errors {
+        assert_eq!(about(error), (None, vec![format!("Word: {shown}")]));
+    }
+    let other: ClientError<Lost> = ClientError::Point(REFUSED);
+    assert_eq!(other.of::<Long>(), other);
+    assert_eq!(other.point(), REFUSED.point());
     for (error, shown) in errors {
         assert_eq!(chain(&error), [shown]);
     }
-    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
+    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
 }
 
 fn functions() {
@@ -359,7 +372,7 @@ fn requests() {
     assert_eq!(unit(10, 6, &PROFILE), Err(BuildError::BadUnit));
     assert_eq!(
         (unit(0, 6, &PROFILE), unit(0, 16, &PROFILE)),
-        (Err(BuildError::BadUnit), Ok(15))
+        (Err(BuildError::NotForAll), Ok(15))
     );
     assert_eq!(unit(0, 16, &PADDED), Err(BuildError::BadUnit));
     let request = Request::new(5, 3, 0x10, 1);
@@ -391,7 +404,7 @@ const fn refused(code: u8) -> ReplyError {
 }
 
 fn replies() {
-    let wrong = |point| Error::WrongLength(Some(point));
+    let wrong = |point| Error::NotBrought(Some(point));
     let read = Request::new(5, 3, 0x1F, 3);
     let received = rtu("050306000100020003");
     let reply = read.parse(&received).expect("a reply");
@@ -482,7 +495,18 @@ fn replies() {
             Err(error)
         );
     }
-    let length = |head: &str| reply_length(&super::bytes(head));
+    let head = |head: &str| reply_length(Framing::Tcp, &super::bytes(head));
+    assert_eq!(
+        [
+            "00010000000505",
+            "000700000105",
+            "0001000000",
+            "000100010005"
+        ]
+        .map(head),
+        [Some(11), Some(267), None, None]
+    );
+    let length = |head: &str| reply_length(Framing::Rtu, &super::bytes(head));
     assert_eq!(
         (length("05"), length("0503"), length("050306")),
         (None, None, Some(11))
@@ -538,6 +562,7 @@ macro_rules! conversations {
                 step("050600100009", "050600100009"),
                 step("05050040ff00", "05050040ff00"),
                 step("0503001f0003", "050306000100020003"),
+                step("0503001f0003", "050306000100020003"),
                 step("0503001f0003", "058302"),
             ]);
             let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
@@ -561,8 +586,18 @@ macro_rules! conversations {
             let block = Block::new(Space::Holding, 3, 0x1F, 3);
             let reply = $wait(client.read_block(&block)).map(|reply| reply.raw::<Long>());
             assert_eq!(reply, Ok(Ok(0x0002_0003)));
+            let missing = $wait(client.read_block(&block)).map(|reply| {
+                let error = |found: Result<u16, Error>| found.unwrap_err().to_string();
+                (
+                    reply.value::<Long>(),
+                    error(reply.value_with::<Word>(())),
+                    reply.raw::<Wide>().unwrap_err().to_string(),
+                )
+            });
+            let text = |name| format!("{name}: the reply does not bring the point");
+            assert_eq!(missing, Ok((Ok(0x0002_0003), text("Word"), text("Wide"))));
             let (code, name) = (2, Some("no_such_address"));
-            let refused = ClientError::Reply(ReplyError::Exception { code, name });
+            let refused = ClientError::Reply(ReplyError::Exception { code, name }, None);
             let reply = $wait(client.read_block(&block)).map(|_| ());
             assert_eq!(reply, Err(refused));
             client.into_transport().done();
@@ -584,18 +619,19 @@ macro_rules! conversations {
             ]);
             let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
-            let lost = Err(ClientError::Transport(Lost));
-            assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost);
-            let long = Err(ClientError::Reply(ReplyError::LongFrame));
+            let lost = |point| Err(ClientError::Transport(Lost, Some(point)));
+            assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost("Long"));
+            let long = Err(ClientError::Reply(ReplyError::LongFrame, Some("Word")));
             assert_eq!($wait(client.write_with::<Word>(7, ())), long);
             let (code, name) = (2, Some("no_such_address"));
-            let refused = Err(ClientError::Reply(ReplyError::Exception { code, name }));
+            let exception = ReplyError::Exception { code, name };
+            let refused = Err(ClientError::Reply(exception, Some("Word")));
             assert_eq!($wait(client.write::<Word>(8)), refused);
             let wrong = Err(ClientError::Point(REFUSED));
             assert_eq!($wait(client.write::<Word>(0xFFFF)), wrong);
             assert_eq!($wait(client.update::<Group>(0xFFFF)), wrong);
-            assert_eq!($wait(client.update::<Group>(7)), lost);
-            assert_eq!($wait(client.update::<Group>(7)), lost);
+            assert_eq!($wait(client.update::<Group>(7)), lost("Group"));
+            assert_eq!($wait(client.update::<Group>(7)), lost("Group"));
             client.into_transport().done();
             let line = Line::new(&[
                 step("0010002000020400010003", ""),
@@ -605,7 +641,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), Ok(()));
             assert_eq!(client.transport().space, 0);
             assert_eq!($wait(client.command(&Command::new(16, 0x20, None))), Ok(()));
-            let none = Err(ClientError::Build(BuildError::BadUnit));
+            let none = Err(ClientError::Build(BuildError::NotForAll, Some("Long")));
             assert_eq!($wait(client.read::<Long>()), none);
             client.into_transport().done();
         }

@@ -320,7 +320,21 @@ fn errors() {
                 "unknown_value",
                 "speed: the enum has no such number",
             ),
-            (Error::ZeroFactor(None), "zero_factor", "a factor is zero"),
+            (
+                Error::ZeroFactor(None),
+                "zero_factor",
+                "a factor is zero or no quantity",
+            ),
+            (
+                Error::NotBrought(None),
+                "wrong_length",
+                "the reply does not bring the point",
+            ),
+            (
+                Error::BeyondLink(Some("speed")),
+                "wrong_length",
+                "speed: the link has not so many words of process data",
+            ),
             (Error::NoCase(None), "no_case", "no case of the scale holds"),
             (
                 Error::Overflow(None),
@@ -433,16 +447,19 @@ fn rounding() {
 }
 
 fn bits() {
-    let exponents = [-3_i16, -2, 4, 5].map(|raw| arithmetic::exponent(raw, -2, 4));
-    assert_eq!(
-        exponents,
-        [
-            Err(Error::Overflow(None)),
-            Ok(-2),
-            Ok(4),
-            Err(Error::Overflow(None))
-        ]
-    );
+    let exponents = [-3_i16, -2, 4, 5].map(|raw| arithmetic::exponent("power", raw, -2, 4));
+    let broken = |given| Error::BrokenFactor {
+        factor: Outside {
+            point: "power",
+            given,
+            low: -2,
+            high: 4,
+        },
+        point: None,
+    };
+    assert_eq!(exponents, [Err(broken(-3)), Ok(-2), Ok(4), Err(broken(5))]);
+    let shown = "level: the factor power is 5, outside -2 to 4";
+    assert_eq!(broken(5).of::<told::Level>().to_string(), shown);
     assert_eq!(arithmetic::line(5_u16, -3, 7), Ok(-8));
     assert_eq!(arithmetic::line(i64::MAX, 2, 0), Err(Error::Overflow(None)));
     assert_eq!(arithmetic::line(i64::MAX, 1, 1), Err(Error::Overflow(None)));
@@ -776,6 +793,7 @@ impl Flags for Word {
         Flag::new("ready", 0x0001),
         Flag::active_low("fault", 0x0008),
         Flag::new("state", 0x0030),
+        Flag::named("mode", 0x0300, &[(1, "slow"), (3, "fast")]),
     ];
 
     fn bits(self) -> u64 {
@@ -790,16 +808,21 @@ impl fmt::Debug for Word {
 }
 
 fn words_of_flags() {
-    let shown = [0x0008, 0x2031, 0x0009].map(|bits| format!("{:?}", Word(bits)));
+    let shown = [0x0008, 0x2031, 0x0309, 0x0209].map(|bits| format!("{:?}", Word(bits)));
     let expected = [
-        "Word(0x0008: state=0)",
+        "Word(0x0008)",
         "Word(0x2031: ready, fault, state=3)",
-        "Word(0x0009: ready, state=0)",
+        "Word(0x0309: ready, mode=fast)",
+        "Word(0x0209: ready, mode=2)",
     ];
     assert_eq!(shown, expected);
-    let [ready, fault, state] = Word::FLAGS else {
-        panic!("there are three flags");
+    let [ready, fault, state, mode] = Word::FLAGS else {
+        panic!("there are four flags");
     };
+    assert_eq!(
+        [1, 2].map(|number| mode.name_of(number)),
+        [Some("slow"), None]
+    );
     assert_eq!(
         (ready.name(), ready.mask(), ready.is_active_low()),
         ("ready", 1, false)
@@ -989,7 +1012,7 @@ fn tables() {
         Some((
             found.name,
             found.words,
-            found.group,
+            found.mask,
             found.index,
             found.telegram,
         ))

@@ -125,9 +125,9 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
 fn name(error: ClientError<()>) -> &'static str {
     match error {
         ClientError::Point(error) => error.name(),
-        ClientError::Build(error) => error.name(),
-        ClientError::Reply(error) => error.name(),
-        ClientError::EchoMismatch(_) => "echo_mismatch",
+        ClientError::Build(error, _) => error.name(),
+        ClientError::Reply(error, _) => error.name(),
+        ClientError::EchoMismatch(_, _) => "echo_mismatch",
         _ => "timeout",
     }
 }

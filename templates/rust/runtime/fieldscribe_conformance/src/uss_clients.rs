@@ -135,6 +135,16 @@ fn errors() {
         BuildError::name,
         &[
             (
+                BuildError::NoBroadcast,
+                "bad_link",
+                "the device takes nothing that is sent to all units",
+            ),
+            (
+                BuildError::OtherUnit,
+                "bad_unit",
+                "the request is to another unit than the client's",
+            ),
+            (
                 BuildError::BadLink,
                 "bad_link",
                 "the telegram does not fit the link",
@@ -239,12 +249,12 @@ fn errors() {
             ParseError::NoRights.into(),
             "the drive gives no right to change parameters",
         ),
-        (ClientError::Transport(Lost), "nothing came"),
+        (ClientError::Transport(Lost, None), "nothing came"),
     ];
     for (error, shown) in errors {
         assert_eq!(chain(&error), [shown]);
     }
-    assert_eq!(chain(&ClientError::Transport(FAILED)), FAILURE);
+    assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
     for (value, shown) in [
         (Value::Nothing, "the drive answered nothing to a write"),
         (Value::Word(7), "the drive answered 7 to a write"),
@@ -253,7 +263,7 @@ fn errors() {
             "the drive answered 65543 to a write",
         ),
     ] {
-        let error = ClientError::<Lost>::EchoMismatch(value);
+        let error = ClientError::<Lost>::EchoMismatch(value, None);
         assert_eq!(chain(&error), [shown]);
     }
 }
@@ -393,7 +403,7 @@ fn broadcasts() {
     );
     assert_eq!(buffer[..16], all("0006 ffff 0001 0002 0005 0006"));
     let few = broadcast(&FEW, link, masks, &[5, 6], &mut buffer);
-    assert_eq!(few, Err(BuildError::BadLink));
+    assert_eq!(few, Err(BuildError::NoBroadcast));
     let short = broadcast(&PROFILE, link, masks, &[5], &mut buffer);
     assert_eq!(short, Err(BuildError::BadLink));
     let small = broadcast(&PROFILE, link, masks, &[5, 6], &mut buffer[..15]);
@@ -567,14 +577,14 @@ macro_rules! conversations {
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
-            let mismatch = ClientError::EchoMismatch(Value::Word(8));
+            let mismatch = ClientError::EchoMismatch(Value::Word(8), Some("Word"));
             assert_eq!($wait(client.store::<Word>(9)), Err(mismatch));
-            let refused = ClientError::Reply(NOT_NOW);
+            let refused = ClientError::Reply(NOT_NOW, Some("Long"));
             assert_eq!(
                 $wait(client.write_with::<Long>(0x0001_0203, ())),
                 Err(refused)
             );
-            let lost = ClientError::Transport(Lost);
+            let lost = ClientError::Transport(Lost, Some("Long"));
             assert_eq!($wait(client.store_with::<Long>(0x0001_0203, ())), Err(lost));
             for found in [
                 $wait(client.write::<Word>(0xFFFF)),
@@ -585,14 +595,14 @@ macro_rules! conversations {
                 assert_eq!(found, Err(wrong));
             }
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
-            let mismatch = ClientError::EchoMismatch(Value::Word(0xAB7D));
+            let mismatch = ClientError::EchoMismatch(Value::Word(0xAB7D), Some("Group"));
             assert_eq!($wait(client.store_update::<Group>(6)), Err(mismatch));
             let long = ClientError::Point(Error::WrongLength(Some("Group")));
             assert_eq!($wait(client.update::<Group>(7)), Err(long));
-            let long = ClientError::Reply(ParseError::WrongLength);
+            let long = ClientError::Reply(ParseError::WrongLength, Some("Word"));
             assert_eq!($wait(client.read_raw::<Word>()), Err(long));
             let other = $wait(client.exchange(Request::cyclic(4))).map(|_| ());
-            assert_eq!(other, Err(ClientError::Build(BuildError::BadUnit)));
+            assert_eq!(other, Err(ClientError::Build(BuildError::OtherUnit, None)));
             client.into_transport().done();
             let line = Line::new(&[
                 step("1001 8000 0000 0000 0000", "2001 8000 0001 0002 00f0"),
@@ -635,13 +645,13 @@ macro_rules! conversations {
                 step("0000 0000 0000", "00a1 00b2 00c3"),
             ]);
             let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
-            let far = Error::WrongLength(Some("Far"));
+            let far = Error::BeyondLink(Some("Far"));
             assert_eq!(client.heard_word(0), Err(Error::NotHeard(None)));
             assert_eq!(client.heard::<Speed>(), Err(Error::NotHeard(Some("Speed"))));
             assert_eq!($wait(client.cycle()), Ok(()));
             assert_eq!(
                 [0, 2, 3].map(|one| client.heard_word(one)),
-                [Ok(0xA1), Ok(0xC3), Err(Error::WrongLength(None))]
+                [Ok(0xA1), Ok(0xC3), Err(Error::BeyondLink(None))]
             );
             assert_eq!(
                 (client.heard::<Speed>(), client.heard_with::<Position>(())),
@@ -651,7 +661,7 @@ macro_rules! conversations {
             assert_eq!(client.set::<Speed>(0xFFFF), Err(REFUSED));
             assert_eq!(client.set_bits::<Jog>(0xFFFF), Err(REFUSED));
             assert_eq!(client.set::<Far>(1), Err(far));
-            assert_eq!(client.set_word(3, 1), Err(Error::WrongLength(None)));
+            assert_eq!(client.set_word(3, 1), Err(Error::BeyondLink(None)));
             assert_eq!(client.words(), [0, 0, 0]);
             assert_eq!(client.set_count::<Speed>([0xFFFF]), Err(REFUSED));
             assert_eq!(client.set_count::<Speed>([4]), Ok(()));
@@ -660,8 +670,8 @@ macro_rules! conversations {
             assert_eq!(client.set_count::<Speed>([0]), Ok(()));
             assert_eq!($wait(client.send::<Speed>(5)), Ok(()));
             assert_eq!(client.words(), [0, 5, 0]);
-            let lost = ClientError::Transport(Lost);
-            assert_eq!($wait(client.send_bits::<Jog>(3)), Err(lost));
+            let lost = ClientError::Transport(Lost, None);
+            assert_eq!($wait(client.send_bits::<Jog>(3)), Err(lost.of::<Jog>()));
             assert_eq!(
                 (client.words(), client.heard_word(0)),
                 (&[0; 3][..], Err(Error::NotHeard(None)))
@@ -674,7 +684,7 @@ macro_rules! conversations {
             let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive_with::<Speed>(())), Err(wrong));
             assert_eq!(client.set_word(2, 1), Ok(()));
-            let short = ClientError::Reply(ParseError::WrongLength);
+            let short = ClientError::Reply(ParseError::WrongLength, None);
             assert_eq!($wait(client.cycle()), Err(short));
             assert_eq!(client.words(), [0; 3]);
             let long = ClientError::Point(far);
@@ -701,7 +711,7 @@ macro_rules! conversations {
                 assert_eq!(client.set_with::<Speed>(speed, ()), Ok(()));
                 assert_eq!(
                     $wait(client.write::<Word>(8)),
-                    Err(ClientError::Reply(error))
+                    Err(ClientError::Reply(error, Some("Word")))
                 );
                 assert_eq!(
                     (client.words(), client.heard_word(1)),
@@ -709,13 +719,13 @@ macro_rules! conversations {
                 );
             }
             assert_eq!(client.set::<Speed>(4), Ok(()));
-            let other = ClientError::Reply(ParseError::WrongParameter);
+            let other = ClientError::Reply(ParseError::WrongParameter, Some("Word"));
             assert_eq!($wait(client.write::<Word>(8)), Err(other));
             assert_eq!(
                 (client.words(), client.heard_word(1)),
                 (&[0, 0][..], Err(Error::NotHeard(None)))
             );
-            let bad = Err(ClientError::Build(BuildError::BadMask));
+            let bad = Err(ClientError::Build(BuildError::BadMask, None));
             assert_eq!($wait(client.broadcast([2, 0xFFFF, 0, 0])), bad);
             assert_eq!(client.set_word(0, 0x8000), Ok(()));
             assert_eq!($wait(client.broadcast([2, 0x7FFF, 0, 0])), bad);
@@ -724,6 +734,18 @@ macro_rules! conversations {
             assert_eq!($wait(client.broadcast([4, 0xFFFF, 0, 0])), Err(lost));
             assert_eq!(client.set_word(0, 0), Ok(()));
             assert_eq!($wait(client.broadcast([4, 0, 0, 0])), Ok(()));
+            client.into_transport().done();
+            let line = Line::new(&[
+                step("0000 0000 0000", "00a1 00b2 00c3"),
+                step("0000 0005 0000", "00a1 00b2 00c3"),
+                step("0000 0005 0000", "?"),
+            ]);
+            let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
+            assert_eq!($wait(client.receive_count::<Speed>()), Ok([0xB2]));
+            assert_eq!($wait(client.send_count::<Speed>([5])), Ok(()));
+            assert_eq!($wait(client.send_count::<Speed>([0xFFFF])), Err(wrong));
+            let lost = Err(ClientError::Transport(Lost, Some("Position")));
+            assert_eq!($wait(client.receive_count_with::<Position>(())), lost);
             client.into_transport().done();
             // A client keeps sixteen words and no more.
             let most = step(&"0000 ".repeat(15), &"0001".repeat(15)).0;
@@ -737,14 +759,14 @@ macro_rules! conversations {
             );
             client.into_transport().done();
             let mut client = $client::new(Line::new(&[]), &PROFILE, Link::new(0, 17), 3);
-            let bad = Err(ClientError::Build(BuildError::BadLink));
+            let bad = Err(ClientError::Build(BuildError::BadLink, None));
             assert_eq!(
                 ($wait(client.cycle()), $wait(client.broadcast([2, 0, 0, 0]))),
                 (bad, bad)
             );
             assert_eq!(
                 (client.set_word(0, 1), client.words().len()),
-                (Err(Error::WrongLength(None)), 16)
+                (Err(Error::BeyondLink(None)), 16)
             );
         }
     };

@@ -47,6 +47,8 @@ pub trait Transport {
 
     /// Sends `request`, puts the reply into `reply` and gives its length in bytes.
     ///
+    /// When a reply of Modbus is complete, [`reply_length`](crate::modbus::reply_length) tells from its first bytes.
+    ///
     /// What came before the request is to be thrown away first: a late answer to an earlier request, which was
     /// given up, could else be taken for the answer to this one, as nothing in it tells them apart.
     ///

@@ -38,8 +38,19 @@ pub enum Error {
     Overflow(Option<&'static str>),
     /// The raw number is a special code and no quantity, and may not be written.
     Special(&'static str),
+    /// A point by which a scale or a limit is computed is outside what it may be.
+    BrokenFactor {
+        /// The name of the factor's point, what it is, and what it may be.
+        factor: Outside<i64>,
+        /// The name of the point that needs it.
+        point: Option<&'static str>,
+    },
     /// There are more or fewer words than the point has.
     WrongLength(Option<&'static str>),
+    /// The reply does not bring the point, or not all of it.
+    NotBrought(Option<&'static str>),
+    /// The link has not so many words of process data.
+    BeyondLink(Option<&'static str>),
     /// The reply is of another space than the point's.
     WrongSpace(Option<&'static str>),
     /// The last telegram was not answered, so nothing was heard of the point.
@@ -90,9 +101,9 @@ impl Error {
             Self::UnknownValue(_) => "unknown_value",
             Self::ZeroFactor(_) => "zero_factor",
             Self::NoCase(_) => "no_case",
-            Self::Overflow(_) => "overflow",
+            Self::Overflow(_) | Self::BrokenFactor { .. } => "overflow",
             Self::Special(_) => "special",
-            Self::WrongLength(_) => "wrong_length",
+            Self::WrongLength(_) | Self::NotBrought(_) | Self::BeyondLink(_) => "wrong_length",
             Self::WrongSpace(_) => "wrong_space",
             Self::NotHeard(_) => "not_heard",
         }
@@ -117,7 +128,10 @@ impl Error {
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
             | Self::Overflow(point)
+            | Self::BrokenFactor { point, .. }
             | Self::WrongLength(point)
+            | Self::NotBrought(point)
+            | Self::BeyondLink(point)
             | Self::WrongSpace(point)
             | Self::NotHeard(point) => point,
         }
@@ -131,7 +145,10 @@ impl Error {
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
             | Self::Overflow(point)
+            | Self::BrokenFactor { point, .. }
             | Self::WrongLength(point)
+            | Self::NotBrought(point)
+            | Self::BeyondLink(point)
             | Self::WrongSpace(point)
             | Self::NotHeard(point) => *point = point.or(Some(P::NAME)),
             _ => {}
@@ -151,26 +168,43 @@ impl Refused {
     }
 }
 
+/// Names the point before what is said of it.
+pub(crate) fn lead(point: Option<&str>, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    point.map_or(Ok(()), |point| write!(formatter, "{point}: "))
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(point) = self.point() {
-            write!(formatter, "{point}: ")?;
-        }
+        lead(self.point(), formatter)?;
         formatter.write_str(match self {
             Self::OutOfRange(refused) => return refused.show(formatter),
             Self::UnknownValue(Refused::Raw(outside)) => {
                 return write!(formatter, "nothing has the number {}", outside.given);
+            }
+            Self::BrokenFactor { factor, .. } => {
+                let Outside {
+                    point,
+                    given,
+                    low,
+                    high,
+                } = factor;
+                return write!(
+                    formatter,
+                    "the factor {point} is {given}, outside {low} to {high}"
+                );
             }
             Self::NotANumber(_) => "the value is not a number",
             Self::UnknownValue(_) => "the enum has no such number",
             Self::BadText(_) => {
                 "the text is too long, or has a character that is none of its encoding"
             }
-            Self::ZeroFactor(_) => "a factor is zero",
+            Self::ZeroFactor(_) => "a factor is zero or no quantity",
             Self::NoCase(_) => "no case of the scale holds",
             Self::Overflow(_) => "the result does not fit its type",
             Self::Special(_) => "the raw number is a special code and no quantity",
             Self::WrongLength(_) => "the point has another number of words",
+            Self::NotBrought(_) => "the reply does not bring the point",
+            Self::BeyondLink(_) => "the link has not so many words of process data",
             Self::WrongSpace(_) => "the reply is of another space than the point's",
             Self::NotHeard(_) => "the last telegram was not answered",
         })

@@ -69,7 +69,7 @@ pub struct PointInfo {
     /// How many words, or bits of a bit space, the point takes.
     pub words: u16,
     /// The point's bits in a word which it shares with others.
-    pub group: Option<u16>,
+    pub mask: Option<u16>,
     /// The index beside the address.
     pub index: Option<u8>,
     /// The telegram whose words the address counts.
@@ -78,6 +78,8 @@ pub struct PointInfo {
     pub unit: &'static str,
     /// How many decimals counts have.
     pub decimals: u32,
+    /// With how many decimals people see the value, where the description says it.
+    pub display_decimals: Option<u32>,
     /// What can be done with it.
     pub access: Access,
 }

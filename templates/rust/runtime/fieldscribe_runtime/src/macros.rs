@@ -10,7 +10,8 @@
 ///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the
 ///   bits of the word that are always the same, and what they are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
-/// - `[unit "Hz"]`, `[decimals 1]` of counts, `[raw 30..=4000]`: the least and the greatest raw number;
+/// - `[unit "Hz"]`, `[decimals 1]` of counts, `[display 2]`: with how many decimals people see the value,
+///   `[raw 30..=4000]`: the least and the greatest raw number;
 /// - `=>` what decoding gives (`value`, a `reading` beside special codes, or either `_or_error`), its type, and the
 ///   [form](crate::form) with its own facts;
 /// - `[codes ...]`: the special codes, or where they are;
@@ -56,6 +57,7 @@ macro_rules! point {
         $(const $numbering:ident: $number_type:ty = $number:literal;)*
         $(unit $unit:literal;)?
         $(decimals $decimals:literal;)?
+        $(display $display:literal;)?
         $(raw $low:literal..=$high:literal;)?
         => $kind:ident $value:ty as $form:ident $facts:tt;
         $(codes $codes:tt;)?
@@ -82,6 +84,7 @@ macro_rules! point {
             const FLOATING: bool = $crate::point!(@floating $form);
             $(const UNIT: &'static str = $unit;)?
             $(const DECIMALS: u32 = $decimals;)?
+            $(const DISPLAY_DECIMALS: Option<u32> = Some($display);)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
             const ACCESS: $crate::Access = $crate::point!(@access $(r $read)? $(w $write)?);
             $(
@@ -97,6 +100,7 @@ macro_rules! point {
         $crate::point!(@placed $name $($shift $mask)?);
         $crate::point!(@form $form $name $kind ($($low $high)?) $facts);
         $($crate::point!(@codes $name $raw, $codes);)?
+        $($crate::point!(@display $name $raw, $kind $form $display);)?
         $($crate::point!(@read $name $raw, $kind $form $read);)?
         $($crate::point!(@write $name $raw, $kind $form $write);)?
         $(impl $trait for $name { $($member)* })*
@@ -195,6 +199,30 @@ macro_rules! point {
         }
     };
     (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};
+
+    (@display $name:ident $raw:ty, $kind:ident ruled $display:literal) => {
+        $crate::point!(@displayed $name $raw, $kind ruled <Self as $crate::Scaled>::Factors);
+    };
+    (@display $name:ident $raw:ty, $kind:ident $form:ident $display:literal) => {
+        $crate::point!(@displayed $name $raw, $kind $form ());
+    };
+    (@displayed $name:ident $raw:ty, $kind:ident $form:ident $needs:ty) => {
+        impl $crate::Displayed for $name {
+            type Needs = $needs;
+
+            fn told_with(raw: $raw, with: Self::Needs) -> Result<$crate::Shown, $crate::Error> {
+                $crate::point!(@told $kind raw);
+                $crate::form::$form::shown::<Self>(raw, with)
+            }
+        }
+    };
+    (@told reading $raw:ident) => {
+        if let Some(special) = <Self as $crate::Coded>::special($raw) {
+            return Ok($crate::Shown::code(special.name()));
+        }
+    };
+    (@told reading_or_error $raw:ident) => { $crate::point!(@told reading $raw); };
+    (@told $kind:ident $raw:ident) => {};
 
     (@reach value ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };
     (@reach value_or_error ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };

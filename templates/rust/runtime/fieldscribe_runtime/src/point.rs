@@ -99,6 +99,8 @@ pub trait Point {
     const WORDS: u16 = 1;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
     const DECIMALS: u32 = 0;
+    /// With how many decimals people see the value, where the description says it.
+    const DISPLAY_DECIMALS: Option<u32> = None;
     /// The symbol of the value's unit; empty for a plain number.
     const UNIT: &'static str = "";
     /// The least raw number that the manual allows.
@@ -119,11 +121,12 @@ pub trait Point {
         space: Self::SPACE,
         address: Self::ADDRESS,
         words: Self::WORDS,
-        group: Self::GROUP,
+        mask: Self::GROUP,
         index: Self::INDEX,
         telegram: Self::TELEGRAM,
         unit: Self::UNIT,
         decimals: Self::DECIMALS,
+        display_decimals: Self::DISPLAY_DECIMALS,
         access: Self::ACCESS,
     };
 
@@ -152,6 +155,12 @@ pub trait Point {
 }
 
 /// A point that has its words for itself, so that writing them touches nothing else.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` shares its word with others, which writing it would change",
+    label = "a group of bits is not written by itself",
+    note = "`client.update::<P>(value)` reads the word, replaces the bits and writes it back",
+    note = "in the process data of a drive, `set_bits` and `send_bits` replace them"
+)]
 pub trait Whole: Point {
     /// The point's words in the order of their addresses.
     #[inline]
@@ -161,6 +170,11 @@ pub trait Whole: Point {
 }
 
 /// A point that is a group of bits in a word which it shares with others.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` is no group of bits: it has its words for itself",
+    label = "there is no word around it to read first",
+    note = "write it: `client.write::<P>(value)`; in the process data of a drive, `set` or `send` it"
+)]
 pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     /// How far the group lies above bit 0.
     const SHIFT: u32;
@@ -259,7 +273,30 @@ impl<V> Decoded<V> for Result<V, Error> {
     }
 }
 
+/// What a point needs of others: nothing, where it is `()`.
+///
+/// Functions with and without `_with` at their end do the same; those without take points that need nothing.
+#[diagnostic::on_unimplemented(
+    message = "the point needs the raw numbers of other points, as `{Self}`",
+    label = "this function takes points that need no other",
+    note = "the function whose name ends in `_with` takes them: `read_with`, `write_with`, `decode_with`, `encode_with`"
+)]
+pub trait NeedsNothing: Copy + Send {
+    /// Nothing.
+    #[must_use]
+    fn nothing() -> Self;
+}
+
+impl NeedsNothing for () {
+    #[inline]
+    fn nothing() -> Self {}
+}
+
 /// A point that the device answers with.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` is not read: the device only takes it",
+    label = "`{Self}` is only written"
+)]
 pub trait Readable: Point {
     /// The raw numbers of other points that the scale needs; `()` if it needs none.
     type Factors: Copy + Send;
@@ -274,13 +311,17 @@ pub trait Readable: Point {
     /// The value of a raw number, for a point whose scale needs no other.
     fn decode(raw: Self::Raw) -> Self::Output<Self::Value>
     where
-        Self: Readable<Factors = ()>,
+        Self::Factors: NeedsNothing,
     {
-        Self::decode_with(raw, ())
+        Self::decode_with(raw, NeedsNothing::nothing())
     }
 }
 
 /// A point that the device takes.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` is not written: the device does not take it",
+    label = "`{Self}` is only read"
+)]
 pub trait Writable: Point {
     /// The raw numbers of other points that the scale or the limits need; `()` if they need none.
     type With: Copy + Send;
@@ -306,13 +347,18 @@ pub trait Writable: Point {
     /// The same.
     fn check(raw: Self::Raw) -> Result<(), Error>
     where
-        Self: Writable<With = ()>,
+        Self::With: NeedsNothing,
     {
-        Self::check_with(raw, ())
+        Self::check_with(raw, NeedsNothing::nothing())
     }
 }
 
 /// A point whose values can be encoded: all that are written, but for scales with numbers of more than 53 bits.
+#[diagnostic::on_unimplemented(
+    message = "values of the point `{Self}` are not written",
+    label = "`{Self}` is only read, or no `f64` holds its values",
+    note = "where the point is written all the same, `write_count` and `write_raw` take integers"
+)]
 pub trait Encodable: Writable {
     /// The raw number of a value: nearest, halves away from zero, then checked.
     ///
@@ -327,13 +373,18 @@ pub trait Encodable: Writable {
     /// The same.
     fn encode(value: Self::Value) -> Result<Self::Raw, Error>
     where
-        Self: Encodable<With = ()>,
+        Self::With: NeedsNothing,
     {
-        Self::encode_with(value, ())
+        Self::encode_with(value, NeedsNothing::nothing())
     }
 }
 
 /// Decoding in integers: the value as a count of the point's smallest decimal step, or the plain raw number.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` has no counts that are read",
+    label = "`{Self}` is not read, or its values are no integers of a smallest step",
+    note = "`read` gives its value, `read_raw` its raw number"
+)]
 pub trait CountReadable: Readable {
     /// The integer that holds a count.
     type Count: Send;
@@ -344,13 +395,18 @@ pub trait CountReadable: Readable {
     /// As [`CountReadable::decode_count_with`], for a point whose scale needs no other.
     fn decode_count(raw: Self::Raw) -> Self::Output<Self::Count>
     where
-        Self: Readable<Factors = ()>,
+        Self::Factors: NeedsNothing,
     {
-        Self::decode_count_with(raw, ())
+        Self::decode_count_with(raw, NeedsNothing::nothing())
     }
 }
 
 /// Encoding in integers: from a count of the point's smallest decimal step, or from the plain raw number.
+#[diagnostic::on_unimplemented(
+    message = "the point `{Self}` has no counts that are written",
+    label = "`{Self}` is only read, or its values are no integers of a smallest step",
+    note = "where the point is written all the same, `write` takes its value, `write_raw` its raw number"
+)]
 pub trait CountWritable: Writable {
     /// The integer that holds a count; wider than what is allowed.
     type Count: Send;
@@ -367,9 +423,9 @@ pub trait CountWritable: Writable {
     /// The same.
     fn encode_count(count: Self::Count) -> Result<Self::Raw, Error>
     where
-        Self: Writable<With = ()>,
+        Self::With: NeedsNothing,
     {
-        Self::encode_count_with(count, ())
+        Self::encode_count_with(count, NeedsNothing::nothing())
     }
 }
 

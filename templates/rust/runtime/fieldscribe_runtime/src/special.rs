@@ -167,6 +167,16 @@ impl<V, R> Reading<V, R> {
     }
 }
 
+/// Shows the value, or the name of the code.
+impl<V: fmt::Display, R: fmt::Display> fmt::Display for Reading<V, R> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value(value) => value.fmt(formatter),
+            Self::Special(special) => special.fmt(formatter),
+        }
+    }
+}
+
 impl<V, R> From<V> for Reading<V, R> {
     fn from(value: V) -> Self {
         Self::Value(value)

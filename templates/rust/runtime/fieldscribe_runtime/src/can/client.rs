@@ -8,11 +8,15 @@ use super::{
     BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
     Telegram,
 };
+use crate::error::lead;
 use crate::point::joined;
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error};
-use crate::{Raw, Readable, Whole, Writable};
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
+use crate::{Point, Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
+///
+/// These are data frames whose identifiers have as many bits as the device's ([`Profile::identifier_bits`]): a transport
+/// drops remote frames, and extended ones where the device's are not, since a [`Frame`] does not tell them apart.
 pub trait Transport {
     /// What can go wrong on the bus.
     type Error;
@@ -123,6 +127,13 @@ impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
 }
 
 /// Hears the frames that a client does not wait for: a [`Receiver`], a pair of listeners, or `()` for none.
+///
+/// `receive` waits for a point of a telegram whose receiver the listener has: [`Hears`]. Which one of a pair that would
+/// be, nobody can tell; a pair is asked by its parts, `client.listener().0`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` hears no frames",
+    note = "listen with `Receiver::<telegrams::...>::new(unit)`, a pair of listeners, or an own type that implements `Listener`"
+)]
 pub trait Listener {
     /// Takes a frame that may be none of its own.
     fn hear(&mut self, frame: &Frame);
@@ -135,6 +146,77 @@ impl Listener for () {
 impl<T: Telegram> Listener for Receiver<T> {
     fn hear(&mut self, frame: &Frame) {
         self.take(frame);
+    }
+}
+
+/// A listener that has the receiver of a telegram, for which a client can wait then.
+///
+/// Who waits for points of several telegrams brings a type of their own:
+///
+/// ```
+/// use fieldscribe_runtime::can::{Frame, Hears, Listener, Receiver, Telegram};
+///
+/// struct Both<A: Telegram, B: Telegram>(Receiver<A>, Receiver<B>);
+///
+/// impl<A: Telegram, B: Telegram> Listener for Both<A, B> {
+///     fn hear(&mut self, frame: &Frame) {
+///         self.0.hear(frame);
+///         self.1.hear(frame);
+///     }
+/// }
+///
+/// struct Fast;
+/// struct Slow;
+/// # use fieldscribe_runtime::can::{Message, Profile, Role, Slot};
+/// # const MESSAGE: &Message = &Message::new("m", 1, true, [Role::Constant(0); 8]);
+/// # static PROFILE: Profile = Profile::new((1, 9), 11, None, None);
+/// # impl Telegram for Fast {
+/// #     const NAME: &'static str = "fast";
+/// #     const MESSAGE: &'static Message = MESSAGE;
+/// #     const PROFILE: &'static Profile = &PROFILE;
+/// #     type Slots = [Slot; 1];
+/// #     const EMPTY: Self::Slots = [Slot::EMPTY];
+/// # }
+/// # impl Telegram for Slow {
+/// #     const NAME: &'static str = "slow";
+/// #     const MESSAGE: &'static Message = MESSAGE;
+/// #     const PROFILE: &'static Profile = &PROFILE;
+/// #     type Slots = [Slot; 1];
+/// #     const EMPTY: Self::Slots = [Slot::EMPTY];
+/// # }
+///
+/// impl Hears<Fast> for Both<Fast, Slow> {
+///     fn receiver(&self) -> &Receiver<Fast> {
+///         &self.0
+///     }
+/// }
+///
+/// impl Hears<Slow> for Both<Fast, Slow> {
+///     fn receiver(&self) -> &Receiver<Slow> {
+///         &self.1
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "nothing listens to the telegram `{T}`",
+    label = "this client waits for none of its points",
+    note = "give the client a receiver first: `client.listening(Receiver::<{T}>::new(unit))`",
+    note = "a pair of receivers is asked by its parts after `client.listen()`: `client.listener().0.value::<P>()`"
+)]
+pub trait Hears<T: Telegram>: Listener {
+    /// The receiver of that telegram.
+    fn receiver(&self) -> &Receiver<T>;
+}
+
+impl<T: Telegram> Hears<T> for Receiver<T> {
+    fn receiver(&self) -> &Self {
+        self
+    }
+}
+
+impl<T: Telegram, L: Hears<T> + ?Sized> Hears<T> for &mut L {
+    fn receiver(&self) -> &Receiver<T> {
+        (**self).receiver()
     }
 }
 
@@ -153,22 +235,52 @@ impl<L: Listener + ?Sized> Listener for &mut L {
 
 /// Why a point could not be read or written.
 ///
-/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
+/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
+/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.
     Point(Error),
     /// The request could not be built.
-    Build(BuildError),
+    Build(BuildError, Option<&'static str>),
     /// Many frames came, and not the one that was waited for.
-    NoAnswer,
+    NoAnswer(Option<&'static str>),
     /// The device answered a write with this other raw number.
-    EchoMismatch(u16),
+    EchoMismatch(u16, Option<&'static str>),
     /// Many frames came, and the telegram's words did not come together.
     Telegram(ReceiveError),
     /// The transport failed.
-    Transport(E),
+    Transport(E, Option<&'static str>),
+}
+
+impl<E> ClientError<E> {
+    /// The name of the point that it is about, if it is about one.
+    #[must_use]
+    pub const fn point(&self) -> Option<&'static str> {
+        match self {
+            Self::Point(error) => error.point(),
+            Self::Telegram(error) => error.point(),
+            Self::Build(_, point)
+            | Self::NoAnswer(point)
+            | Self::EchoMismatch(_, point)
+            | Self::Transport(_, point) => *point,
+        }
+    }
+
+    /// The same about this point, where it does not say yet which it is about.
+    #[must_use]
+    pub fn of<P: Point>(mut self) -> Self {
+        match &mut self {
+            Self::Point(error) => *error = error.of::<P>(),
+            Self::Telegram(error) => *error = error.of::<P>(),
+            Self::Build(_, point)
+            | Self::NoAnswer(point)
+            | Self::EchoMismatch(_, point)
+            | Self::Transport(_, point) => *point = point.or(Some(P::NAME)),
+        }
+        self
+    }
 }
 
 impl<E> From<Error> for ClientError<E> {
@@ -179,19 +291,29 @@ impl<E> From<Error> for ClientError<E> {
 
 impl<E> From<BuildError> for ClientError<E> {
     fn from(error: BuildError) -> Self {
-        Self::Build(error)
+        Self::Build(error, None)
+    }
+}
+
+impl<E> From<ReceiveError> for ClientError<E> {
+    fn from(error: ReceiveError) -> Self {
+        Self::Telegram(error)
     }
 }
 
 impl<E: fmt::Display> fmt::Display for ClientError<E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Point(error) => error.fmt(formatter),
-            Self::Build(error) => error.fmt(formatter),
-            Self::NoAnswer => formatter.write_str("the device does not answer"),
-            Self::EchoMismatch(raw) => write!(formatter, "the device answered {raw} to a write"),
-            Self::Telegram(error) => error.fmt(formatter),
-            Self::Transport(error) => error.fmt(formatter),
+            Self::Point(error) => return error.fmt(formatter),
+            Self::Telegram(error) => return error.fmt(formatter),
+            _ => lead(self.point(), formatter)?,
+        }
+        match self {
+            Self::Point(_) | Self::Telegram(_) => Ok(()),
+            Self::Build(error, _) => error.fmt(formatter),
+            Self::NoAnswer(_) => formatter.write_str("the device does not answer"),
+            Self::EchoMismatch(raw, _) => write!(formatter, "the device answered {raw} to a write"),
+            Self::Transport(error, _) => error.fmt(formatter),
         }
     }
 }
@@ -199,10 +321,15 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Transport(error) => error.source(),
+            Self::Transport(error, _) => error.source(),
             _ => None,
         }
     }
+}
+
+/// What is said of a bus that fails; who asked for a point names it.
+const fn lost<E>(error: E) -> ClientError<E> {
+    ClientError::Transport(error, None)
 }
 
 /// How many other frames a client lets pass while it waits, where nothing else is said.
@@ -306,24 +433,24 @@ macro_rules! client {
             ) -> Result<u16, ClientError<T::Error>> {
                 let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
                 self.drain()$($wait)*?;
-                self.transport.send(&asked)$($wait)*.map_err(ClientError::Transport)?;
+                self.transport.send(&asked)$($wait)*.map_err(lost)?;
                 let Some(answer) = dialogue.answer else {
                     return Ok(raw);
                 };
                 for _ in 0..self.unit.patience {
-                    let frame = self.transport.receive()$($wait)*.map_err(ClientError::Transport)?;
+                    let frame = self.transport.receive()$($wait)*.map_err(lost)?;
                     if let Some(raw) = self.unit.answer(answer, address, &frame) {
                         return Ok(raw);
                     }
                     self.listener.hear(&frame);
                 }
-                Err(ClientError::NoAnswer)
+                Err(ClientError::NoAnswer(None))
             }
 
             /// Gives the frames that have come already to the listener: they answer nothing that is asked from now on.
             $($async)? fn drain(&mut self) -> Result<(), ClientError<T::Error>> {
                 for _ in 0..self.unit.patience {
-                    let frame = self.transport.pending()$($wait)*.map_err(ClientError::Transport)?;
+                    let frame = self.transport.pending()$($wait)*.map_err(lost)?;
                     let Some(frame) = frame else {
                         break;
                     };
@@ -351,7 +478,7 @@ macro_rules! client {
             ) -> Result<(), ClientError<T::Error>> {
                 let answered = self.exchange(self.unit.profile.write, address, word)$($wait)*?;
                 match self.unit.other(word, answered) {
-                    Some(other) => Err(ClientError::EchoMismatch(other)),
+                    Some(other) => Err(ClientError::EchoMismatch(other, None)),
                     None => Ok(()),
                 }
             }
@@ -366,7 +493,7 @@ macro_rules! client {
             {
                 let mut words = P::Raw::MIN.into_words();
                 for (place, address) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
-                    *place = self.read_word(*address)$($wait)*?;
+                    *place = self.read_word(*address)$($wait)*.map_err(ClientError::of::<P>)?;
                 }
                 Ok(joined::<P>(words))
             }
@@ -377,9 +504,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
             where
-                P: Readable<Factors = ()> + Parameter,
+                P: Readable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_with::<P>(())$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's value, by the raw numbers that its scale needs.
@@ -403,9 +530,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
             where
-                P: CountReadable<Factors = ()> + Parameter,
+                P: CountReadable<Factors: NeedsNothing> + Parameter,
             {
-                self.read_count_with::<P>(())$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A parameter's count, by the raw numbers that its scale needs.
@@ -429,9 +556,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + Whole + Parameter,
+                P: Encodable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_with::<P>(value, ())$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a value to a parameter, by the raw numbers that its scale and its limits need.
@@ -457,9 +584,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
             where
-                P: CountWritable<With = ()> + Whole + Parameter,
+                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_count_with::<P>(count, ())$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_count`, by the raw numbers that the point's scale and limits need.
@@ -484,9 +611,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Writable<With: NeedsNothing> + Whole + Parameter,
             {
-                self.write_raw_with::<P>(raw, ())$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// As `write_raw`, by the raw numbers that the point's limits need.
@@ -509,7 +636,7 @@ macro_rules! client {
             $($async)? fn put<P: Whole + Parameter>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = raw.into_words();
                 for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
-                    self.write_word(*address, *word)$($wait)*?;
+                    self.write_word(*address, *word)$($wait)*.map_err(ClientError::of::<P>)?;
                 }
                 Ok(())
             }
@@ -520,11 +647,12 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
-                let word = self.read_word(P::ADDRESS)$($wait)*?;
-                self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*
+                let word = self.read_word(P::ADDRESS)$($wait)*.map_err(ClientError::of::<P>)?;
+                let written = self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*;
+                written.map_err(ClientError::of::<P>)
             }
 
             /// Waits for a frame, and gives it to the listener.
@@ -532,7 +660,7 @@ macro_rules! client {
             /// # Errors
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn listen(&mut self) -> Result<(), ClientError<T::Error>> {
-                let frame = self.transport.receive()$($wait)*.map_err(ClientError::Transport)?;
+                let frame = self.transport.receive()$($wait)*.map_err(lost)?;
                 self.listener.hear(&frame);
                 Ok(())
             }
@@ -545,10 +673,10 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn receive<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
             where
-                P: Received<Factors = ()>,
-                L: AsRef<Receiver<P::Telegram>>,
+                P: Received<Factors: NeedsNothing>,
+                L: Hears<P::Telegram>,
             {
-                self.receive_with::<P>(())$($wait)*
+                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// The same by the raw numbers that the point's scale needs.
@@ -561,13 +689,54 @@ macro_rules! client {
             ) -> Result<P::Value, ClientError<T::Error>>
             where
                 P: Received,
-                L: AsRef<Receiver<P::Telegram>>,
+                L: Hears<P::Telegram>,
             {
-                let taken = self.listener.as_ref().taken();
-                let mut found = Err(ReceiveError::Missing);
+                let raw = self.receive_raw::<P>()$($wait)*?;
+                Ok(P::decode_with(raw, with).into_result()?)
+            }
+
+            /// As `receive`, as a count: the value in units of `10^-DECIMALS`, without floating point.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: Received + CountReadable<Factors: NeedsNothing>,
+                L: Hears<P::Telegram>,
+            {
+                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
+            }
+
+            /// The same by the raw numbers that the point's scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_count_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Count, ClientError<T::Error>>
+            where
+                P: Received + CountReadable,
+                L: Hears<P::Telegram>,
+            {
+                let raw = self.receive_raw::<P>()$($wait)*?;
+                Ok(P::decode_count_with(raw, with).into_result()?)
+            }
+
+            /// As `receive`, as the raw number.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            where
+                P: Received,
+                L: Hears<P::Telegram>,
+            {
+                let taken = self.listener.receiver().taken();
+                let mut found = Err(ReceiveError::Missing(Some(P::NAME)));
                 for _ in 0..self.unit.patience {
-                    self.listen()$($wait)*?;
-                    let receiver = self.listener.as_ref();
+                    self.listen()$($wait)*.map_err(ClientError::of::<P>)?;
+                    let receiver = self.listener.receiver();
                     if receiver.came_since::<P>(taken) {
                         found = receiver.raw::<P>();
                     }
@@ -575,8 +744,7 @@ macro_rules! client {
                         break;
                     }
                 }
-                let raw = found.map_err(ClientError::Telegram)?;
-                Ok(P::decode_with(raw, with).into_result()?)
+                found.map_err(ClientError::Telegram)
             }
         }
     };

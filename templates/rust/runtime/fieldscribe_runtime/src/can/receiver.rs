@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::{Frame, Message, Profile, ReceiveError, LENGTH};
 use crate::point::joined;
-use crate::{Decoded, Raw, Readable};
+use crate::{CountReadable, Decoded, NeedsNothing, Raw, Readable};
 
 /// A cyclic layout of words that the frames of a message carry.
 pub trait Telegram {
@@ -22,6 +22,11 @@ pub trait Telegram {
 }
 
 /// A point whose words are in a telegram that the device sends.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not come in the frames of a telegram",
+    label = "nothing to wait for",
+    note = "a parameter is asked for: `client.read::<P>()`"
+)]
 pub trait Received: Readable {
     /// The telegram.
     type Telegram: Telegram;
@@ -61,7 +66,9 @@ impl Part {
 }
 
 /// Takes the frames of a telegram from one unit, and gives its words once they came.
-#[derive(Clone, Copy, Debug)]
+///
+/// It is no `Copy`: a copy that takes frames would leave the first as it was.
+#[derive(Clone, Debug)]
 pub struct Receiver<T: Telegram> {
     unit: u8,
     clock: u64,
@@ -130,13 +137,13 @@ impl<T: Telegram> Receiver<T> {
         let mut words = P::Raw::MIN.into_words();
         match (P::ADDRESSES, words.as_mut()) {
             ([high, low], [first, second]) => {
-                let [a, b] = self.pair(*high, *low)?;
+                let [a, b] = self.pair(*high, *low).map_err(ReceiveError::of::<P>)?;
                 *first = a;
                 *second = b;
             }
             (positions, places) => {
                 for (place, position) in places.iter_mut().zip(positions) {
-                    *place = self.word(*position)?;
+                    *place = self.word(*position).map_err(ReceiveError::of::<P>)?;
                 }
             }
         }
@@ -149,9 +156,9 @@ impl<T: Telegram> Receiver<T> {
     /// As for `raw`; [`ReceiveError::Point`] if the raw number has no value.
     pub fn value<P>(&self) -> Result<P::Value, ReceiveError>
     where
-        P: Received<Telegram = T, Factors = ()>,
+        P: Received<Telegram = T, Factors: NeedsNothing>,
     {
-        self.value_with::<P>(())
+        self.value_with::<P>(NeedsNothing::nothing())
     }
 
     /// A point's value, by the raw numbers that its scale needs.
@@ -166,6 +173,29 @@ impl<T: Telegram> Receiver<T> {
         value.map_err(ReceiveError::Point)
     }
 
+    /// A point's count: its value in units of `10^-DECIMALS`, without floating point.
+    ///
+    /// # Errors
+    /// As for `value`.
+    pub fn count<P>(&self) -> Result<P::Count, ReceiveError>
+    where
+        P: Received<Telegram = T> + CountReadable<Factors: NeedsNothing>,
+    {
+        self.count_with::<P>(NeedsNothing::nothing())
+    }
+
+    /// A point's count, by the raw numbers that its scale needs.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn count_with<P>(&self, with: P::Factors) -> Result<P::Count, ReceiveError>
+    where
+        P: Received<Telegram = T> + CountReadable,
+    {
+        let count = P::decode_count_with(self.raw::<P>()?, with).into_result();
+        count.map_err(ReceiveError::Point)
+    }
+
     /// Two words that belong together.
     fn pair(&self, high: u16, low: u16) -> Result<[u16; 2], ReceiveError> {
         let (above, high) = self.place(high)?;
@@ -178,13 +208,13 @@ impl<T: Telegram> Receiver<T> {
         let (from, to) = (above.before.at, above.now.at);
         let between = |part: &Part| from != 0 && from < part.at && part.at < to;
         if word != above.before.word(high) {
-            Err(ReceiveError::Torn)
+            Err(ReceiveError::Torn(None))
         } else if between(&below.now) {
             Ok([word, below.now.word(low)])
         } else if between(&below.before) {
             Ok([word, below.before.word(low)])
         } else {
-            Err(ReceiveError::Torn)
+            Err(ReceiveError::Torn(None))
         }
     }
 
@@ -196,13 +226,7 @@ impl<T: Telegram> Receiver<T> {
         let slot = slot.and_then(|slot| self.slots.as_ref().get(slot));
         match (slot, place) {
             (Some(slot), Some(place)) if slot.now.at != 0 => Ok((slot, place)),
-            _ => Err(ReceiveError::Missing),
+            _ => Err(ReceiveError::Missing(None)),
         }
-    }
-}
-
-impl<T: Telegram> AsRef<Receiver<T>> for Receiver<T> {
-    fn as_ref(&self) -> &Receiver<T> {
-        self
     }
 }

@@ -3,8 +3,9 @@
 
 pub use crate::check::within as check;
 use crate::check::{beyond, saturated};
+use crate::display;
 use crate::form::{checked, in_counts, nearest, per_unit};
-use crate::{Error, Raw, Rule, Scaled, Writable};
+use crate::{Error, Raw, Rule, Scaled, Shown, Writable};
 
 /// The value: the binary64 number nearest to the exact one.
 ///
@@ -30,6 +31,17 @@ pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> R
     let rule = holding::<P>(raw, with)?;
     let count = rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS));
     count.map(C::from).map_err(Error::of::<P>)
+}
+
+/// What people see of the value, rounded from the exact one.
+///
+/// # Errors
+/// What the rule says; [`Error::Overflow`].
+pub fn shown<P: Scaled>(raw: P::Raw, with: P::Factors) -> Result<Shown, Error> {
+    let rule = holding::<P>(raw, with)?;
+    let count = rule.shown_count(raw.to_i64(), display::per_unit::<P>());
+    let count = count.map_err(Error::of::<P>)?;
+    Ok(Shown::count::<P>(count.into()))
 }
 
 /// The rule that holds now, if the raw number is not too large for it.

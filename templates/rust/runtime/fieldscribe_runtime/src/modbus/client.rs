@@ -5,22 +5,48 @@ use core::fmt;
 
 use super::{Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST};
 use crate::client::{AsyncTransport, LocalTransport, Transport};
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, Readable};
-use crate::{Whole, Writable};
+use crate::error::lead;
+use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
+use crate::{Point, Readable, Whole, Writable};
 
 /// Why a point could not be read or written.
 ///
-/// Its text is all that the error in it says; its source is what caused that one, so a chain says nothing twice.
+/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
+/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.
     Point(Error),
     /// The request could not be built.
-    Build(BuildError),
+    Build(BuildError, Option<&'static str>),
     /// The reply was none, or the device refused.
-    Reply(ReplyError),
+    Reply(ReplyError, Option<&'static str>),
     /// The transport failed.
-    Transport(E),
+    Transport(E, Option<&'static str>),
+}
+
+impl<E> ClientError<E> {
+    /// The name of the point that it is about, if it is about one.
+    #[must_use]
+    pub const fn point(&self) -> Option<&'static str> {
+        match self {
+            Self::Point(error) => error.point(),
+            Self::Build(_, point) | Self::Reply(_, point) | Self::Transport(_, point) => *point,
+        }
+    }
+
+    /// The same about this point, where it does not say yet which it is about.
+    #[must_use]
+    pub fn of<P: Point>(mut self) -> Self {
+        match &mut self {
+            Self::Point(error) => *error = error.of::<P>(),
+            Self::Build(_, point) | Self::Reply(_, point) | Self::Transport(_, point) => {
+                *point = point.or(Some(P::NAME));
+            }
+        }
+        self
+    }
 }
 
 impl<E> From<Error> for ClientError<E> {
@@ -31,13 +57,13 @@ impl<E> From<Error> for ClientError<E> {
 
 impl<E> From<BuildError> for ClientError<E> {
     fn from(error: BuildError) -> Self {
-        Self::Build(error)
+        Self::Build(error, None)
     }
 }
 
 impl<E> From<ReplyError> for ClientError<E> {
     fn from(error: ReplyError) -> Self {
-        Self::Reply(error)
+        Self::Reply(error, None)
     }
 }
 
@@ -45,9 +71,15 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Point(error) => error.fmt(formatter),
-            Self::Build(error) => error.fmt(formatter),
-            Self::Reply(error) => error.fmt(formatter),
-            Self::Transport(error) => error.fmt(formatter),
+            Self::Build(error, point) => {
+                lead(*point, formatter).and_then(|()| error.fmt(formatter))
+            }
+            Self::Reply(error, point) => {
+                lead(*point, formatter).and_then(|()| error.fmt(formatter))
+            }
+            Self::Transport(error, point) => {
+                lead(*point, formatter).and_then(|()| error.fmt(formatter))
+            }
         }
     }
 }
@@ -55,7 +87,7 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::Transport(error) => error.source(),
+            Self::Transport(error, _) => error.source(),
             _ => None,
         }
     }
@@ -155,7 +187,7 @@ macro_rules! client {
                 let request = self.unit.next(request);
                 let (sent, space) = self.unit.frames(&request)?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
-                let length = answer.map_err(ClientError::Transport)?;
+                let length = answer.map_err(|error| ClientError::Transport(error, None))?;
                 Ok(self.unit.reply(&request, length)?)
             }
 
@@ -165,7 +197,8 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>> {
                 let request = Request::read::<P>(self.unit.number);
-                Ok(self.answered(request)$($wait)*?.raw::<P>()?)
+                let reply = self.answered(request)$($wait)*.map_err(ClientError::of::<P>)?;
+                Ok(reply.raw::<P>()?)
             }
 
             /// The words or bits of a block, one of `blocks`: `reply.raw::<P>()` gives each point that it brings.
@@ -180,7 +213,7 @@ macro_rules! client {
             /// The reply to a request that cannot go to all units.
             $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_>, ClientError<T::Error>> {
                 let reply = self.exchange(request)$($wait)*?;
-                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame))
+                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame, None))
             }
 
             /// A point's value.
@@ -189,9 +222,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
             where
-                P: Readable<Factors = ()>,
+                P: Readable<Factors: NeedsNothing>,
             {
-                self.read_with::<P>(())$($wait)*
+                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A point's value, by the raw numbers that its scale needs.
@@ -212,9 +245,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
             where
-                P: CountReadable<Factors = ()>,
+                P: CountReadable<Factors: NeedsNothing>,
             {
-                self.read_count_with::<P>(())$($wait)*
+                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
             }
 
             /// A point's count, by the raw numbers that its scale needs.
@@ -235,9 +268,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Encodable<With = ()> + Whole,
+                P: Encodable<With: NeedsNothing> + Whole,
             {
-                self.write_with::<P>(value, ())$($wait)*
+                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a value to a point, by the raw numbers that its scale and its limits need.
@@ -258,9 +291,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
             where
-                P: CountWritable<With = ()> + Whole,
+                P: CountWritable<With: NeedsNothing> + Whole,
             {
-                self.write_count_with::<P>(count, ())$($wait)*
+                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a count to a point, by the raw numbers that its scale and its limits need.
@@ -281,9 +314,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole,
+                P: Writable<With: NeedsNothing> + Whole,
             {
-                self.write_raw_with::<P>(raw, ())$($wait)*
+                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
             }
 
             /// Writes a raw number to a point, if it may be written by the raw numbers that its limits need.
@@ -303,7 +336,7 @@ macro_rules! client {
             $($async)? fn put<P: Writable + Whole>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
                 let words = P::to_words(raw);
                 let request = Request::write_words::<P>(self.unit.number, words.as_ref());
-                self.exchange(request)$($wait)*?;
+                self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(())
             }
 
@@ -323,14 +356,14 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Encodable<With = ()> + BitGroup,
+                P: Readable + Encodable<With: NeedsNothing> + BitGroup,
             {
                 let raw = P::encode(value)?;
                 let read = Request::read::<P>(self.unit.number);
-                let word = self.answered(read)$($wait)*?.item(0);
-                let word = word.ok_or(ClientError::Reply(ReplyError::ShortFrame))?;
+                let reply = self.answered(read)$($wait)*.map_err(ClientError::of::<P>)?;
+                let word = reply.item(0).ok_or(Error::NotBrought(Some(P::NAME)))?;
                 let write = Request::update::<P>(self.unit.number, word, raw);
-                self.exchange(write)$($wait)*?;
+                self.exchange(write)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(())
             }
         }

@@ -9,8 +9,10 @@ use core::fmt;
 pub enum BuildError {
     /// The device speaks the other framing alone.
     BadFraming,
-    /// The unit is outside the device's range, or is the broadcast unit and the function does not go to all.
+    /// The unit is outside the device's range.
     BadUnit,
+    /// The unit is that of all units, and the function does not go to all: nobody could answer.
+    NotForAll,
     /// The device does not know the function.
     BadFunction,
     /// There are no items, more than the device takes, or values are missing.
@@ -29,7 +31,7 @@ impl BuildError {
     pub const fn name(self) -> &'static str {
         match self {
             Self::BadFraming => "bad_framing",
-            Self::BadUnit => "bad_unit",
+            Self::BadUnit | Self::NotForAll => "bad_unit",
             Self::BadFunction => "bad_function",
             Self::BadCount => "bad_count",
             Self::BadAddress => "bad_address",
@@ -44,6 +46,7 @@ impl fmt::Display for BuildError {
         formatter.write_str(match self {
             Self::BadFraming => "the device does not speak this framing",
             Self::BadUnit => "the device has no such unit number",
+            Self::NotForAll => "this cannot be sent to all units",
             Self::BadFunction => "the device does not know the function",
             Self::BadCount => "the device does not take that many items",
             Self::BadAddress => "the items end beyond the last address",

@@ -11,6 +11,10 @@ pub enum BuildError {
     BadLink,
     /// The unit is outside the device's range.
     BadUnit,
+    /// The request is to another unit than the client's, whose process data are not for it.
+    OtherUnit,
+    /// The device takes nothing that is sent to all units.
+    NoBroadcast,
     /// The device does not know the task, or the link has no parameter part.
     BadTask,
     /// There is no parameter of this number.
@@ -30,8 +34,8 @@ impl BuildError {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::BadLink => "bad_link",
-            Self::BadUnit => "bad_unit",
+            Self::BadLink | Self::NoBroadcast => "bad_link",
+            Self::BadUnit | Self::OtherUnit => "bad_unit",
             Self::BadTask => "bad_task",
             Self::BadParameter => "bad_parameter",
             Self::BadIndex => "bad_index",
@@ -47,6 +51,8 @@ impl fmt::Display for BuildError {
         formatter.write_str(match self {
             Self::BadLink => "the telegram does not fit the link",
             Self::BadUnit => "the device has no such unit number",
+            Self::OtherUnit => "the request is to another unit than the client's",
+            Self::NoBroadcast => "the device takes nothing that is sent to all units",
             Self::BadTask => "the device does not know the task, or the link carries none",
             Self::BadParameter => "the parameter number is above 31999",
             Self::BadIndex => "the index is above 255",

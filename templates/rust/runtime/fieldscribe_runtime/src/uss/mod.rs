@@ -34,12 +34,27 @@ const START: u8 = 0x02;
 const LAST_PARAMETER: u16 = 31_999;
 
 /// A point that is read and written as a parameter, in a parameter part.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no parameter, but a point of the process data",
+    label = "no task is for it",
+    note = "`client.send::<P>(value)` sends it, or `client.receive::<P>()` asks for it, by its direction"
+)]
 pub trait Parameter: Point {}
 
 /// A point that the master sends in the process data.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not sent in the process data",
+    label = "the drive answers with it, or it is a parameter",
+    note = "`client.receive::<P>()` asks for it in the process data, `client.write::<P>(value)` changes a parameter"
+)]
 pub trait Sent: Point {}
 
 /// A point that the drive answers with in the process data.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not come in the process data",
+    label = "it is sent, or is a parameter",
+    note = "`client.send::<P>(value)` sends it in the process data, `client.read::<P>()` reads a parameter"
+)]
 pub trait Received: Point {}
 
 /// All bytes combined by exclusive or: 0 for a whole telegram.

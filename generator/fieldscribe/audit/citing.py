@@ -1,0 +1,122 @@
+"""The facts of one subject, each with the lines that it cites: at the subject's own line, or where `lines` says."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import PRINTED
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+    from fractions import Fraction
+
+_LITERAL = re.compile(
+    r"(?<![\w.'])(?:0[xX][0-9A-Fa-f]+|[Hh]'[0-9A-Fa-f]+|(?:[0-9][0-9A-Fa-f]*[hH]|[A-F][0-9A-F]*h)\b|0b[01]+|[0-9]+(?:\.[0-9]+)?)(?!\w)"
+)
+OWN_PRINTED = keys_of(PRINTED)
+"""What `printed` may say of every point; its other keys are the numberings of the device."""
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A fact that the manual has to print: at least one of `numbers` or one of `words` must stand at each cited place.
+
+    `cited` are the lines (first, last) that the description names; last is 0 where the line opens a row or section.
+    `between` are the ends of a run ("bit 0 to bit 4") that may be printed in place of the number itself.
+    `anchor` facts (code, section, address) help to find their subject again in a new edition.
+    """
+
+    subject: str
+    fact: str
+    shown: str
+    numbers: frozenset[Fraction]
+    words: tuple[str, ...]
+    cited: tuple[tuple[int, int], ...]
+    anchor: bool = False
+    between: frozenset[Fraction] = frozenset()
+    point: str = ""
+    """As errata name the subject: a point without its variant, `frame:NAME`, `function:NUMBER`."""
+    optional: bool = False
+    """Whether the manual may lack it, such as a title in the author's own words; where it is printed, its numbers count
+    as used."""
+
+    @property
+    def is_address(self) -> bool:
+        """Whether it is the address of the point's first word, in the protocol or in a numbering of the manual."""
+        printed = self.fact.removeprefix("printed ")
+        numbering = printed != self.fact and printed not in OWN_PRINTED and not printed.startswith("low_")
+        return self.fact == "address" or numbering
+
+
+class Citing:
+    """Makes the claims of one subject: at its own line, or at the lines that its key `lines` names for a fact."""
+
+    def __init__(self, subject: str, line: int | None, lines: Any, point: str = "") -> None:
+        self.subject = subject
+        self.point = point
+        self.own_line = () if line is None else ((line, 0),)
+        self.lines_of_fact = (
+            {key: tuple(spans_of(value)) for key, value in lines.items()} if isinstance(lines, Map) else {}
+        )
+
+    def numbers(  # noqa: PLR0913 - one line of a table of facts
+        self,
+        fact: str,
+        shown: str,
+        numbers: Iterable[Fraction],
+        kind: str = "",
+        *,
+        anchor: bool = False,
+        between: frozenset[Fraction] = frozenset(),
+        words: tuple[str, ...] = (),
+        optional: bool = False,
+    ) -> Iterator[Claim]:
+        """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
+        cited = self.lines_of_fact.get(kind or fact, self.own_line)
+        wanted = frozenset(abs(number) for number in numbers)
+        at_own_line = anchor and cited == self.own_line
+        if cited and wanted:
+            yield Claim(self.subject, fact, shown, wanted, words, cited, at_own_line, between, self.point, optional)
+
+    def title(self, titles: Mapping[str, str], kind: str = "") -> Iterator[Claim]:
+        """Titles with digits in them: where the manual prints them alike, those digits count as used."""
+        words = tuple(text for text in titles.values() if any(char.isdigit() for char in text))
+        cited = self.lines_of_fact.get(kind, self.own_line)
+        if words and cited:
+            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, optional=True)
+
+    def words(self, fact: str, *words: str) -> Iterator[Claim]:
+        """A fact that one of these words states."""
+        cited = self.lines_of_fact.get(fact, self.own_line)
+        if cited:
+            anchor = cited == self.own_line
+            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, point=self.point)
+
+
+def spans_of(value: Any) -> Iterator[tuple[int, int]]:
+    """`780`, `[780, 790]` or `780..790` as spans of lines."""
+    for place in value if isinstance(value, Seq) else (value,):
+        first, dots, last = str(place).partition("..")
+        yield parse_integer(first), parse_integer(last) if dots else 0
+
+
+def numbers_in(value: Any) -> list[Fraction]:
+    """All numbers in a fact as the author wrote it; digits that belong to a name are not numbers."""
+    if value is None or isinstance(value, bool):
+        return []
+    if isinstance(value, Map):
+        return [number for item in value.values() for number in numbers_in(item)]
+    if isinstance(value, Seq | list | tuple):
+        return [number for item in value for number in numbers_in(item)]
+    numbers = []
+    for literal in _LITERAL.findall(str(value).replace("..", " ")):
+        try:
+            numbers.append(parse_number(literal))
+        except NumberError:
+            continue
+    return numbers

@@ -1,0 +1,74 @@
+"""What commands, messages, telegrams, the bus and its frames take from their manual."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.audit.citing import Citing, Claim, numbers_in
+from fieldscribe.families import families
+from fieldscribe.language.nodes import Map
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+def claims_of_entry(kind: str, entry: Map) -> Iterator[Claim]:
+    """The numbers of a command, a message or a telegram."""
+    citing = Citing(f"{kind} {entry['name']}", entry.get("line"), entry.get("lines"))
+    identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
+    for key in ("at", *identifiers, "value", "length", "wears"):
+        for number in numbers_in(entry.get(key)):
+            yield from citing.numbers(key, str(number), (number,))
+    layout = entry.get("layout")
+    for place, carried in layout.items() if isinstance(layout, Map) else ():
+        for number in (*numbers_in(place), *numbers_in(carried)):
+            yield from citing.numbers("layout", str(number), (number,), "bytes")
+        first, *last = map(int, numbers_in(place))
+        for byte in range(first + 1, max(last, default=first)):
+            yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True)
+    title = entry.get("title")
+    yield from citing.title({"en": title} if isinstance(title, str) else title or {})
+
+
+def claims_of_line_settings(bus: Map) -> Iterator[Claim]:
+    """The bit rate, which the manual may print in kBaud, and the length of the identifiers."""
+    citing = Citing("bus", bus.get("line"), None)
+    for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
+        for number in numbers_in(bus.get(key)):
+            yield from citing.numbers(key, str(number), (number, number / unit))
+
+
+def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
+    """The numbers of function, response and exception codes; several codes may share a row, as in "9 - 12"."""
+    rows: dict[int, list[Fraction]] = {}
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map) and "line" in entry:
+            rows.setdefault(entry["line"], []).extend(numbers_in(key))
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map):
+            name = kind.removesuffix("s")
+            citing = Citing(f"{name} {key}", entry.get("line"), entry.get("lines"), f"{name}:{key}")
+            row = rows.get(entry.get("line", 0), [])
+            ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
+            for number in numbers_in(key):
+                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
+            for fact in ("max", "answers", "refusals"):
+                for number in numbers_in(entry.get(fact)):
+                    yield from citing.numbers(fact, str(number), (number,))
+            for number in numbers_in(entry.get("printed", {}).get("bytes")):
+                yield from citing.numbers("printed bytes", str(number), (number,))
+
+
+def claims_of_frames(file: Map) -> Iterator[Claim]:
+    """The bytes of the worked frames, and the numbers that they are said to carry."""
+    for frame in file.get("frames", ()):
+        citing = Citing(f"frame {frame['name']}", frame.get("line"), frame.get("lines"), f"frame:{frame['name']}")
+        digits = "".join(str(frame["bytes"]).split()).upper()
+        if citing.own_line:
+            yield Claim(
+                citing.subject, "bytes", digits, frozenset(), (), citing.lines_of_fact.get("bytes", citing.own_line)
+            )
+        for number in numbers_in(frame.get("says")):  # beside the bytes, or not at all
+            printed_apart = "printed" in citing.lines_of_fact
+            yield from citing.numbers("says", str(number), (number,), "printed", optional=not printed_apart)

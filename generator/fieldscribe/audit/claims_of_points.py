@@ -1,0 +1,221 @@
+"""What a point takes from its manual."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.audit.citing import OWN_PRINTED, Citing, numbers_in
+from fieldscribe.language.nodes import Map
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.drafts import Draft
+
+_INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
+_LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
+_KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
+"""The keys of `printed` whose place `lines` names by another key."""
+
+
+class Wordings:
+    """The manual's own words for what the description writes otherwise, from the key `writes` of its documents."""
+
+    def __init__(self, documents: Map) -> None:
+        self._words: dict[str, list[str]] = {}
+        for document in documents.values():
+            for written, words in document.get("writes", {}).items():
+                self._words.setdefault(str(written), []).extend(words)
+
+    def code(self, letters: str) -> list[str]:
+        """The words that the manual has for the letters of a code: `Parameter` for `P`."""
+        return self._words.get(letters, [])
+
+    def bits(self, high: int, low: int) -> list[str]:
+        """The names that the manual has for a part of a word: `Highbyte` for 15..8."""
+        return self._words.get(f"{high}..{low}", [])
+
+    def number(self, number: Fraction) -> list[str]:
+        """The words that the manual has for a number: `zero` for 0."""
+        return self._words.get(str(number), [])
+
+
+def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings) -> Iterator[Claim]:
+    """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts."""
+    citing = Citing(point.item, point.source.line, draft.get("lines"), point.name)
+    code = None if point.code is None else _INDEX_BEHIND_CODE.sub("", point.code).strip()
+    if code:
+        yield from citing.words("code", *_codes_of(code, wordings), str(point.code))
+    if _says_itself(draft, "section"):
+        yield from citing.words("section", str(draft.get("section")))
+    yield from _address(citing, point, draft, code or "")
+    yield from citing.title({**point.title, "": (point.variant or "").partition("=")[2]})
+    yield from _numbers_of(citing, point, draft, wordings)
+    yield from _enum_of(citing, point, draft, enums)
+    yield from _flags(citing, point, wordings)
+    yield from _printed(citing, draft)
+
+
+def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
+    """How a manual may write a code: `P601`, `P 601`, `Parameter 601`."""
+    match = _LETTERS_AND_DIGITS.fullmatch(code)
+    if match is None:
+        return (code,)
+    letters, digits = match.groups()
+    return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in wordings.code(letters)))
+
+
+def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[Claim]:
+    if point.address is None:
+        return
+    references = [Fraction(number) for number in point.references.values() if isinstance(number, int)]
+    at = draft.get("at")
+    by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
+    rule = [Fraction(int(at))] if by_rule else []
+    for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
+        yield from citing.numbers("number", str(number), (number,), "code", optional=True)
+    if code and any(str(number) in code for number in (point.address, *map(int, rule))):
+        return  # the code is the number
+    if point.text is not None:
+        ends = frozenset(map(Fraction, (point.addresses[0], point.addresses[-1])))
+        for address in map(Fraction, point.addresses):
+            inner = ends if address not in ends else frozenset()
+            yield from citing.numbers("address", str(address), (address,), anchor=not inner, between=inner)
+        return
+    yield from citing.numbers(
+        "address",
+        f"{point.address:04X}h",
+        (Fraction(point.address), *references, *rule),
+        anchor=True,
+        words=tuple(word for name, number in point.references.items() for word in _joined(name, number)),
+    )
+
+
+def _joined(numbering: str, number: object) -> tuple[str, ...]:
+    """How a manual writes a number that is part of a name: `PZD2`, `Bit13`."""
+    return tuple(f"{name}{number}" for name in (numbering, numbering.capitalize(), numbering.upper()))
+
+
+def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """The limits, the bits of the word, the characters of a text and the scale."""
+    for key in ("range", "range_in_units"):
+        if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
+            for number in numbers_in(draft.get(key)):
+                yield from citing.numbers(
+                    "range", str(number), _in_both_units(point, number, in_units=key == "range_in_units")
+                )
+    yield from _bits_of(citing, point, draft, wordings)
+    if point.text is not None and _says_itself(draft, "characters"):
+        yield from citing.numbers("characters", str(point.text.characters), (Fraction(point.text.characters),), "range")
+    if _says_itself(draft, "scale"):
+        for number in _scale_numbers(draft.get("scale")):
+            yield from citing.numbers("scale", str(number), (number, 1 / number))
+
+
+def _in_both_units(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]:
+    """A limit as raw number and in the unit; only as it is written where the scale has cases or factors."""
+    cases = point.scale or ()
+    if len(cases) != 1 or cases[0].rule.factors:
+        return [number]
+    rule = cases[0].rule
+    return [number, number * rule.ratio + rule.offset if in_units else (number - rule.offset) / rule.ratio]
+
+
+def _scale_numbers(raw: Any) -> list[Fraction]:
+    texts = [raw] if isinstance(raw, str) else [case["rule"] for case in raw or ()]
+    return [number for text in texts for number in numbers_in(text) if number not in (0, 1)]
+
+
+def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """The bits of the word that the point takes, and the bits that are always written alike."""
+    if point.bits is not None:
+        words = tuple(wordings.bits(*point.bits))
+        for place in range(point.bits[1], point.bits[0] + 1):
+            inner = place not in point.bits
+            yield from citing.numbers(
+                "bits", str(place), (Fraction(place), Fraction(1 << place)), words=words, optional=inner
+            )
+    fixed = draft.get("fixed") if _says_itself(draft, "fixed") else None
+    for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
+        for bit in numbers_in(bits):
+            yield from citing.numbers("fixed bits", str(bit), (bit, Fraction(1 << int(bit))), "bits")
+        for number in numbers_in(constant):
+            yield from citing.numbers(
+                "fixed bits", f"= {number}", (number,), "bits", words=tuple(wordings.number(number))
+            )
+
+
+def _enum_of(citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
+    """The numbers of the point's enum, but for entries of a shared enum that cite a line themselves."""
+    key = "digits" if point.digits else "enum"
+    enum = point.digits.enum if point.digits else point.enum
+    if not _says_itself(draft, key) or enum is None:
+        return
+    enum_as_written = draft.get(key)
+    enum_as_written = enum_as_written["enum"] if point.digits else enum_as_written
+    entries = enums.get(enum_as_written, {}) if isinstance(enum_as_written, str) else enum_as_written
+    cited_themselves = {
+        number
+        for key, entry in entries.items()
+        if isinstance(entry, Map) and "line" in entry
+        for number in numbers_in(key)
+    }
+    for entry in enum.entries:
+        if entry.raw not in cited_themselves or entries is enum_as_written:
+            yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),))
+            yield from citing.title(entry.title, "enum")
+            for number in numbers_in(entry.quantity):
+                yield from citing.numbers("enum", str(entry.quantity), (number,))
+
+
+def _flags(citing: Citing, point: Point, wordings: Wordings) -> Iterator[Claim]:
+    above = point.bits[1] if point.bits else 0
+    always = point.fixed.bits if point.fixed is not None else 0
+    for flag in point.flags:
+        for bit in dict.fromkeys((flag.low + flag.width - 1, flag.low)):
+            numbers = (
+                Fraction(bit + above),
+                Fraction(1 << bit),
+                Fraction(1 << bit + above),
+                Fraction(1 << bit | always),
+            )
+            run = _ends_of_run(point, bit)
+            between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
+            words = (*wordings.bits(flag.low + flag.width - 1, flag.low), *_joined("bit", bit + above))
+            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words)
+        yield from citing.title(flag.title, "flags")
+        for entry in flag.values:
+            yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (Fraction(entry.raw),), "flags")
+
+
+def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
+    """The ends of the run of named bits around a bit."""
+    named = {place for flag in point.flags for place in range(flag.low, flag.low + flag.width)}
+    low = high = bit
+    while low - 1 in named:
+        low -= 1
+    while high + 1 in named:
+        high += 1
+    return low, high
+
+
+def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
+    printed = draft.get("printed")
+    for key, value in printed.items() if isinstance(printed, Map) else ():
+        printed_numbers = [*value.keys(), *value.values()] if key == "pairs" else value
+        for number in numbers_in(printed_numbers):
+            if key == "resolution" and number == 1:
+                continue  # "resolution: A" means one ampere: no 1 is printed
+            kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
+            words = _joined(key, number) if kind == "address" else ()
+            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words)
+
+
+def _says_itself(draft: Draft, key: str) -> bool:
+    """Whether the point (or its format, record, set) says a fact itself: what its group says cites no line."""
+    layer = draft.layer(key)
+    return layer is not None and layer is not draft.group

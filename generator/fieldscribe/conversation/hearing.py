@@ -1,0 +1,59 @@
+"""What is known while frames are heard: the device, where its points are, and what was said of them before."""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.conversation.items import named_item, value_item
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from fractions import Fraction
+
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.conversation.items import Base
+    from fieldscribe.families.answers import Item
+    from fieldscribe.families.directory import Directory
+    from fieldscribe.model import Device, Point
+
+
+@dataclass(slots=True)
+class Hearing:
+    """What was heard in one dialogue: numbers that rules take, words of parameters, and points that wait for others."""
+
+    device: Device
+    directory: Directory
+    given: dict[str, int | Fraction]
+    known: dict[str, int | Fraction] = field(default_factory=dict)
+    words: dict[int, int] = field(default_factory=dict)
+    waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
+    """Points whose meaning needs others, by item, with their raw numbers."""
+
+    @property
+    def settings(self) -> Settings:
+        """What rules take: what was given, else what was heard."""
+        return ChainMap(self.given, self.known)
+
+    def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
+        """Keep what the device said of points."""
+        self.known.update(self.directory.settings(raws))
+
+    def forget(self, address: int) -> None:
+        """What the device works out of a parameter must be read again once that was written."""
+        written = {point.name for point in self.directory.at("parameter", address)}
+        for point in self.device.points:
+            if written & set(point.changes_with):
+                self.known.pop(point.name, None)
+                for at in point.addresses:
+                    self.words.pop(at, None)
+
+    def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
+        """A point and what its raw number means."""
+        return value_item(self.device, point, base, (raw, self.settings), written=written)
+
+
+def odd_item(point: Point, base: Base, said: str, odd: str) -> Item:
+    """A point of which a frame carries something that is no number of it, and why that is wrong."""
+    return replace(named_item(point, base, f"{said}; {odd}"), findings=(odd,))

@@ -1,0 +1,77 @@
+"""Frames in words, one after the other: each is read by those before it, and keeps what the device said of points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.conversation.hearing import Hearing
+from fieldscribe.conversation.parameters import element_items, word_items
+from fieldscribe.conversation.requests import part_of
+from fieldscribe.conversation.spans import span_items
+from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
+from fieldscribe.families.directory import Directory
+from fieldscribe.families.spoken import Course, Element, Masks, Piece, ProcessData, Span, Word
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
+    from fieldscribe.families.answers import Heard, Item
+    from fieldscribe.families.spoken import Carried, Speech
+    from fieldscribe.model import Device
+
+_SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
+    Span: span_items,
+    Element: element_items,
+    Word: word_items,
+    ProcessData: process_items,
+    Masks: mask_items,
+    Piece: piece_items,
+}
+
+
+def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
+    """What pasted frames say, in their order; any bytes are safe. Raises UnclearError for what is no frame."""
+    speech = speech_of(device, options)
+    requests = [] if options.request is None else speech.frames([options.request])
+    frames = speech.frames(texts)
+    listening = Listener(device, settings, speech)
+    return [*map(listening.expect_reply_to, requests), *map(listening.hear, frames)]
+
+
+def speech_of(device: Device, options: Options) -> Speech:
+    """How frames of the device are taken apart. Raises UnclearError."""
+    speech: Speech = part_of(device, "speech").speech_of(device, options)
+    return speech
+
+
+class Listener:
+    """Hears one frame after the other."""
+
+    def __init__(self, device: Device, settings: Settings, speech: Speech) -> None:
+        self._device = device
+        self._given = dict(settings)
+        self._speech = speech
+        self._directory = Directory(device, speech.space_of)
+        self._course = Course()
+        self._parties: dict[int | None, Hearing] = {}
+
+    def hear(self, frame: Any, *, expecting: bool = False) -> Heard:
+        """What the next frame says; any bytes are safe."""
+        spoken = self._speech.hear(frame, self._course, self._directory, expecting=expecting)
+        unheard = Hearing(self._device, self._directory, self._given)
+        hearing = self._parties.setdefault(spoken.party, unheard)
+        items = tuple(item for carried in spoken.carried for item in _says(hearing, carried))
+        self._course.follow(spoken, expecting=expecting)
+        return replace(spoken.heard, items=items)
+
+    def expect_reply_to(self, frame: Any) -> Heard:
+        """Take a frame as the request that the following frames answer."""
+        return self.hear(frame, expecting=True)
+
+
+def _says(hearing: Hearing, carried: Carried) -> Iterable[Item]:
+    says = _SAYS.get(type(carried))
+    return (carried,) if says is None else says(hearing, carried)  # type: ignore[return-value]

@@ -1,0 +1,47 @@
+"""The requests that read and write a point, as far as the device's family knows any."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.asked import UnclearError
+from fieldscribe.families import family
+from fieldscribe.wording.samples import sample_raw, sample_said
+
+if TYPE_CHECKING:
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
+    from fieldscribe.families.answers import Sent, Way
+    from fieldscribe.model import Device, Point
+
+
+def part_of(device: Device, name: str) -> Any:
+    """What the device's family knows of frames. Raises UnclearError."""
+    part = family(device.family).part(name)
+    if part is None:
+        message = f"frames of the family {device.family} are not known here"
+        raise UnclearError(message, "ask for raw numbers, without frames")
+    return part
+
+
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+    """The frames that write a raw number. Raises RefusedError, UnclearError."""
+    sent: Sent = part_of(device, "sending").frames_for(device, point, raw, settings, options)
+    return sent
+
+
+def read_text(device: Device, point: Point) -> str:
+    """How the point is read, with an example; empty if it cannot be read."""
+    part = family(device.family).part("explaining")
+    return str(part.read_text(device, point)) if part and point.readable and point.places else ""
+
+
+def write_text(device: Device, point: Point) -> str:
+    """How the point is written, with an example; empty if it cannot be written."""
+    part = family(device.family).part("explaining")
+    way: Way | None = part.way_to_write(device, point) if part and point.writable and point.places else None
+    if way is None:
+        return ""
+    raw = None if way.shown is None else sample_raw(point)
+    shown = "" if way.shown is None or raw is None else way.shown(raw)
+    return way.how if raw is None or not shown else f"{way.how}{way.joint}{sample_said(point, raw)}{shown}"

@@ -1,0 +1,134 @@
+"""What words of telegrams say: process data, masks over them, and telegrams that come in several frames."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.conversation.items import named_item, value_said
+from fieldscribe.families.answers import Item
+from fieldscribe.wording.buses import word_text, words_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.families.spoken import Masks, Piece, ProcessData
+    from fieldscribe.model import Point
+
+
+def _names(hearing: Hearing, direction: str) -> list[str]:
+    return [telegram.name for telegram in hearing.device.telegrams if telegram.direction == direction]
+
+
+def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
+    """What words of process data say."""
+    names, words = _names(hearing, data.direction), data.words
+    for place, word in enumerate(words):
+        points = [point for name in names for point in hearing.directory.at(name, place)]
+        base = (names[0] if names else "telegram", place, 1)
+        for point in points:
+            if point.addresses[0] != place or place + point.words > len(words):
+                continue
+            raw = raw_of(point, words[place : place + point.words])
+            if point.generated or point.scale is not None:
+                item = hearing.value(point, base, raw, written=data.direction == "request")
+                # a word of zeros is what a master sends that has nothing to say
+                yield item if raw else replace(item, findings=())
+            else:
+                yield named_item(point, base, f"carries {word:04X}h; {point.reason or 'its meaning is open'}")
+        if not points:
+            yield Item(*base, f"word {place + 1} of process data = {word:04X}h: no point is described here")
+
+
+def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
+    """Which words of process data count, and which bits of control words."""
+    counts = [str(place) for place in range(1, 16) if masks.words[0] >> place & 1]
+    which = " and ".join([", ".join(counts[:-1]), counts[-1]] if counts[1:] else counts)
+    said = f"words {which} of process data count" if counts else "no word of process data counts"
+    yield Item("mask", 0, 1, f"mask {masks.words[0]:04X}h: {said}")
+    yield _mask(hearing, 0, 1, masks.words[1:2])
+    yield _mask(hearing, 3, 2, masks.words[2:4])
+
+
+def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item:
+    """Which bits of a control word count."""
+    names = _names(hearing, "request")
+    point = next((point for name in names for point in hearing.directory.at(name, place)), None)
+    about = point.code or point.name if point is not None else f"word {place + 1}"
+    text = f"mask {words_text(words)}"
+    if not any(words):
+        return Item("mask", at, len(words), f"{text}: no bit of {about} counts")
+    if set(words) == {0xFFFF}:
+        return Item("mask", at, len(words), f"{text}: every bit of {about} counts")
+    flags = point.flags if point is not None and len(words) == 1 else ()
+    named = [flag.name for flag in flags if words[0] >> flag.low & 1]
+    said = f" ({', '.join(named)})" if named else ""
+    return Item("mask", at, len(words), f"{text}: only these bits of {about} count{said}")
+
+
+def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
+    """What some words of a telegram say, and what they tell of words that came before."""
+    telegram = piece.telegram.name
+    points = {point.item: point for at in piece.positions for point in hearing.directory.at(telegram, at)}
+    heard = {item: piece.pieces.words(point.addresses) for item, point in points.items()}
+    raws = {item: raw_of(points[item], words) for item, (status, words) in heard.items() if status == "ok"}
+    hearing.learn((points[item], raw) for item, raw in raws.items())
+    lacking = []
+    for at in piece.positions:
+        for point in points.values():
+            if at == min(set(point.addresses) & set(piece.positions)):
+                item = _point(hearing, piece, point, raws.get(point.item))
+                lacking += [point] if item.missing else []
+                yield item
+        if not hearing.directory.at(telegram, at):
+            words = words_text(piece.pieces.words((at,))[1])
+            yield Item(telegram, at, 1, f"word {at}: no point is described here ({words})")
+    yield from _resolved(hearing, telegram, points)
+    hearing.waiting.update((point.item, (point, raws[point.item])) for point in lacking)
+
+
+def _point(hearing: Hearing, piece: Piece, point: Point, raw: int | None) -> Item:
+    """A point of the telegram, or as much of it as the frames so far tell."""
+    base = (piece.telegram.name, min(point.addresses), len(point.addresses))
+    if raw is None:
+        return named_item(point, base, _partly(hearing, piece, point))
+    item = hearing.value(point, base, raw)
+    if not item.missing:
+        return item
+    alike = [other for other in hearing.device.points if other.telegram == piece.telegram.name and other.addresses]
+    firsts = {other.name: other.addresses[0] for other in alike}
+    slots = sorted({firsts[name] // piece.pieces.per_frame for name in item.missing if name in firsts})
+    comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
+    return replace(item, text=item.text + comes)
+
+
+def _partly(hearing: Hearing, piece: Piece, point: Point) -> str:
+    """What is known of a number whose words are in two frames and do not surely belong together."""
+    parts = [piece.pieces.words((at,)) for at in point.addresses]
+    if any(status != "ok" for status, _ in parts):
+        return _waiting_text(point, [words for _, words in parts], piece.pieces.per_frame)
+    would = value_said(hearing.device, point, (raw_of(point, [words[0] for _, words in parts]), hearing.settings))
+    high = point.addresses[0] // piece.pieces.per_frame
+    return (
+        f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
+        f"the next frame with multiplexer {high} tells"
+    )
+
+
+def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) -> str:
+    """Which words of a number came, and with which multiplexer the others come."""
+    places = list(zip(point.addresses, parts, strict=True))
+    came = [f"only the {word_text(point.addresses, at)} = {words[0]:04X}h" for at, words in places if words]
+    slots = dict.fromkeys(str(at // per_frame) for at, words in places if not words)
+    return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
+
+
+def _resolved(hearing: Hearing, telegram: str, now: dict[str, Point]) -> Iterator[Item]:
+    """Points of frames before that this frame gave their missing factors."""
+    for name, (point, raw) in list(hearing.waiting.items()):
+        item = hearing.value(point, (telegram, min(point.addresses), len(point.addresses)), raw)
+        if name not in now and not item.missing:
+            del hearing.waiting[name]
+            yield replace(item, text=f"from a frame before: {item.text}")

@@ -1,0 +1,90 @@
+"""CAN frames as people paste them: `321#DD00051E13880064`, lines of candump, bytes for a known identifier."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.asked import UnclearError, quoted
+from fieldscribe.families.can.frames import CanFrame
+from fieldscribe.hexadecimal import HexError, parse_hex, rejoined
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+HINT = "write identifier and data in hexadecimal, as in 321#DD00051E13880064, or give the identifier with --can-id 321"
+MOST_IDENTIFIER = 0x1FFFFFFF
+_STAMP = r"(?P<stamp>\([0-9.]{1,32}\)\s+)?"
+_LOGGED = re.compile(
+    _STAMP
+    + r"(?:(?P<bus>[A-Za-z][\w.-]{0,31})\s+)?(?:0[xX])?(?P<id>[0-9A-Fa-f]{1,8})#(?P<fd>#[0-9A-Fa-f])?(?P<data>[^\s#]*)"
+    r"(?:\s+[RT])?"
+)
+_DUMPED = re.compile(
+    _STAMP + r"(?P<bus>[A-Za-z][\w.-]{0,31})\s+(?:[RT]X\s+\S\s+\S\s+)?(?P<id>[0-9A-Fa-f]{3}|[0-9A-Fa-f]{8})\s+"
+    r"\[(?P<size>[0-9]{1,2})\]\s*(?P<data>(?:[0-9A-Fa-f]{2}(?:\s+|$))*|remote request)(?:\s*'.*')?"
+)
+_ALONE = re.compile(r"\([0-9.]{1,32}\)")
+_REMOTE = re.compile(r"[Rr][0-8]?|remote request")
+
+
+@dataclass(frozen=True, slots=True)
+class Pasted:
+    """A frame, when and where it was captured, and whether it only asks for data."""
+
+    frame: CanFrame
+    stamp: str = ""
+    bus: str = ""
+    remote: bool = False
+
+    @property
+    def shown(self) -> str:
+        """The frame as candump logs it."""
+        width = 3 if self.frame.id <= 0x7FF else 8
+        data = "R" if self.remote else self.frame.data.hex().upper()
+        return " ".join(part for part in (self.stamp, self.bus, f"{self.frame.id:0{width}X}#{data}") if part)
+
+
+def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
+    """The frames that arguments mean, one a line. Raises UnclearError."""
+    known = None if can_id is None else read_identifier(can_id)
+    lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
+    return [_frame(line, known) for line in lines if line or len(lines) == 1]
+
+
+def read_identifier(text: str) -> int:
+    """An identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
+    found = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
+    if found is None or int(found[1], 16) > MOST_IDENTIFIER:
+        raise UnclearError(f"`{quoted(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
+    return int(found[1], 16)
+
+
+def _joined(texts: Sequence[str]) -> Iterable[str]:
+    """The arguments, with pieces of one line put together where somebody forgot the quotes."""
+    if any("#" in text for text in texts):
+        words = list(texts)
+        while words:
+            size = 3 if _ALONE.fullmatch(words[0].strip()) and len(words) > 2 else 1
+            yield " ".join(words[:size])
+            del words[:size]
+    else:
+        yield from rejoined(texts, 2)
+
+
+def _frame(line: str, known: int | None) -> Pasted:
+    found = _LOGGED.fullmatch(line) or _DUMPED.fullmatch(line)
+    try:
+        if found is None:
+            if known is None or "#" in line:
+                raise HexError(f"`{quoted(line)}` has no identifier" if line else "there are no bytes")
+            return Pasted(CanFrame(known, parse_hex(line)))
+        number, data = int(found["id"], 16), found["data"].strip()
+        remote = _REMOTE.fullmatch(data) is not None
+        if number > MOST_IDENTIFIER:
+            raise HexError(f"the identifier {number:X} is longer than 29 bits")
+        frame = CanFrame(number, b"" if remote or not data else parse_hex(data.replace(".", " ")))
+    except HexError as error:
+        raise UnclearError(f"not a frame: {error}", HINT) from error
+    return Pasted(frame, (found["stamp"] or "").strip(), found["bus"] or "", remote)

@@ -1,0 +1,58 @@
+"""The points of a device by where they are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.codec import setting_of
+from fieldscribe.existence import absent
+from fieldscribe.families import family
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from fractions import Fraction
+
+    from fieldscribe.model import Device, Place, Point
+
+Where = tuple[str, int, int]
+"""(the space or the telegram, the address, the index that travels beside it or 0)."""
+
+Found = tuple["Point", "Place"]
+
+
+class Directory:
+    """Which points stand where; `space_of` says in which space a place is reached, too."""
+
+    def __init__(self, device: Device, space_of: Callable[[Place], str]) -> None:
+        self._at: dict[Where, list[Found]] = {}
+        indexed = family(device.family).indexed
+        # those last that the chosen variants do not have: in their places others may stand
+        for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
+            for place in point.places:
+                index = (point.index or 0) if place.space in indexed else 0
+                spaces = [point.telegram] if point.telegram else sorted({place.space, space_of(place)})
+                for key in ((space, address, index) for space in spaces for address in place.addresses):
+                    here = self._at.setdefault(key, [])
+                    if not (here and absent(point.when, device.variants)):
+                        here.append((point, place))
+        self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
+        for point in device.points:
+            self._places.setdefault(point.name, set()).add((point.addresses, point.index))
+
+    def places(self, where: str, address: int, index: int = 0) -> list[Found]:
+        """The points of which that is a word, each with its place."""
+        return self._at.get((where, address, index), [])
+
+    def at(self, where: str, address: int, index: int = 0) -> list[Point]:
+        """The points of which that is a word."""
+        return list({point.item: point for point, _ in self.places(where, address, index)}.values())
+
+    def starting_at(self, where: str, address: int) -> list[Found]:
+        """The points whose lowest address this is, each with its place."""
+        return [one for one in self.places(where, address) if min(one[1].addresses) == address]
+
+    def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
+        """What rules take of points with these raw numbers; not of variants that are in different places."""
+        for point, raw in raws:
+            if len(self._places[point.name]) == 1:
+                yield point.name, setting_of(point, raw)

@@ -1,0 +1,58 @@
+"""How a point is read and written over Modbus, each with one request as an example."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.answers import Way
+from fieldscribe.families.modbus.functions import SPACES, profile_of
+from fieldscribe.families.modbus.requests import Request, build
+from fieldscribe.families.modbus.sending import words_of
+from fieldscribe.wording.buses import counted
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
+
+
+def read_text(device: Device, point: Point) -> str:
+    """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
+    place = point.places[0]
+    function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
+    if function is None:
+        return ""
+    count = len(place.addresses)
+    how = f"function {hex_text(function, 2)}, {counted(count, 'bit' if point.type == 'bit' else 'word')}"
+    return how + _example(device, function, min(place.addresses), count, ())
+
+
+def way_to_write(device: Device, point: Point) -> Way | None:
+    """How to write the point; None if it cannot be written."""
+    place = point.write_place
+    space = SPACES.get(place.space) if place else None
+    if place is None or space is None:
+        return None
+    addresses = place.addresses
+    single = space.write_one if len(addresses) == 1 and space.write_one in profile_of(device.bus).most else None
+    function = place.function or single or space.write_many
+    if function is None:
+        return None
+    how = f"function {hex_text(function, 2)}"
+    if point.bits is not None:
+        return Way(f"{how}; read the word first, replace the bits and write it back, for other points share the word")
+    return Way(
+        how,
+        lambda raw: _example(device, function, min(addresses), len(addresses), words_of(point, raw, addresses)),
+    )
+
+
+def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:
+    """A request to the first of unit 1 and the lowest unit that the device answers to."""
+    unit = device.bus.usual_unit
+    framing = device.bus.framings[0] if device.bus.framings else "rtu"
+    status, data = build(profile_of(device.bus), framing, Request(unit, function, address, count, values))
+    if status != "ok":
+        return (
+            " (the device does not allow this function)" if status == "bad_function" else f" (not possible: {status})"
+        )
+    return f"; request to unit {unit} ({framing}): {data.hex(' ').upper()}"

@@ -1,0 +1,73 @@
+"""The request that writes a point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.words import group_mask, split
+from fieldscribe.asked import RefusedError
+from fieldscribe.families.answers import Sent, refused
+from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
+from fieldscribe.families.modbus.requests import Request, build
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import spaced, units_text
+from fieldscribe.wording.exact import hex_text
+
+if TYPE_CHECKING:
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
+    from fieldscribe.model import Device, Place, Point
+
+
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+    """The request that writes a raw number. Raises RefusedError."""
+    del settings  # a request carries nothing but the point
+    return Sent((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
+
+
+def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:
+    """The unsigned words (or the bit) of a raw number, in ascending order of their addresses."""
+    if point.type == "bit":
+        return (raw,)
+    return tuple(word for _, word in sorted(zip(addresses, split(raw, len(addresses)), strict=True)))
+
+
+def write_request(
+    device: Device, point: Point, raw: int, unit: int | None, framing: str | None
+) -> tuple[Request, bytes]:
+    """The request that writes a raw number, and its bytes. Raises RefusedError."""
+    place = point.write_place or point.places[0]
+    if point.bits is not None:
+        mask = group_mask(point)
+        raise RefusedError(
+            "shared_word",
+            f"{label(point)} shares its word with other points, so no single request can write it",
+            f"read {hex_text(min(place.addresses))}, replace the bits of mask {hex_text(mask)} "
+            f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
+        )
+    values = words_of(point, raw, place.addresses)
+    to = device.bus.usual_unit if unit is None else unit
+    request = Request(to, _function(device, place), min(place.addresses), len(values), values)
+    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
+    status, data = build(profile_of(device.bus), chosen, request)
+    if status != "ok":
+        raise refused(device.bus, point, status, _hint(device, status))
+    return request, data
+
+
+def _function(device: Device, place: Place) -> int:
+    if place.function in BROADCAST:
+        return place.function
+    space = SPACES[place.space]
+    single = space.write_one if len(place.addresses) == 1 else None
+    most = profile_of(device.bus).most
+    usable = [function for function in (single, space.write_many) if function is not None]
+    return next((function for function in usable if function in most), usable[0] if usable else 0)
+
+
+def _hint(device: Device, status: str) -> str:
+    if status == "bad_framing":
+        return f"it speaks {' and '.join(framings_of(device.bus))}"
+    if status == "bad_unit" and device.bus.broadcast is not None:
+        return f"{units_text(device.bus)}, or {device.bus.broadcast} for all units at once"
+    return ""

@@ -1,0 +1,131 @@
+"""The telegrams that read and write points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.arithmetic.words import insert, words_of
+from fieldscribe.asked import RefusedError, UnclearError
+from fieldscribe.families.answers import Sent, refused
+from fieldscribe.families.uss.links import asked, link_of
+from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.text import line
+from fieldscribe.wording import label
+from fieldscribe.wording.buses import numbered, spaced
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
+    from fieldscribe.model import Device, Point
+
+
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+    """The telegram that writes a raw number, or the words of its part. Raises RefusedError, UnclearError."""
+    framing = options.framing or "uss"
+    if framing == "broadcast":
+        raise UnclearError("a broadcast is not built here", "take uss, pkw or pzd")
+    link, keep = link_of(device, options), asked(options).keep
+    unit = device.bus.usual_unit if options.unit is None else options.unit
+    if point.telegram is not None:
+        return _process_data(device, point, raw, (settings, link, unit, framing), keep=keep)
+    if framing == "pzd":
+        raise UnclearError(f"{label(point)} is a parameter, no word of process data", "take --framing uss or pkw")
+    words, notes = process_words(device, link, settings)
+    if framing == "pkw":
+        link, words, notes = replace(link, pzd=0), (), []
+    task = write_task(point.words, array=point.index is not None, keep=keep) if point.words in (1, 2) else 0
+    value = _pattern(point, raw)
+    request = Request(unit, task, point.addresses[0], point.index or 0, point.words, value, words)
+    data = _built(device, point, link, request)
+    notes = [_task_note(device, task), *notes]
+    return Sent((_shown(data, framing, link, 0),), tuple(notes))
+
+
+def process_words(
+    device: Device, link: Link, settings: Settings, own: dict[int, int] | None = None
+) -> tuple[tuple[int, ...], list[str]]:
+    """The words of process data that a telegram takes along, from what is known; all others 0, and what that means."""
+    words = dict(own or {})
+    notes: list[str] = []
+    telegrams = {one.name for one in device.telegrams if one.direction == "request"}
+    for point in device.points:
+        given = settings.get(point.name)
+        if point.telegram in telegrams and isinstance(given, int):
+            for place, word in zip(point.addresses, words_of(point, given), strict=False):
+                words.setdefault(place, insert(point, word, word) if point.bits is None else word)
+    for point in device.points:
+        place = point.addresses[0] if point.addresses else link.pzd
+        if point.telegram in telegrams and point.fixed is not None and place < link.pzd and place not in words:
+            always = wording.fixed_text(point)
+            notes.append(
+                f"{label(point)} goes along as 0000h ({always} is not kept, so that the device ignores it); "
+                f"give --with {line(point.code or point.name)}=VALUE for another"
+            )
+    return tuple(words.get(place, 0) for place in range(link.pzd)), notes
+
+
+def read_request(device: Device, point: Point, link: Link, unit: int) -> bytes:
+    """The telegram that reads a point; empty if there is none."""
+    if point.telegram is not None:
+        request = Request(unit, 0, words=(0,) * link.pzd)
+    else:
+        request = Request(unit, READ_TASK, point.addresses[0], point.index or 0, words=(0,) * link.pzd)
+    return build(device.bus, link, request)[1]
+
+
+def part_words(data: bytes, link: Link) -> str:
+    """The words of the parameter part of a telegram, as manuals print them: `143A 0000 0000 0000`."""
+    return " ".join(data[at : at + 2].hex().upper() for at in range(3, 3 + 2 * link.sent, 2))
+
+
+def _process_data(device: Device, point: Point, raw: int, how: tuple[Settings, Link, int, str], *, keep: bool) -> Sent:
+    settings, link, unit, framing = how
+    if keep or framing == "pkw":
+        said = "--keep" if keep else "--framing pkw"
+        raise UnclearError(f"{label(point)} is a word of process data; {said} is for parameters")
+    last = max(point.addresses) + 1
+    if last > link.pzd:
+        message = f"{label(point)} is word {last} of the process data, the link has {link.pzd}"
+        raise RefusedError("bad_link", message, f"take --pzd {last}, if the device is set so")
+    own = dict(zip(point.addresses, words_of(point, raw), strict=True))
+    words, notes = process_words(device, link, settings, own)
+    data = _built(device, point, link, Request(unit, 0, words=words))
+    return Sent((_shown(data, framing, link, link.pzd),), tuple(notes))
+
+
+def _pattern(point: Point, raw: int) -> int:
+    return raw & ((1 << 16 * point.words) - 1)
+
+
+def _built(device: Device, point: Point, link: Link, request: Request) -> bytes:
+    status, data = build(device.bus, link, request)
+    if status != "ok":
+        raise refused(device.bus, point, status, _hint(link, status))
+    return data
+
+
+def _hint(link: Link, status: str) -> str:
+    if status not in ("bad_task", "bad_value"):
+        return ""
+    length = "is variable" if link.pkw == VARIABLE else f"has {link.pkw} words"
+    return f"the parameter part of this link {length}; take another --pkw, if the device is set so"
+
+
+def _task_note(device: Device, task: int) -> str:
+    code = numbered(device.bus.functions, task)
+    return line(f"task {task}" + (f" {code.name}: {code.title['en']}" if code is not None else ""))
+
+
+def _shown(data: bytes, framing: str, link: Link, words: int) -> str:
+    if framing == "uss":
+        return spaced(data)
+    return part_words(data, link) if framing == "pkw" else " ".join(_pairs(data[-1 - 2 * words : -1]))
+
+
+def _pairs(data: bytes) -> Iterator[str]:
+    for at in range(0, len(data), 2):
+        yield data[at : at + 2].hex().upper()

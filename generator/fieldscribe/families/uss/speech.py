@@ -1,0 +1,204 @@
+"""USS telegrams taken apart: requests, the answers to them, broadcasts, or the words of one part alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.answers import Heard
+from fieldscribe.families.spoken import Element, Masks, ProcessData, Spoken
+from fieldscribe.families.uss import remarks
+from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.families.uss.links import asked as said_of
+from fieldscribe.families.uss.links import link_of
+from fieldscribe.families.uss.recognition import (
+    RESPONSE_WIDTHS,
+    TASK_WIDTHS,
+    Part,
+    Wrapped,
+    part_of,
+    recognise,
+    split,
+)
+from fieldscribe.families.uss.telegrams import START, Link, Request, parse, telegram
+from fieldscribe.hexadecimal import rejoined, typed_bytes
+from fieldscribe.wording.buses import element_text, no_answer_text
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from fieldscribe.asked import Options
+    from fieldscribe.families.directory import Directory
+    from fieldscribe.families.spoken import Carried, Course
+    from fieldscribe.model import Device, Place
+
+_ANSWERS = ("ok", "refused", "no_rights", "no_answer")
+_REFUSED, _NO_RIGHTS = 7, 8
+_SIZE = 6
+"""The response with the number of elements."""
+_MASKS = 4
+_UNASKED = "read as a request, for none was heard before it; --direction response reads it as an answer"
+_PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"
+
+
+class UssSpeech:
+    """Takes the telegrams of one device apart, as its link is set."""
+
+    def __init__(self, device: Device, link: Link, framing: str = "uss", direction: str | None = None) -> None:
+        self._device = device
+        self._link = link if framing == "uss" else replace(link, pzd=0)
+        self._framing = framing
+        self._direction = direction
+
+    def frames(self, texts: Sequence[str]) -> list[bytes]:
+        """The telegrams that people pasted. Raises UnclearError."""
+        example = "02 0E 01 143A 0000 0000 0000 0000 0000 23"
+        return [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
+
+    def space_of(self, place: Place) -> str:
+        """Every place is reached in its own space."""
+        return place.space
+
+    def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
+        """What a telegram is; any bytes are safe."""
+        wrapped = recognise(frame, self._framing)
+        spoken = self._read(wrapped, course, directory, expecting=expecting)
+        return replace(spoken, binds=True)
+
+    def _read(self, wrapped: Wrapped, course: Course, directory: Directory, *, expecting: bool) -> Spoken:
+        head = "USS" if wrapped.unit is None else f"USS, unit {wrapped.unit}"
+        base = Heard(
+            wrapped.data, self._framing, "unreadable", wrapped.unit, None, head, (), wrapped.checks, wrapped.faults
+        )
+        direction = "request" if expecting else self._direction or ("response" if course.fixed else None)
+        words, whole = wrapped.words, self._framing == "uss"
+        if words is None:
+            return Spoken(replace(base, summary=f"{head}: not readable"))
+        if whole and wrapped.data[0] != START and len(wrapped.faults) > 1:
+            return Spoken(replace(base, summary=f"{head}: not readable", unit=None, notes=(_PARTS,)))
+        if self._framing == "broadcast" or (whole and wrapped.unit == self._device.bus.broadcast):
+            return _broadcast(base, words)
+        if self._framing == "pzd":
+            return self._process_data(base, words, direction)
+        return self._telegram(base, words, course, directory, direction)
+
+    def _telegram(
+        self, base: Heard, words: tuple[int, ...], course: Course, directory: Directory, direction: str | None
+    ) -> Spoken:
+        asked: Request | None = course.asked(base.unit)
+        status = ""
+        if asked is not None and direction != "request":
+            status = parse(self._device.bus, self._link, asked, telegram(asked.unit, words)).status
+        if direction == "response" or (direction is None and status in _ANSWERS):
+            # a request that is fixed and not open was one to another unit
+            return self._reply(
+                base, words, asked, "wrong_unit" if course.fixed and asked is None else status, directory
+            )
+        spoken = self._request(base, words, directory)
+        if direction is None and not course.met(base.unit) and self._could_answer(words):
+            return replace(spoken, heard=replace(spoken.heard, notes=(*spoken.heard.notes, _UNASKED)))
+        return spoken
+
+    def _could_answer(self, words: tuple[int, ...]) -> bool:
+        """Whether words that were read as a request, none being open, bring what only an answer or a change brings."""
+        part = part_of(split(words, self._link, request=True)[0])
+        return part is not None and any(part.values) and part.code != 0
+
+    def _request(self, base: Heard, words: tuple[int, ...], directory: Directory) -> Spoken:
+        part_words, rest, fault = split(words, self._link, request=True)
+        base = replace(base, kind="request", faults=(*base.faults, *((fault,) if fault else ())))
+        part = part_of(part_words)
+        data = ProcessData("request", rest)
+        unit = 0 if base.unit is None else base.unit
+        if part is None:
+            alone = self._link.pkw == 0
+            said = f"{base.summary}: {'request, process data' if alone else 'not readable'}"
+            heard = replace(base, kind="request" if alone else "unreadable", summary=said)
+            return Spoken(heard, (data,), base.unit, asks=Request(unit, 0, words=rest))
+        width = TASK_WIDTHS.get(part.code, 0)
+        value = part.value(width, self._link) if width else None
+        element = Element(part.parameter, part.index, width, value, part.values, asked=True)
+        task = remarks.code_text(self._device.bus.functions, part.code, "task")
+        heard = replace(
+            _about(base, f"request, {task}", part, "task", directory),
+            function=part.code,
+            findings=tuple(remarks.request_findings(self._device, part, base.unit)),
+            notes=tuple(remarks.request_notes(part, self._link)),
+        )
+        asks = Request(unit, part.code, part.parameter, part.index, width, value or 0, rest)
+        return Spoken(heard, (element, data) if part.code else (data,), base.unit, asks=asks)
+
+    def _reply(
+        self, base: Heard, words: tuple[int, ...], asked: Request | None, status: str, directory: Directory
+    ) -> Spoken:
+        part_words, rest, fault = split(words, self._link, request=False)
+        if not fault and status and status not in _ANSWERS:
+            fault = no_answer_text(status)
+        base = replace(base, kind="reply", faults=(*base.faults, *((fault,) if fault else ())))
+        part = part_of(part_words)
+        carried: tuple[Carried, ...] = (ProcessData("response", rest),)
+        if part is None:
+            heard = replace(base, summary=f"{base.summary}: reply, process data")
+        else:
+            named = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
+            heard = _about(base, f"reply, {named}", part, "response", directory)
+            if part.code in (_REFUSED, _NO_RIGHTS):
+                heard = self._refusal(heard, part, None if asked is None else asked.task)
+            carried = (self._element(part), *carried) if part.code else carried
+        return Spoken(heard, carried, base.unit, answers=status != "no_answer")
+
+    def _element(self, part: Part) -> Element:
+        """What an answer brings of an element."""
+        width = RESPONSE_WIDTHS.get(part.code, 0)
+        value = part.value(width, self._link) if width else None
+        refused, counts = part.code in (_REFUSED, _NO_RIGHTS), part.code == _SIZE
+        return Element(part.parameter, part.index, width, value, part.values, refused=refused, counts=counts)
+
+    def _refusal(self, base: Heard, part: Part, task: int | None) -> Heard:
+        """An answer that the device cannot or may not do what was asked."""
+        base = replace(base, kind="exception")
+        if part.code == _NO_RIGHTS or not part.values:
+            return base
+        error = part.values[0]
+        return replace(
+            base,
+            exception=error,
+            summary=f"{base.summary}: {remarks.error_text(self._device, error)}",
+            findings=tuple(remarks.error_findings(self._device, part, task)),
+            notes=tuple(remarks.error_notes(part, self._link)),
+        )
+
+    def _process_data(self, base: Heard, words: tuple[int, ...], direction: str | None) -> Spoken:
+        kind = "reply" if direction == "response" else "request"
+        low, high = of_bus(self._device.bus).pzd
+        faults = base.faults
+        if not low <= len(words) <= high:
+            faults = (*faults, f"there are {low} to {high} words of process data, here are {len(words)}")
+        notes = () if direction else ("read as words from the master; --direction response reads those of the device",)
+        heard = replace(base, kind=kind, summary=f"USS: {kind}, process data", faults=faults, notes=notes)
+        return Spoken(heard, (ProcessData(direction or "request", words),))
+
+
+def speech_of(device: Device, options: Options) -> UssSpeech:
+    """How telegrams of the device are taken apart. Raises UnclearError."""
+    return UssSpeech(device, link_of(device, options), options.framing or "uss", said_of(options).direction)
+
+
+def _about(base: Heard, said: str, part: Part, key: str, directory: Directory) -> Heard:
+    """A telegram with its parameter part."""
+    details: dict[str, object] = {key: part.code}
+    if part.code:
+        points = directory.at("parameter", part.parameter, part.index)
+        alone = all(point.index is None for point in points)
+        said += f", {element_text(part.parameter, part.index, alone=alone)}"
+        details |= {"parameter": part.parameter, "index": part.index}
+    return replace(base, summary=f"{base.summary}: {said}", details=details)
+
+
+def _broadcast(base: Heard, words: tuple[int, ...]) -> Spoken:
+    """Four words of masks, then process data; nobody answers."""
+    heard = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
+    if len(words) < _MASKS:
+        fault = f"a broadcast starts with {_MASKS} words of masks, here are {len(words)}"
+        return Spoken(replace(heard, faults=(*heard.faults, fault)))
+    return Spoken(heard, (Masks(words[:_MASKS]), ProcessData("request", words[_MASKS:])))

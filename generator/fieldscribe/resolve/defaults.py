@@ -1,0 +1,68 @@
+"""The factory setting: raw, by name, or in the unit; each follows from the other where no other point is needed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.model import Linear
+from fieldscribe.resolve.values import integer, number
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Shape
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.scope import Scope
+
+_MOST_NAMES = 12
+_PLAIN = Linear(Fraction(1), Fraction(0), ())
+
+
+def default_of(scope: Scope, draft: Draft, shape: Shape) -> tuple[Fraction | None, int | None]:
+    """The factory setting in the unit and as raw number; what is not said, or what only other points tell, is None."""
+    if draft.text:
+        return None, None
+    rule = None if draft.floating else _rule(draft, shape)
+    if draft.layer("default_in_units") is not None:
+        value = number(draft.get("default_in_units"), draft.span("default_in_units"), scope.report)
+        exact = None if value is None or rule is None else rule.at(value)
+        return value, exact.numerator if exact is not None and exact.denominator == 1 else None
+    raw = None if draft.layer("default") is None else _raw(scope, draft, shape)
+    return None if raw is None or rule is None else (raw - rule.offset) / rule.ratio, raw
+
+
+def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
+    """The raw number that `default` says; None after a finding."""
+    said, span, enum = draft.get("default"), draft.span("default"), shape.enum
+    if draft.floating:
+        message = "`default` is in raw numbers, which are bit patterns here"
+        scope.report.error("float-fact", message, span, f"write `default_in_units: {said}`")
+        return None
+    named = {one.name: one.low for one in shape.specials if one.low == one.high}
+    named |= {one.name: one.raw for one in (() if enum is None else enum.entries)}
+    if said in named:
+        return named[said]
+    if isinstance(said, str) and enum is not None and said.isidentifier():
+        hint = f"write a number, or one of {', '.join(one.name for one in enum.entries[:_MOST_NAMES])}"
+        scope.report.error("bad-number", f"`{said}` is no name of this enum", span, hint)
+        return None
+    if _has_a_fraction(said):
+        message = f"`{said}` has a decimal point, and `default` is in raw numbers"
+        scope.report.error("bad-number", message, span, f"write `default_in_units: {said}`, or the raw number")
+        return None
+    return integer(said, span, scope.report)
+
+
+def _has_a_fraction(said: object) -> bool:
+    try:
+        return isinstance(said, str) and "." in said and parse_number(said) is not None
+    except NumberError:
+        return False
+
+
+def _rule(draft: Draft, shape: Shape) -> Linear | None:
+    """The one rule between raw number and value; None where other points, or nobody, tell."""
+    if shape.scale is not None:
+        return shape.fixed_scale
+    unsettled = draft.untyped is not None or (draft.layer("scale") is not None and draft.get("scale") is None)
+    return None if unsettled and draft.get("unit") is not None else _PLAIN

@@ -1,0 +1,47 @@
+"""With how many decimals people see the values of a point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.resolve.integer_path import shows
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Shape
+    from fieldscribe.resolve.bounds import Bounds
+    from fieldscribe.resolve.drafts import Draft
+
+_WITHOUT_VALUE = {
+    "enum": "a number with names",
+    "flags": "a word of flags",
+    "digits": "a word of digits",
+    "text": "a text",
+    "bit": "a single bit",
+}
+"""The forms of points that are no quantity."""
+
+
+def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
+    """The decimals that `display` says; a finding where there is no value to show with them."""
+    said = draft.get("display")
+    if said is None:
+        return None
+    decimals: int = said["decimals"]
+    kind, report = _WITHOUT_VALUE.get(shape.form), bounds.scales.scope.report
+    if kind is not None:
+        if draft.layer("display") is not draft.group:  # what a group says is for its quantities
+            message = f"`{draft.name}` is {kind}, which has no value to show with decimals"
+            report.error("display-fact", message, draft.span("display"), "leave `display` out")
+        return None
+    fits = [one for one in range(decimals + 1) if _is_shown(draft, shape, bounds, one)]
+    if decimals not in fits:
+        message = f"`decimals: {decimals}` needs integers that are wider than code computes with"
+        hint = f"write `decimals: {fits[-1]}`" if fits else "leave `display` out: no decimals of this scale are exact"
+        report.error("display-fact", message, said.span("decimals"), hint)
+        return None
+    return decimals
+
+
+def _is_shown(draft: Draft, shape: Shape, bounds: Bounds, decimals: int) -> bool:
+    """Whether code computes each value with so many decimals."""
+    return shape.scale is None or shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None)

@@ -1,0 +1,153 @@
+"""What the checks read: the resolved parts of one device, with their places in the text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_number
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.model import Bus, Command, Device, Frame, Message
+    from fieldscribe.resolve.addresses import Places
+    from fieldscribe.resolve.allowed import Ranges
+    from fieldscribe.resolve.errata import OpenErratum
+    from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.scope import Scope
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A printed fact that disagrees with the description: whom it is about, its key, its place, and the message.
+
+    `taken` is what the description has instead; None if only an erratum can tell the right value. `right` compares
+    what an erratum says was taken, where comparing numbers or texts is not enough. `flag` is the flag that it is about.
+    """
+
+    about: str
+    key: str
+    printed: Any
+    taken: Any
+    span: Span
+    message: str
+    right: Callable[[Any], bool] | None = None
+    flag: str | None = None
+
+    def fits(self, stated: Any) -> bool:
+        """Whether an erratum's `taken` is what the description has."""
+        return self.right(stated) if self.right is not None else same(stated, self.taken)
+
+
+@dataclass(slots=True)
+class Subject:
+    """One device under check. `frames` collects the checked frames; `cited` finds errata by what they are about."""
+
+    scope: Scope
+    index: Index
+    ranges: Ranges
+    places: Places
+    resolved: list[Resolved]
+    bus: Bus
+    messages: tuple[Message, ...]
+    commands: tuple[Command, ...]
+    open_frames: list[OpenFrame]
+    errata: list[OpenErratum]
+    frames: list[Frame] = field(default_factory=list)
+    cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
+    _models: tuple[Device, Device] | None = None
+
+    def __post_init__(self) -> None:
+        for erratum in self.errata:
+            for subject in erratum.subjects:
+                self.cited.setdefault(subject, []).append(erratum)
+
+    @property
+    def bus_is_whole(self) -> bool:
+        """Whether everything under `bus` could be read; if not, checks that need it are left out."""
+        return self.scope.bus is not None and not _lost(self.scope.bus)
+
+    @property
+    def models(self) -> tuple[Device, Device]:
+        """The models of the whole device and of its code; only for a device without errors."""
+        if self._models is None:
+            from fieldscribe.resolve.device import build_device
+
+            self._models = build_device(self)
+        return self._models
+
+    @property
+    def sound(self) -> Device:
+        """The device as code sees it, without the points that have findings."""
+        from fieldscribe.resolve.device import sound_device
+
+        return sound_device(self) if self.report.has_errors else self.models[1]
+
+    @property
+    def report(self) -> Report:
+        """Where findings go."""
+        return self.scope.report
+
+    def disagrees(self, fact: Printed) -> None:
+        """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
+        for erratum in self.cited.get(fact.about, ()):
+            stated = erratum.printed(fact.key)
+            if erratum.raw.get("flag") != fact.flag:
+                continue
+            if stated is None or not same(stated, fact.printed):
+                continue
+            erratum.used.add(fact.key)
+            taken = erratum.raw["taken"].get(fact.key) if isinstance(erratum.raw["taken"], Map) else None
+            if taken is None or (fact.taken is not None and not fact.fits(taken)):
+                wrong = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
+                if taken is None:
+                    wrong = f"the erratum does not say what was taken for `{fact.key}`"
+                hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
+                self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
+            return
+        named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
+        hint = (
+            f"correct the fact, or explain it: an erratum with {named}`printed: {{{fact.key}: {_shown(fact.printed)}}}`"
+        )
+        self.report.error("printed-disagrees", fact.message, fact.span, hint)
+
+
+def _lost(value: Any) -> bool:
+    return isinstance(value, Map) and (bool(value.broken) or any(map(_lost, value.values())))
+
+
+def same(left: Any, right: Any) -> bool:
+    """Whether two facts are equal: as numbers in any notation, as texts without regard to blanks and case."""
+    if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
+        lefts, rights = _listed(left), _listed(right)
+        return len(lefts) == len(rights) and all(same(left, other) for left, other in zip(lefts, rights, strict=True))
+    numbers = [_number(left), _number(right)]
+    if None not in numbers:
+        return numbers[0] == numbers[1]
+    return "".join(str(left).split()).lower() == "".join(str(right).split()).lower()
+
+
+def _listed(value: Any) -> list[Any]:
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return list(value)
+    return [part for part in str(value).split(",") if part.strip()]
+
+
+def _number(value: Any) -> Fraction | None:
+    if isinstance(value, str):
+        try:
+            return parse_number(value)
+        except NumberError:
+            return None
+    return Fraction(value) if value is not None else None
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, Seq | list | tuple):
+        return "[" + ", ".join(map(str, value)) + "]"
+    return "…" if value is None else str(value)

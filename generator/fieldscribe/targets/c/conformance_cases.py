@@ -1,0 +1,247 @@
+"""The macros of the conformance program by which a point answers vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.names import upper
+from fieldscribe.targets.c.conversions import value_type
+from fieldscribe.targets.c.defines import shares_values
+from fieldscribe.targets.c.literals import raw_type, signed
+from fieldscribe.targets.c.points import named_numbers
+from fieldscribe.targets.c.scales import scaled
+from fieldscribe.targets.c.special_codes import encoded_limits, owner, special_defines
+from fieldscribe.text import c_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.model import Point
+    from fieldscribe.targets.c.scales import Scaled
+    from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import PointView
+
+
+@dataclass(frozen=True, slots=True)
+class AdapterView:
+    """A point with its macros, each of which answers one kind of vector."""
+
+    item: str
+    cases: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class StructView:
+    """A function that fills the struct of a point with the raw numbers given in a vector.
+
+    `floating` says that only functions with floating point need it.
+    """
+
+    type: str
+    function: str
+    fields: tuple[tuple[str, str, str], ...]
+    floating: bool
+
+
+def adapter_of(point: Point, view: PointView, scope: HeaderScope, extra: Mapping[str, list[str]]) -> AdapterView:
+    """The macros of a point; `extra` are further ones of its family, by the point's function."""
+    cases = _all_cases(point, view, scope)
+    cases += extra.get(view.function, [])
+    return AdapterView(
+        view.item,
+        tuple(
+            f"FIELDSCRIBE_{case}"
+            for case in (*cases, *_flag_cases(point, view), *_special_code_cases(point, view, scope))
+        ),
+    )
+
+
+def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
+    """The macros for the point as a whole."""
+    function, kind = view.function, view.raw_type
+    cases = [f"ADDRESS({view.macro}, {_address_answers(point, view)})"] if point.address is not None else []
+    if view.writable and view.shape != "text":
+        cases.append(f"CHECK({function}_check, {kind}, {_arguments_of(point, view.limit_arguments, scope)})")
+    cases += _conversion_cases(point, view, scope)
+    enum = named_numbers(point)
+    if enum is not None:
+        cases.append(f"NAME({scope.prefix}_{enum.name}_name, {value_type(point)})")
+        constant = f"{scope.upper}_{upper(enum.name)}"
+        first = {entry.raw: entry.name for entry in reversed(enum.entries)}
+        cases += [f'NAMED("{name}", {constant}_{upper(name)})' for name in first.values()]
+    cases += _place_cases(point, view)
+    if point.text is not None:
+        return cases
+    if view.bits:
+        cases.append(f"BITS({function}, {kind}, {view.macro})")
+    elif view.words:
+        cases.append(f"WORDS({function}, {kind}, {point.words}U)")
+    else:
+        cases.append(f"ONE_WORD({kind})")
+    return cases
+
+
+def _address_answers(point: Point, view: PointView) -> str:
+    """The answers with the facts beside the address: space, limits, decimals, code, references."""
+    calls = [
+        f'SPACE("{point.space}")',
+        f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
+    ]
+    if view.shape not in ("float", "text", "digits"):
+        low, high = point.outer
+        only_read = f"ONLY_READ({signed(low)}, {signed(high)})"
+        calls.append(f"RAWS({view.macro})" if point.writable else only_read)
+    if point.form == "scaled" and point.decimals is not None:
+        calls.append(f"DECIMALS({view.macro})")
+    if point.code is not None:
+        calls.append(f"CODE({c_string(point.code)})")
+    for key, number in point.references.items():
+        text = isinstance(number, str)
+        literal = c_string(number) if isinstance(number, str) else signed(number)
+        calls.append(f'REFERENCE{"_TEXT" if text else ""}("{key}", {literal})')
+    return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
+
+
+def _conversion_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
+    function, kind, form = view.function, view.raw_type, view.shape
+    if form in ("text", "digits"):
+        return _text_or_digits_cases(point, view)
+    arguments = point.arguments
+    everything = _arguments_of(point, arguments, scope)
+    scale = _arguments_of(point, view.scale_arguments, scope)
+    attempt = "TRY_" if view.special is not None or form == "ruled" else ""
+    counted = "" if form == "plain" else "_count"
+    scale_of = scaled(point, *_checked_raws(point)) if form == "scaled" else None
+    number = value_type(point) if form == "plain" else "int64_t" if scale_of is None else scale_of.count_type
+    if form == "plain" and kind == "bool" and not attempt:
+        number = "int32_t"
+    cases = []
+    if form != "float" and view.counts:
+        if view.writable:
+            cases.append(f"ENCODE_COUNT({function}_encode{counted}, {number}, {kind}, {everything})")
+        if view.readable:
+            tried = "TRY_" if scale_of is not None and scale_of.count_fits else attempt
+            cases.append(f"{tried}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {scale})")
+    if form != "plain":
+        real = "double" if _is_double(point, scale_of) else "fieldscribe_real"
+        if view.writable and view.encodes:
+            cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
+        if view.readable:
+            cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
+    return cases
+
+
+def _checked_raws(point: Point) -> tuple[int, int]:
+    return encoded_limits(point) if point.specials else point.outer
+
+
+def _is_double(point: Point, scale: Scaled | None) -> bool:
+    if scale is not None:
+        return scale.wide
+    return point.form != "float" or point.info.bits == 64
+
+
+def _text_or_digits_cases(point: Point, view: PointView) -> list[str]:
+    """The macros for the conversions of a text, or of digits."""
+    cases = []
+    if point.text is not None:
+        if view.readable:
+            cases.append(f"TEXT_DECODE({view.function}, {view.macro})")
+        if view.writable:
+            cases.append(f"TEXT_ENCODE({view.function}, {view.macro})")
+        return cases
+    kind = "uint16_t"
+    if view.readable:
+        attempt = "TRY_" if view.special is not None else ""
+        cases.append(f"{attempt}DIGITS({view.function}, {kind}, {view.macro})")
+    if view.writable:
+        cases.append(f"DIGITS_ENCODE({view.function}, {kind}, {view.macro})")
+    return cases
+
+
+def _place_cases(point: Point, view: PointView) -> list[str]:
+    """The macros for its places and the constant bits of its word."""
+    cases = []
+    if point.fixed is not None:
+        cases.append(f"FIXED({view.macro})")
+    if point.display is not None:
+        cases.append(f"DISPLAY({view.macro})")
+    if point.text is not None:
+        cases.append(f"PLACE_OF_TEXT({view.macro}, {view.function}, {_index_and_telegram(point, view)})")
+    elif point.addresses and (point.index is not None or point.telegram is not None):
+        first = min(point.addresses)
+        words = [f"FIELDSCRIBE_PLACED({view.macro}, {address - first}U)" for address in point.addresses]
+        cases.append(f"PLACE({' '.join(words)}, {_index_and_telegram(point, view)})")
+    return cases
+
+
+def _index_and_telegram(point: Point, view: PointView) -> str:
+    """The answers with the index and the telegram, as far as the point has them."""
+    calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
+    calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
+    return " ".join(calls)
+
+
+def _flag_cases(point: Point, view: PointView) -> Iterator[str]:
+    """The macros for flags, and for the named numbers of flags of several bits."""
+    for flag in point.flags:
+        number = _flag_number(view, flag.name, flag.width)
+        if flag.width == 1:
+            yield f'TRUTH("{flag.name}", {number}{_truth_test(point, view, flag.name)})'
+        else:
+            yield f'WIDE_FLAG("{flag.name}", {number}, {view.macro}_{upper(flag.name)})'
+        for entry in flag.values if flag.width > 1 else ():
+            of = view.macro if shares_values(point) else f"{view.macro}_{upper(flag.name)}"
+            constant = f"{of}_{upper(entry.name)}"
+            yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
+
+
+def _truth_test(point: Point, view: PointView, name: str) -> str:
+    """A test whether a flag is true, made of the macros that users of the header have."""
+    low = any(flag.width == 1 and not flag.active for flag in point.flags)
+    turned = f" ^ {view.macro}_ACTIVE_LOW_MASK" if low else ""
+    raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
+    return f", ((({raw}){turned}) & {view.macro}_{upper(name)}_MASK) != 0U"
+
+
+def _flag_number(view: PointView, name: str, width: int) -> str:
+    raw = f'(({view.raw_type})fieldscribe_bits(v, "raw"))'
+    if width > 1:
+        return f"{view.function}_{name}{raw}"
+    return f"({raw} & {view.macro}_{upper(name)}_MASK) != 0U"
+
+
+def _special_code_cases(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
+    """The macros for special codes."""
+    for special in point.specials:
+        (first, _), (last, _) = special_defines(special, f"{scope.upper}_{upper(owner(point))}", point)
+        yield f'SPECIAL("{special.name}", {first}, {last})'
+    if point.specials:
+        yield f"SPECIAL_NAME({view.function}, {view.raw_type})"
+
+
+def structs_of(point: Point, scope: HeaderScope) -> Iterator[StructView]:
+    """A function for each set of several raw numbers that some function of the point needs."""
+    counts = point.decimals is not None
+    integer = [point.limit_arguments] if point.writable else []
+    integer += [point.arguments] if point.writable and counts else []
+    integer += [point.scale_arguments] if point.readable and counts else []
+    for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
+        if len(names) > 1:
+            fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
+            yield StructView(scope.struct(point), _fill_function(point, names), fields, floating=names not in integer)
+
+
+def _arguments_of(point: Point, names: tuple[str, ...], scope: HeaderScope) -> str:
+    if not names:
+        return "FIELDSCRIBE_ALONE"
+    if len(names) > 1:
+        return f"FIELDSCRIBE_TOGETHER({_fill_function(point, names)})"
+    return " ".join(f'FIELDSCRIBE_WITH("{name}", {raw_type(scope.points[name])})' for name in names)
+
+
+def _fill_function(point: Point, names: tuple[str, ...]) -> str:
+    ways = {point.arguments: "", point.scale_arguments: "_scale", point.limit_arguments: "_limits"}
+    tail = "" if names == point.arguments else ways[names]
+    return f"with_{point.item}{tail}"

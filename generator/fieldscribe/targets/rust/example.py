@@ -1,0 +1,99 @@
+"""The first page of a crate: what a client does with points that this device has, as code that compiles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.literals import float_literal, value_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from fieldscribe.model import Device
+    from fieldscribe.targets.rust.layout import Lines
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+
+_VALUED = ("scaled", "ruled")
+_ALWAYS = ("points as p", "Client", "ClientError", "Transport", "PROFILE")
+
+
+def example_lines(device: Device, scope: CrateScope) -> Lines:
+    """What a function that talks to the device does; nothing if no point is read by itself alone."""
+    asked = [one for one in scope.subjects if one.point.telegram is None]
+    plain = [one for one in asked if one.point.readable and not one.factors and not one.point.specials]
+    if not plain:
+        return ()
+    read = next((one for one in plain if one.form == "scaled"), plain[0])
+    return (
+        f"let value = client.read::<p::{read.name}>()?;",
+        'println!("it is {value:?}");',
+        *_writes(asked),
+        *_special(asked),
+        *_blocks(device, asked),
+        *(f"client.command(&commands::{one.name.upper()})?;" for one in device.commands[:1]),
+    )
+
+
+def example_uses(device: str, lines: Sequence[str], names: Sequence[str]) -> Lines:
+    """What the example imports: beside what each does the family's `names`, and what these lines name."""
+    text = " ".join(lines)
+    asked = {"blocks": "blocks::", "commands": "commands::", "with": "with::", "telegrams": "telegrams::"}
+    asked |= {"Reading": "Reading::", "Receiver": "client.receive::"}
+    named = (*_ALWAYS, *names, *(name for name, used in asked.items() if used in text))
+    return filled(f"use {device}::{{", ", ", sorted(named, key=lambda name: (name[0].isupper(), name)), "};")
+
+
+def _writes(asked: list[CratePoint]) -> Iterator[str]:
+    """A point that needs no other, and one that does."""
+    written = [
+        one
+        for one in asked
+        if one.point.writable and one.point.encodes_values and not one.point.bits and one.form in _VALUED
+    ]
+    plain = _first(one for one in written if not one.arguments and not one.point.specials)
+    if plain is not None:
+        yield f"client.write::<p::{plain.name}>({_inside(plain)})?;"
+    needy = _first(one for one in written if one.arguments and one.point.readable and not one.point.specials)
+    if needy is not None:
+        fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
+        yield "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them."
+        yield f"let with = with::{needy.name} {{ {fields} }};"
+        yield f"client.write_with::<p::{needy.name}>(1.0, with)?;"
+
+
+def _inside(subject: CratePoint) -> str:
+    """A value in the middle of what the point takes."""
+    low, high = subject.point.outer
+    rule = subject.rule
+    if rule is None:
+        return "1.0"
+    return float_literal(float(round((((low + high) // 2) - rule.offset) / rule.ratio)))
+
+
+def _special(asked: list[CratePoint]) -> Iterator[str]:
+    """A point whose reading may be a special code."""
+    coded = _first(one for one in asked if one.point.specials and one.point.readable and not one.factors)
+    if coded is not None:
+        yield f"match client.read::<p::{coded.name}>()? {{"
+        yield '    Reading::Value(value) => println!("it is {value:?}"),'
+        yield '    Reading::Special(code) => println!("no quantity: {code}"),'
+        yield "}"
+
+
+def _blocks(device: Device, asked: list[CratePoint]) -> Iterator[str]:
+    """The reads of a group, and a point that they bring."""
+    for group, blocks in device.blocks.items():
+        for one in asked:
+            if one.point.readable and not one.factors and any(one.point.name in block.points for block in blocks):
+                yield f"for block in blocks::{group.upper()} {{"
+                yield "    let reply = client.read_block(block)?;"
+                yield f"    if block.brings::<p::{one.name}>() {{"
+                yield f'        println!("it is {{:?}}", reply.value::<p::{one.name}>()?);'
+                yield "    }"
+                yield "}"
+                return
+
+
+def _first(found: Iterable[CratePoint]) -> CratePoint | None:
+    return next(iter(found), None)

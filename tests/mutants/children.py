@@ -1,0 +1,85 @@
+"""Work in a child process, so that no module remembers an earlier mutant, bounded in time and memory."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import resource
+import signal
+import sys
+import tempfile
+import time
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+MEMORY = 6 << 30
+"""What a child may take."""
+
+
+TIME, BROKE_DOWN = "time", "break-down"
+
+
+class StoppedError(Exception):
+    """The child did not come to its end: TIME or BROKE_DOWN, and what it had told."""
+
+    def __init__(self, why: str, told: list[Any]) -> None:
+        super().__init__(why)
+        self.told = told
+
+
+def in_child(work: Callable[[Callable[[Any], None]], None], seconds: int) -> list[Any]:
+    """What `work` tells the function that it gets, as data of JSON. Raises StoppedError.
+
+    The seconds are those of a processor; by the clock it may take four times as long, as machines are shared.
+    """
+    with tempfile.TemporaryFile() as told:
+        sys.stdout.flush()
+        process = os.fork()
+        if not process:
+            _be_child(work, told.fileno(), seconds)
+        stopped = _wait(process, time.monotonic() + 4 * seconds)
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process, signal.SIGKILL)  # what the child started
+        told.seek(0)
+        answers = [json.loads(line) for line in told.read().splitlines() if line.endswith((b"}", b'"'))]
+    if stopped is None or (os.WIFSIGNALED(stopped) and os.WTERMSIG(stopped) in (signal.SIGXCPU, signal.SIGKILL)):
+        raise StoppedError(TIME, answers)
+    if stopped != 0:
+        raise StoppedError(BROKE_DOWN, answers)
+    return answers
+
+
+def _wait(process: int, end: float) -> int | None:
+    """How the child ended; None if it had to be stopped."""
+    pause = 0.001
+    while time.monotonic() < end:
+        ended, status = os.waitpid(process, os.WNOHANG)
+        if ended:
+            return status
+        time.sleep(pause)
+        pause = min(pause * 1.3, 0.05)
+    os.killpg(process, signal.SIGKILL)
+    os.waitpid(process, 0)
+    return None
+
+
+def _be_child(work: Callable[[Callable[[Any], None]], None], told: int, seconds: int) -> None:
+    code = 1
+    try:
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.RLIM_INFINITY))
+        silent = os.open(os.devnull, os.O_RDWR)
+        for stream in (0, 1, 2):
+            os.dup2(silent, stream)
+        work(lambda one: _tell(told, one))
+        code = 0
+    finally:
+        os._exit(code)
+
+
+def _tell(told: int, one: Any) -> None:
+    os.write(told, json.dumps(one).encode() + b"\n")

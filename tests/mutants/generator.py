@@ -1,0 +1,190 @@
+"""Mutants of the compiler: does an output change, or does a test fail?
+
+A parent that has loaded everything but the compiler forks a child for each mutant, which imports the changed module
+from memory. The child compiles the devices whose compilation enters the changed function and compares with what the
+sound compiler made of them, the small ones first; then it runs the tests that enter it, those that enter little first.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import CodeType
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from mutants.children import StoppedError, in_child
+from mutants.importing import compiled, use
+from mutants.judges import KILLED, LEFT_OUT, ROOT, SURVIVED, Verdict
+from mutants.noticing import TARGETS, compiled_to, measured_output, measured_tests, run_tests
+from mutants.rooms import HOUSE, place_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from pathlib import Path
+
+    from mutants.noticing import FileOfTests, Witness
+    from mutants.sources import Mutant
+
+TESTED = 12.0
+"""Seconds of tests for one mutant, by what they took when they were measured."""
+BESIDE = 3.0
+"""Seconds of tests in a file that do not enter the changed function themselves; they may read what another one made."""
+STARTED = 0.3
+"""Seconds that a file of tests takes before its first test."""
+LIMIT = 45
+"""Seconds of a processor after which a mutant is taken to hang."""
+_LOADED = ("jinja2", "yaml", "rich.console", "rich.table", "hypothesis", "jsonschema")
+
+Codes = dict[str, CodeType]
+
+NOBODY, IMPORT = "nobody", "it does not import"
+
+
+class GeneratorJudge:
+    """Knows who enters which function, and asks them."""
+
+    def __init__(self, work: Path, compiled_devices: Iterable[str], tests: Iterable[Path]) -> None:
+        sys.pycache_prefix = str(work / "python")
+        sys.dont_write_bytecode = False
+        for name in _LOADED:
+            importlib.import_module(name)
+        measured = work / "measured"
+        self.outputs: list[tuple[Witness, str, str, dict[str, str]]] = []
+        for device in compiled_devices:
+            for target in TARGETS:
+                judge, made = measured_output(device, target, measured)
+                self.outputs.append((judge, device, target, made))
+        self.files = [measured_tests(path, measured) for path in tests]
+        self.codes = compiled()
+        self.sound: dict[str, bool] = {}
+
+    def verdict(self, mutant: Mutant) -> Verdict:
+        """Who notices it first."""
+        path = HOUSE / mutant.path
+        try:
+            code = compile(mutant.text, path, "exec", dont_inherit=True)
+        except (SyntaxError, ValueError):
+            return Verdict(LEFT_OUT, "it does not compile")
+        place = place_of(mutant)
+        while True:
+            by = self._asked({**self.codes, str(path): code}, mutant.path, place)
+            if by in (NOBODY, IMPORT):
+                return Verdict(SURVIVED, "") if by == NOBODY else Verdict(LEFT_OUT, by)
+            if not by.startswith("tests/") or self._is_sound(by):
+                return Verdict(KILLED, by)
+
+    def _asked(self, codes: Codes, changed: str, place: str) -> str:
+        """Who notices a change of a file, in a child."""
+
+        def work(tell: Callable[[Any], None]) -> None:
+            use(codes)
+            tell(_import_fails(changed) or self._output_that_differs(place) or self._test_that_fails(place) or NOBODY)
+
+        try:
+            return str(in_child(work, LIMIT)[-1])
+        except StoppedError as stopped:
+            return str(stopped)
+
+    def _output_that_differs(self, place: str) -> str:
+        """The first, in the order of devices, those of tests first."""
+        for judge, device, target, made in self.outputs:
+            if place in judge.enters and _differs(device, target, made):
+                return judge.name
+        return ""
+
+    def _test_that_fails(self, place: str) -> str:
+        for path, names in self.chosen(place).items():
+            if failing := _failing(path, names):
+                return failing
+        return ""
+
+    def chosen(self, place: str) -> dict[Path, list[str]]:
+        """The tests that may notice, by file: those that enter little first, as far as the time goes."""
+        known = [(file, test) for file in self.files for test in entering(file, place) if self._may_judge(test)]
+        found: dict[Path, list[str]] = {}
+        left = TESTED
+        for file, test in sorted(known, key=lambda one: (len(one[1].enters), one[1].seconds)):
+            cost = test.seconds + (0 if file.path in found else STARTED)
+            if cost <= left:
+                left -= cost
+                found.setdefault(file.path, []).append(test.name)
+        for file in self.files:
+            if file.path in found:
+                found[file.path] += self._beside(file, set(found[file.path]))
+        return found
+
+    def _beside(self, file: FileOfTests, chosen: set[str]) -> Iterator[str]:
+        left = BESIDE
+        for test in file.tests:
+            if test.name not in chosen and test.seconds <= left and self._may_judge(test):
+                left -= test.seconds
+                yield test.name
+
+    def _may_judge(self, test: Witness) -> bool:
+        return self.sound.get(test.name, True)
+
+    def _is_sound(self, name: str) -> bool:
+        """Whether a test passes alone without a change: one that does not can tell nothing."""
+        if name not in self.sound:
+
+            def work(tell: Callable[[Any], None]) -> None:
+                use(self.codes)
+                tell(_failing(ROOT / name.partition("::")[0], [name]))
+
+            self.sound[name] = in_child(work, LIMIT) == [""]
+            if not self.sound[name]:
+                print(f"{name} fails alone without a change, so it is left out")
+        return self.sound[name]
+
+
+def entering(file: FileOfTests, place: str) -> Sequence[Witness]:
+    """The tests of a file that enter a function; of what runs at import, those that enter anything of the module."""
+    direct = [test for test in file.tests if place in test.enters]
+    module, _, function = place.partition("::")
+    if function or place not in file.enters:
+        return direct
+    using = [test for test in file.tests if any(one.startswith(f"{module}::") for one in test.enters)]
+    return using or file.tests
+
+
+def _import_fails(changed: str) -> str:
+    name = changed.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+    try:
+        importlib.import_module(name)
+    except Exception:  # whatever a mutant does
+        return IMPORT
+    return ""
+
+
+def _differs(device: str, target: str, made: dict[str, str]) -> bool:
+    try:
+        return compiled_to(device, target) != made
+    except Exception:  # whatever a mutant does
+        return True
+
+
+def _failing(path: Path, names: list[str]) -> str:
+    """The first of these tests that fails, or the file if it cannot be read."""
+    chosen = Chosen(names)
+    code = run_tests([path], chosen, "-x")
+    return chosen.failing or (path.relative_to(ROOT).as_posix() if code else "")
+
+
+class Chosen:
+    """Some tests of a file, in a given order, until one fails."""
+
+    def __init__(self, names: list[str]) -> None:
+        self._order = {name: at for at, name in enumerate(names)}
+        self.failing = ""
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Leave out the others."""
+        items[:] = sorted((one for one in items if one.nodeid in self._order), key=lambda one: self._order[one.nodeid])
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Take note of the first that fails."""
+        if report.failed and not self.failing:
+            self.failing = report.nodeid

@@ -1,0 +1,91 @@
+"""Imports of the compiler from memory: with one changed module, or with each function telling that it was entered."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import sys
+from functools import cache
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from typing import TYPE_CHECKING
+
+from mutants.rooms import HOUSE, MODULE, PACKAGE, functions_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from types import CodeType, ModuleType
+
+SEEN: set[str] = set()
+"""The functions that were entered, as `path::name`, where they tell."""
+_TELLS = "__fieldscribe_was_entered__"
+
+
+def compiled() -> dict[str, CodeType]:
+    """The code of each module, by its path."""
+    texts = {path: path.read_text("utf-8") for path in PACKAGE.rglob("*.py")}
+    return {str(path): compile(text, path, "exec", dont_inherit=True) for path, text in texts.items()}
+
+
+@cache
+def telling() -> dict[str, CodeType]:
+    """The code of each module, whose functions note in SEEN that they were entered."""
+    setattr(builtins, _TELLS, SEEN.add)
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        tree = ast.parse(path.read_text("utf-8"))
+        name = path.relative_to(HOUSE).as_posix()
+        bodies = [(node.body, inner) for node, inner in functions_of(tree)]
+        for body, inner in [*bodies, (tree.body, MODULE)]:
+            body.insert(_first(body), _note(f"{name}::{inner}"))
+        found[str(path)] = compile(ast.fix_missing_locations(tree), path, "exec", dont_inherit=True)
+    return found
+
+
+def _note(name: str) -> ast.stmt:
+    return ast.parse(f"{_TELLS}({name!r})").body[0]
+
+
+def _first(body: Sequence[ast.stmt]) -> int:
+    """The place behind a docstring and what must stand first."""
+    return next((at for at, node in enumerate(body) if not _stands_first(node)), len(body))
+
+
+def _stands_first(node: ast.stmt) -> bool:
+    if isinstance(node, ast.ImportFrom):
+        return node.module == "__future__"
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+
+
+class FromMemory:
+    """Finds the compiler's modules where they lie, with the given code."""
+
+    def __init__(self, codes: dict[str, CodeType]) -> None:
+        self.codes = codes
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """The module with its code; None for the modules of others."""
+        if name.partition(".")[0] != PACKAGE.name:
+            return None
+        spec = PathFinder.find_spec(name, [str(HOUSE)] if path is None else path, target)
+        if spec is not None and spec.origin in self.codes:
+            spec.loader = _Loader(name, spec.origin, self.codes[spec.origin])
+        return spec
+
+
+class _Loader(SourceFileLoader):
+    def __init__(self, name: str, path: str, code: CodeType) -> None:
+        super().__init__(name, path)
+        self._code = code
+
+    def get_code(self, fullname: str) -> CodeType:
+        """The given one."""
+        del fullname
+        return self._code
+
+
+def use(codes: dict[str, CodeType]) -> None:
+    """Import the compiler like this from now on; it must not have been imported yet."""
+    assert PACKAGE.name not in sys.modules
+    sys.meta_path.insert(0, FromMemory(codes))

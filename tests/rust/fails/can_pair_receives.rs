@@ -1,0 +1,12 @@
+// error: E0277
+// says: a pair of receivers is asked by its parts
+// Nobody can tell which receiver of a pair waits.
+
+use fieldscribe_runtime::can::{Client, Receiver, Transport};
+use odd_can::{points::Frequency, telegrams};
+
+type Pair = (Receiver<telegrams::Measured>, Receiver<telegrams::Telegram>);
+
+pub fn wrong<T: Transport>(client: &mut Client<T, Pair>) {
+    let _ = client.receive::<Frequency>();
+}

@@ -1,0 +1,10 @@
+// error: E0277
+// says: `write_with`
+// A point that needs other points is not written without them.
+
+use fieldscribe_runtime::client::{Client, Transport};
+use sample_drive::points::VoltageSetpoint;
+
+pub fn wrong<T: Transport>(client: &mut Client<T>) {
+    let _ = client.write::<VoltageSetpoint>(230.0);
+}
