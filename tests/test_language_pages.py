@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-
 from fieldscribe.cli import main
 
 if TYPE_CHECKING:
@@ -32,7 +31,10 @@ documents: {manual: {title: Manual, language: en}}
 bus:
   framings: [rtu]
   units: 1..247
-  functions: {01h: read_coils, 03h: {name: read_holding_registers, max: 125}, 06h: write_register, 10h: {name: write_registers, max: 123}}
+  functions:
+    03h: {name: read_holding_registers, max: 125}
+    06h: write_register
+    10h: {name: write_registers, max: 123}
 """
 GROUP = {"group": "{name}", "space": "holding", "access": "rw", "source": '{{document: manual, section: "1"}}'}
 """What the group of a fragment says, unless the page says it."""
