@@ -10,10 +10,10 @@ import random
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from descriptions_as_values import WHOLES, as_texts, as_yaml, changed, nodes, write_files
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
-from test_robust import WHOLES, as_texts, as_yaml, changed, nodes, write_files
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from descriptions_as_values import as_texts, write_files
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
 from fieldscribe.pipeline import load_device
-from test_robust import as_texts, write_files
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device

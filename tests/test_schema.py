@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.modbus.requests import crc16
@@ -23,7 +24,6 @@ from fieldscribe.language.shape import check_shape
 from fieldscribe.language.shape_checks import compiled_pattern
 from fieldscribe.language.source import SourceFile, read_source
 from jsonschema import Draft7Validator, validators
-from test_robust import WHOLES, as_yaml, changed, nodes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
