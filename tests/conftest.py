@@ -10,7 +10,7 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from c_device import Folders
+    from support.c_device import Folders
 
 T = TypeVar("T")
 UNTOLD = 2.0
@@ -46,6 +46,6 @@ def seconds(item: pytest.Item) -> float:
 @pytest.fixture(scope="session")
 def folders(tmp_path_factory: pytest.TempPathFactory) -> Folders:
     """The generated C of the made devices."""
-    from c_device import Folders
+    from support.c_device import Folders
 
     return Folders(tmp_path_factory)

@@ -11,7 +11,7 @@ from conformance.uss import link_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from vector_file import Vector
+    from support.vector_file import Vector
 
     from conformance.package import Check, Package
 

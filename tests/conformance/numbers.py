@@ -10,7 +10,7 @@ from conformance.package import pattern, raws_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from vector_file import Vector
+    from support.vector_file import Vector
 
     from conformance.package import Check, Package
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from vector_file import Vector
+    from support.vector_file import Vector
 
 
 class Package:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from vector_file import Vector
+    from support.vector_file import Vector
 
 
 class Script:

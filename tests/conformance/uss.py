@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from vector_file import Vector
+    from support.vector_file import Vector
 
     from conformance.package import Check, Package
 

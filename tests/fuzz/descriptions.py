@@ -15,10 +15,10 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from descriptions_as_values import BAD, DEVICES, HOSTILE, WHOLES, as_texts, changed, nodes, write_files
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
+from support.descriptions_as_values import BAD, DEVICES, HOSTILE, WHOLES, as_texts, changed, nodes, write_files
 
 from fuzz.languages import Result
 

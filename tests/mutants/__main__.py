@@ -64,7 +64,7 @@ def _code(language: str, seed: str, count: int) -> Table:
     """The mutants of one language."""
     work = CACHE / language
     base = _generated(work / "base", language)
-    runner = [ROOT / "tests/conformance", *sorted(ROOT.glob("tests/vector*.py"))]
+    runner = [ROOT / "tests/conformance", *sorted(ROOT.glob("tests/support/vector*.py"))]
     state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
     judge: list[object] = []
@@ -100,7 +100,7 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
     inputs = [ROOT / part for part in ("generator/fieldscribe", "templates", "descriptions", "tests/devices")]
     tests = _digest([*sorted(ROOT.glob("tests/*.py")), ROOT / "tests/bad", HERE / "generator.py"])
     results = Results(CACHE / f"generator-{seed}-{_digest(inputs)}.jsonl")
-    files = sorted(ROOT.glob("tests/test_*.py"))
+    files = sorted(ROOT.glob("tests/**/test_*.py"))
     table, judge = Table("generator"), cache(lambda: GeneratorJudge(CACHE / "generator", devices(), files))
     draws = {room: drawn_in(room, rooms()[room], seed) for room in chosen}
 
@@ -149,7 +149,7 @@ def _generated(folder: Path, language: str) -> Path:
     command = [str(Path(sys.executable).parent / "fieldscribe"), "generate", "descriptions", "tests/devices"]
     subprocess.run([*command, "--out", str(folder)], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     if language == "c":
-        from c_device import rare_device, write_c
+        from support.c_device import rare_device, write_c
 
         write_c(rare_device(), folder)  # what no description needs at once, built as a model
     return folder

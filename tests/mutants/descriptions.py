@@ -104,7 +104,7 @@ class DescriptionJudge:
         shutil.rmtree(work, ignore_errors=True)
         shutil.copytree(ROOT / "descriptions", self.folder)
         self.readings = [
-            *sorted((ROOT / "tests").glob("*second_reading*.py")),
+            *sorted((ROOT / "tests/support").glob("second_reading*.py")),
             *sorted((ROOT / "tests/readings").iterdir()),
         ]
         self.audits = {path.parent.name: self._first(path.parent.name) for path in self.folder.glob("*/device.yaml")}
@@ -182,6 +182,6 @@ def _fieldscribe(*words: str) -> tuple[int, str]:
 
 def _second_reading(device: str) -> bool:
     """Whether the description is not what the second reading of its manual says."""
-    from second_reading import differences
+    from support.second_reading import differences
 
     return bool(differences(device, Path("descriptions", device)))

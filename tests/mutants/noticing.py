@@ -102,7 +102,7 @@ def measured_output(device: str, target: str, folder: Path) -> tuple[Witness, di
 
 def measured_tests(path: Path, folder: Path) -> FileOfTests:
     """What the tests of a file enter, those of the core suite that pass."""
-    shared = [one for one in TESTS.glob("*.py") if not one.name.startswith("test_")]
+    shared = [*TESTS.glob("*.py"), *(TESTS / "support").glob("*.py")]
     file = folder / f"{path.stem}-{_digest([path, *shared], _names())}.json"
     rows = _kept(file, lambda: _measured(path))
     tests = [Witness(row["name"], row["seconds"], frozenset(row["enters"])) for row in rows if row.get("name")]

@@ -1,0 +1,84 @@
+"""Each description says what the second reading of its manual says, fact by fact; see second_reading.py."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import pytest
+from support.places import ROOT
+from support.second_reading import READ_TWICE, differences, errata, key, rows, settled_wrongly, unanswered
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+each_device = pytest.mark.parametrize("name", READ_TWICE)
+
+
+@each_device
+def test_the_description_says_what_the_second_reading_says(name: str) -> None:
+    found = differences(name, ROOT / "descriptions" / name)
+    assert not found, "\n".join(map(str, found))
+
+
+@each_device
+def test_each_row_is_told_from_the_others(name: str) -> None:
+    keys = Counter(key(row) for row in rows(name) if row["kind"] != "note")
+    assert [one for one, times in keys.items() if times > 1] == []
+
+
+@each_device
+def test_what_is_settled_was_read_otherwise_and_has_its_reason(name: str) -> None:
+    assert settled_wrongly(name, errata(ROOT / "descriptions" / name)) == []
+
+
+@each_device
+def test_every_finding_of_the_second_reader_is_answered(name: str) -> None:
+    assert unanswered(name, errata(ROOT / "descriptions" / name)) == []
+
+
+def test_every_description_was_read_twice() -> None:
+    assert sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml")) == READ_TWICE
+
+
+SLIPS = [
+    (
+        "hitachi_l200",
+        "coils.yaml",
+        {"0: {name: forward": "0: {name: reverse", "1: {name: reverse": "1: {name: forward"},
+        "enum 0",
+    ),
+    ("hitachi_l200", "coils.yaml", {"name: overload\n": "name: overheating\n"}, "name"),
+    ("hitachi_l200", "monitor_d.yaml", {"type: u32": "type: s32"}, "type"),
+    ("hitachi_l200", "monitor_d.yaml", {"access: r\n": "access: rw\n"}, "access"),
+    (
+        "jumo_controller",
+        "process_data.yaml",
+        {"name: output_2,": "name: output_3,", "name: output_3,": "name: output_2,"},
+        "flags 1",
+    ),
+    ("jumo_controller", "process_data.yaml", {"at: 0x005B": "at: 0x005F"}, "the whole row"),
+    ("nord_sk5xxe", "process_data.yaml", {"name: quick_stop": "name: slow_stop"}, "flags 2"),
+    ("siemens_mm4", "parameters.yaml", {"unit: Hz": "unit: s"}, "unit"),
+    (
+        "woodward_mpu2s",
+        "telegram.yaml",
+        {"raw / 10 ": "raw / 100 ", "raw * 10 ** IGNEXPO": "raw * 10 ** UGNEXPO"},
+        "scale",
+    ),
+]
+"""(device, file, what is exchanged in it, the fact that differs then)."""
+
+
+@pytest.mark.parametrize(("name", "file", "exchanged", "fact"), SLIPS)
+def test_a_slip_is_noticed(tmp_path: Path, name: str, file: str, exchanged: dict[str, str], fact: str) -> None:
+    folder = tmp_path / name
+    shutil.copytree(ROOT / "descriptions" / name, folder)
+    text = (folder / file).read_text("utf-8")
+    either = "|".join(map(re.escape, exchanged))
+    changed = re.sub(either, lambda found: exchanged[found[0]], text)
+    assert changed != text
+    (folder / file).write_text(changed, "utf-8")
+    assert fact in {one.fact for one in differences(name, folder)}

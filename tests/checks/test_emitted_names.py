@@ -1,0 +1,213 @@
+"""Names in generated code: the lists hold what is defined, and nasty names define nothing twice or are refused."""
+
+from __future__ import annotations
+
+import ast
+import random
+import re
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import target
+from fieldscribe.targets.rust.identifiers import CONSTANTS
+from support.places import TESTS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+
+LANGUAGES = ("c", "python", "rust")
+"""Targets in which names of the description become identifiers."""
+
+DEVICES = TESTS / "devices"
+SEEDS = 60
+
+HEAD = """\
+fieldscribe: 1
+device: {device}
+version: 1.0.0
+vendor: Maker
+model: M1
+title: Made up
+family: modbus
+documents: {{manual: {{title: Manual, language: en}}}}
+variants:
+  {axis}: {{title: Axis, values: {{{first}: {{}}, {second}: {{}}}}}}
+bus:
+  framings: [rtu]
+  units: 1..247
+  exceptions: {{01h: {first}}}
+  functions: {{03h: read, 06h: write, 10h: write_many}}
+commands:
+- {{name: {command}, space: holding, at: 9000, function: 06h, value: 1, section: "2"}}
+---
+group: {group}
+space: holding
+source: {{document: manual, section: "1"}}
+points:
+"""
+
+WORDS = (
+    *("a", "b", "ready", "active_low", "low", "mask", "shift", "raw", "min", "max", "raw_min", "count", "blocks"),
+    *("words", "address", "code", "space", "name", "class", "self", "type", "fn", "none", "true", "value", "of"),
+    *("read", "write", "request", "command", "encode", "decode", "check", "first", "last", "with", "get", "all_false"),
+    *(
+        "group_count",
+        "exception",
+        "status",
+        "ok",
+        "points",
+        "enums",
+        "factors",
+        "flags",
+        "old",
+        "unit",
+        "link",
+        "1",
+        "12",
+    ),
+)
+
+
+def name(chance: random.Random) -> str:
+    """One to three of the words that targets themselves put into names."""
+    words = [chance.choice(WORDS) for _ in range(chance.choice((1, 1, 2, 2, 3)))]
+    text = "_".join(words)
+    return text if text[0].isalpha() else f"a{text}"
+
+
+def nasty(seed: int) -> str:
+    """A device of few names that come near each other."""
+    chance = random.Random(seed)
+    pool = [name(chance) for _ in range(7)]
+    pool += [f"{chance.choice(pool)}_{chance.choice(WORDS)}".strip("_") for _ in range(7)]
+
+    def one() -> str:
+        return chance.choice(pool)
+
+    keys = ("device", "axis", "first", "second", "command", "group")
+    lines = [HEAD.format(**{key: one() for key in keys})]
+    for at, point in enumerate(dict.fromkeys(one() for _ in range(9))):
+        first, second = one(), one()
+        facts = chance.choice(
+            (
+                f"flags: {{0: {{name: {first}, active: 0}}, 1: {second}}}",
+                f"flags: {{1..0: {{name: {first}, values: {{0: {second}, 1: {one()}}}}}, 3: {one()}}}",
+                f"enum: {{0: {first}, 1: {second}}}",
+                f"range: 0..100, scale: value = raw * 0.1, special: {{0FFFFh: {first}, 0FFFEh: {second}}}",
+                f"range: 0..9, was: [{first}]",
+                "type: ~",
+                "bits: 3..0, range: 0..9",
+            )
+        )
+        lines.append(f"- {{name: {point}, at: {at}, {facts}}}\n")
+    return "".join(lines)
+
+
+def loaded(text: str, folder: Path) -> Device | None:
+    """The device, if it passes `check`."""
+    file = folder / "device.yaml"
+    file.write_text(text, "utf-8")
+    return load_device(file, Report())
+
+
+def c_names(text: str) -> Iterator[str]:
+    """What a header defines, but for its guard and what stands in branches of the preprocessor twice."""
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+    defines = dict(re.findall(r"^#define (\w+)(?:\(.*?\))? ?(.*)$", text, re.MULTILINE))
+    both = re.findall(r"^#define (\w+)(?:\(.*?\))? ?(.*)$", text, re.MULTILINE)
+    yield from (one for one, value in both if defines[one] != value)  # only other definitions of one name are errors
+    yield from defines
+    yield from re.findall(r"^    ([A-Z]\w+) = ", text, re.MULTILINE)
+    yield from re.findall(r"^static const .*?\b(\w+)(?:\[\w*\])? = ", text, re.MULTILINE)
+    yield from re.findall(r"^static [^;=]*?\b(\w+)\([^;]*?\)\n\{", text, re.MULTILINE)
+
+
+def python_names(text: str) -> Iterator[tuple[str, str]]:
+    """What a module and its classes define, by scope."""
+    tree = ast.parse(text)
+    holders: list[ast.Module | ast.ClassDef] = [tree, *(one for one in ast.walk(tree) if isinstance(one, ast.ClassDef))]
+    for holder in holders:
+        scope = getattr(holder, "name", "")
+        for one in holder.body:
+            if isinstance(one, ast.Assign | ast.AnnAssign):
+                targets = one.targets if isinstance(one, ast.Assign) else [one.target]
+                yield from ((scope, each.id) for each in targets if isinstance(each, ast.Name))
+            elif isinstance(one, ast.ClassDef | ast.FunctionDef):
+                yield scope, one.name
+            elif isinstance(one, ast.Import | ast.ImportFrom):
+                yield from ((scope, each.asname or each.name) for each in one.names)
+        for inside in ast.walk(holder):
+            if isinstance(inside, ast.FunctionDef):
+                given = (*inside.args.posonlyargs, *inside.args.args, *inside.args.kwonlyargs)
+                arguments = [each.arg for each in given]
+                assert len(arguments) == len(set(arguments)), arguments
+
+
+def rust_names(text: str) -> Iterator[tuple[str, str]]:
+    """What a module and its inherent blocks define, by scope: types and values apart."""
+    scope = ""
+    for line in text.splitlines():
+        if found := re.match(r"(?:pub )?(?:mod|impl|pub enum|enum) ([\w: ]+?) \{", line):
+            scope = found[0]
+        elif line.startswith("}"):
+            scope = ""
+        kinds = r"\s*pub (?:const fn|fn|const|struct|enum|mod|type) (\w+)"
+        if found := re.match(kinds, line):
+            yield scope if line.startswith(" ") else "", found[1]
+
+
+def doubles(device: Device) -> list[object]:
+    """Names that generated code defines twice in one place."""
+    found: list[object] = []
+    for _, path, text in outputs(device, LANGUAGES):
+        copied = any(one in path.removeprefix("c/") for one in ("fieldscribe_", "conformance", "/runner/"))
+        if copied or device.id not in path:
+            continue
+        if path.endswith(".h"):
+            names: list[object] = list(c_names(text))
+        elif path.endswith(".py"):
+            names = list(python_names(text))
+        elif path.endswith(".rs"):
+            names = list(rust_names(text))
+        else:
+            continue
+        found += [(path, one) for one, count in Counter(names).items() if count > 1]
+    return found
+
+
+@pytest.mark.parametrize("part", range(6))
+def test_nasty_names(part: int, tmp_path: Path) -> None:
+    """A device that passes `check` defines nothing twice in any target."""
+    for seed in range(part, SEEDS, 6):
+        device = loaded(nasty(seed), tmp_path)
+        assert device is None or doubles(device) == [], seed
+
+
+@pytest.mark.parametrize("folder", sorted(DEVICES.iterdir()), ids=lambda one: one.name)
+def test_the_lists_hold_what_is_defined(folder: Path) -> None:
+    """Every name that the headers define is one that the target lists, and no other is."""
+    device = load_device(folder / "device.yaml", Report())
+    assert device is not None
+    listed = {name for one in target("c").identifiers(device) for name in one.names}
+    headers = [text for _, path, text in outputs(device, ["c"]) if path.startswith(f"c/{device.id}")]
+    assert len(headers) == 2
+    assert {name for header in headers for name in c_names(header)} - listed == set()
+    code = re.sub(r"/\*.*?\*/", "", "\n".join(headers), flags=re.DOTALL)
+    assert listed - set(re.findall(r"\w+", code)) == set(), "a name that no header has would be refused for nothing"
+    for name in LANGUAGES:
+        assert len(list(target(name).identifiers(device))) > len(device.points)
+
+
+def test_the_constants_of_rust_are_those_of_its_traits() -> None:
+    """The traits have no constant that a special code could hide without a finding."""
+    runtime = templates_dir() / "rust" / "runtime" / "fieldscribe_runtime" / "src" / "point.rs"
+    constants = re.findall(r"^    const ([A-Z_]+):", runtime.read_text("utf-8"), re.MULTILINE)
+    assert constants
+    assert {name.lower() for name in constants} <= CONSTANTS

@@ -1,0 +1,84 @@
+"""`decode` and the generated parsers judge the same bytes alike: each wrong byte of the vectors is a fault here too."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.conversation.listener import decode
+from fieldscribe.families.modbus import requests as modbus
+from fieldscribe.families.modbus.functions import profile_of
+from fieldscribe.families.uss import telegrams as uss
+from fieldscribe.targets.vectors.collection import collect
+from support.asked import asked as chosen
+from support.devices_by_family import shipped
+from support.models import made
+from support.vector_file import File
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.families.answers import Heard
+    from fieldscribe.model import Device
+    from support.vector_file import Vector
+
+
+def vectors(device: Device, kind: str) -> Iterator[Vector]:
+    """The vectors of one kind that have bytes at all."""
+    text = collect(device).text(device.id, device.version, device.digest)
+    return (one for one in File(text) if one["kind"] == kind and one["bytes"])
+
+
+def holds(vector: Vector, heard: Heard, sound: bool) -> None:
+    """The frame is whole, and answers what was asked, where the parsers say so, and not elsewhere."""
+    assert sound == (not heard.faults and heard.kind not in ("other", "unreadable")), (vector, heard)
+
+
+@pytest.mark.parametrize("device", [made("kitchen_sink"), shipped("jumo_controller")], ids=lambda one: one.id)
+def test_replies_of_modbus(device: Device) -> None:
+    """Whole replies and exceptions are sound; a changed byte, unit, function, transaction or echo is a fault."""
+    judged = set()
+    for one in vectors(device, "reply"):
+        values = tuple(one["values"])
+        request = modbus.Request(
+            one["unit"], one["function"], one["address"], one["count"], values, one["transaction"] or 0
+        )
+        _, sent = modbus.build(profile_of(device.bus), one["framing"], request)
+        options = chosen(framing=one["framing"], request=sent.hex())
+        holds(one, decode(device, {}, [one["bytes"].hex()], options)[-1], one["status"] in ("ok", "exception"))
+        judged.add(one["status"])
+    assert {"ok", "exception", "bad_crc", "wrong_unit", "wrong_function", "echo_mismatch", "short_frame"} <= judged
+
+
+@pytest.mark.parametrize("device", [made("kitchen_can"), shipped("woodward_mpu2s")], ids=lambda one: one.id)
+def test_messages_of_a_makers_protocol(device: Device) -> None:
+    """A frame is the message of the unit that was asked for, or it is damaged, or it is another's."""
+    judged = set()
+    for one in vectors(device, "can_parse"):
+        [heard] = decode(device, {}, [f"{one['id']:X}#{one['bytes'].hex()}"], chosen())
+        if one["status"] in ("wrong_id", "wrong_unit") and not heard.faults:
+            assert heard.kind == "other" or heard.unit != one["unit"], (one, heard)
+        else:
+            holds(one, heard, one["status"] == "ok")
+        answers = heard.kind == "reply" and not heard.faults
+        assert not answers or not any(item.findings for item in heard.items), (one, heard)
+        judged.add(one["status"])
+    assert {"ok", "wrong_check", "wrong_constant", "wrong_length", "wrong_id", "wrong_unit"} <= judged
+
+
+@pytest.mark.parametrize("device", [made("kitchen_uss"), shipped("siemens_mm4")], ids=lambda one: one.id)
+def test_answers_of_uss(device: Device) -> None:
+    """Refusals are answers; a telegram of another unit, parameter or task, or with a wrong byte, is a fault."""
+    judged = set()
+    for one in vectors(device, "uss_reply"):
+        link = uss.Link(one["pkw"], one["pzd"], bool(one["single_first"]))
+        asked = one["unit"], one["task"], one["parameter"], one["index"]
+        request = uss.Request(*asked, words=(0,) * link.pzd)  # the values that are sent have no part in the answer
+        status, sent = uss.build(device.bus, link, request)
+        if status != "ok":
+            continue
+        options = chosen(request=sent.hex(), pkw=link.pkw, pzd=link.pzd, single_first=link.single_first)
+        heard = decode(device, {}, [one["bytes"].hex()], options)[-1]
+        holds(one, heard, one["status"] in ("ok", "refused", "no_rights", "no_answer"))
+        judged.add(one["status"])
+    assert {"ok", "refused", "no_rights", "wrong_check", "wrong_response", "wrong_parameter", "wrong_unit"} <= judged

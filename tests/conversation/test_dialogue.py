@@ -1,0 +1,259 @@
+"""Modbus frames in words: what each says alone, and what only the frame before it can tell."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.asked import RefusedError
+from fieldscribe.conversation.listener import Listener
+from fieldscribe.conversation.requests import read_text
+from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.sending import words_of, write_request
+from fieldscribe.families.modbus.speech import ModbusSpeech
+from hypothesis import given
+from hypothesis import strategies as st
+from support.models import changed, named, sample_device
+
+if TYPE_CHECKING:
+    from fieldscribe.families.answers import Heard
+
+DEVICE = sample_device()
+
+
+def rtu(text: str) -> bytes:
+    """The bytes with their checksum."""
+    body = bytes.fromhex(text)
+    return body + crc16(body).to_bytes(2, "little")
+
+
+def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> Heard:
+    """The last of the frames, heard after the others."""
+    listening = Listener(DEVICE, settings, ModbusSpeech(DEVICE))
+    if request is not None:
+        listening.expect_reply_to(request)
+    return [listening.hear(data) for data in frames][-1]
+
+
+def said(heard: Heard) -> list[str]:
+    """What the items say."""
+    return [item.text for item in heard.items]
+
+
+def test_a_write_is_a_request_or_its_echo() -> None:
+    heard = hear(rtu("05 06 10 28 01 F4"))
+    assert heard.kind == "request_or_reply"
+    assert (heard.unit, heard.function, heard.faults, heard.notes) == (5, 6, (), ())
+    assert heard.checks == "ok (0C 91)"
+    assert said(heard) == ["A020 base_frequency = 50 Hz (raw 500 = 01F4h): Base frequency"]
+    again = hear(rtu("05 06 10 28 01 F4"), rtu("05 06 10 28 01 F4"))
+    assert again.kind == "reply"
+    assert "the device has taken the request" in again.summary
+
+
+def test_the_manuals_wrong_checksum() -> None:
+    heard = hear(bytes.fromhex("0506102801F4A854"))
+    assert heard.checks == "wrong: A8 54; these bytes give 0C 91"
+    assert heard.faults == ("the checksum is wrong",)
+    assert "write_crc" in heard.notes[0]
+    assert said(heard)[0].startswith("A020 base_frequency = 50 Hz")
+
+
+def test_swapped_and_missing_checksums() -> None:
+    right = rtu("05 06 10 28 01 F4")
+    swapped = hear(right[:-2] + right[:-3:-1])
+    assert swapped.faults == ("the bytes of the checksum are swapped",)
+    missing = hear(right[:-2])
+    assert missing.faults == ("the checksum is missing",)
+    assert missing.checks == "missing; it would be 0C 91"
+    assert said(missing) == said(swapped)
+    assert hear(bytes.fromhex("058621")).exception == 0x21
+
+
+def test_read_and_reply() -> None:
+    request = rtu("01 03 10 13 00 02")
+    assert said(hear(request)) == ["F002 acceleration_time: Acceleration time"]
+    reply = rtu("01 03 04 00 04 93 E0")
+    heard = hear(request, reply)
+    assert (heard.kind, heard.faults) == ("reply", ())
+    assert said(heard) == ["F002 acceleration_time = 3000 s (raw 300000 = 000493E0h): Acceleration time"]
+    assert said(hear(reply, request=request)) == said(heard)
+    alone = hear(reply)
+    assert alone.items == ()
+    assert "--request" in alone.notes[0]
+
+
+def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
+    """Eight bytes: only the open request tells that they are a reply."""
+    reply = rtu("01 01 03 01 00 08")
+    assert hear(reply).kind == "request"
+    heard = hear(rtu("01 01 00 00 00 14"), reply)
+    assert heard.kind == "reply"
+    assert said(heard)[0].startswith("run_command = on (raw 1)")
+
+
+def test_how_points_of_one_and_of_several_words_are_read() -> None:
+    by_name = {one.item: one for one in DEVICE.points}
+    assert read_text(DEVICE, by_name["running"]).startswith("function 01h, 1 bit")
+    assert read_text(DEVICE, by_name["base_frequency"]).startswith("function 03h, 1 word")
+    wide = next(one for one in DEVICE.points if len(one.addresses) == 2 and one.readable)
+    assert re.match(r"function 0[34]h, 2 words\b", read_text(DEVICE, wide))
+    assert read_text(DEVICE, changed(by_name["running"], access="w")) == ""
+    assert read_text(DEVICE, replace(by_name["running"], places=())) == ""
+
+
+def test_coils_by_name_with_padding() -> None:
+    heard = hear(rtu("05 0F 00 00 00 0E 02 01 20"))
+    assert said(heard)[0].startswith("run_command = on")
+    assert said(heard)[-1].startswith("running = on (raw 1): Running; it is read only")
+    padded = hear(rtu("05 0F 00 00 00 05 02 01 00"))
+    assert padded.faults == ()
+
+
+def test_several_points_halves_and_holes() -> None:
+    heard = hear(rtu("01 03 20 00 00 05"), rtu("01 03 0A 12 34 00 01 FF 9D 7F FF 01 80"))
+    assert said(heard) == [
+        "swapped_count = 70196 (raw 70196 = 00011234h): Swapped count",
+        "power_factor = -0.99 (raw -99 = FF9Dh): Power factor",
+        "temperature = no_sensor (No sensor), no value (raw 32767 = 7FFFh): Temperature",
+        "frequency_fine = 1.5 Hz (raw 384 = 0180h): Frequency fine",
+    ]
+    half = hear(rtu("01 06 10 14 00 07"))
+    assert said(half) == ["F002 acceleration_time: only the low word (2 of 2, the high part first) = 0007h"]
+    hole = hear(rtu("01 10 00 40 00 02 04 00 01 00 02"))
+    assert said(hole) == [
+        "0040h to 0041h (64 to 65): no point is described here; the manual closes 0030h to 08FFh (carries 0001h 0002h)"
+    ]
+
+
+def test_bit_groups_share_a_word() -> None:
+    heard = hear(rtu("01 03 20 12 00 01"), rtu("01 03 02 FF C0"))
+    assert said(heard) == [
+        "delay_class = 3 (raw 3 = 3h): Delay class",
+        "signed_byte = -1 (raw -1 = FFh): Signed byte",
+    ]
+
+
+def test_modicon_numbering_is_suspected() -> None:
+    heard = hear(rtu("01 03 10 14 00 02"))
+    assert "4116 is its Modicon number" in heard.notes[0]
+    assert hear(rtu("01 03 10 13 00 02")).notes == ()
+    assert hear(rtu("01 03 00 41 00 01")).notes == ()
+
+
+def test_requests_that_the_device_refuses() -> None:
+    assert hear(rtu("01 03 20 00 00 05")).findings == ("the device takes at most 4 of them in one request",)
+    assert "cannot have unit 40" in hear(rtu("28 03 10 28 00 01")).findings[0]
+    assert "does not know function 04h" in hear(rtu("01 04 10 28 00 01")).findings[0]
+    assert hear(rtu("00 06 10 28 01 F4")).notes == ("broadcast: no unit answers",)
+    assert "outside" not in said(hear(rtu("01 06 10 28 01 C2")))[0]
+    assert "is outside 0..400 Hz" in said(hear(rtu("01 06 10 28 FF FF")))[0]
+
+
+def test_exceptions() -> None:
+    heard = hear(rtu("01 06 10 28 FF FF"), rtu("01 86 21"))
+    assert (heard.kind, heard.exception, heard.function) == ("exception", 0x21, 6)
+    assert "21h value_out_of_range: Value out of range" in heard.summary
+    assert "is outside 0..400 Hz" in said(heard)[0]
+    alone = hear(rtu("01 86 02"))
+    assert "illegal data address (the protocol's meaning" in alone.summary
+    assert hear(rtu("01 86 77")).summary.endswith("77h: the manual does not list it")
+    other = hear(rtu("01 06 10 28 00 01"), rtu("02 86 02"))
+    assert other.faults == ("it does not answer the request before: it comes from another unit than was asked",)
+
+
+def test_replies_that_do_not_fit() -> None:
+    request = rtu("05 03 20 02 00 02")
+    short = hear(request, rtu("05 03 02 00 63"))
+    assert short.faults == ("it brings 2 bytes, the request asks for 4 (2 items)",)
+    assert said(short) == ["power_factor = 0.99 (raw 99 = 0063h): Power factor"]
+    unit = hear(request, rtu("06 03 04 00 63 00 00"))
+    assert "another unit" in unit.faults[0]
+    echo = hear(rtu("05 06 10 28 01 F5"), request=rtu("05 06 10 28 01 F4"))
+    assert "does not repeat the request" in echo.faults[0]
+    count = hear(rtu("05 10 10 13 00 02 04 00 00 00 01"), rtu("05 10 10 13 00 01"))
+    assert "does not repeat the request" in count.faults[0]
+
+
+def test_what_was_heard_serves_as_factor() -> None:
+    ask_ratio, ask_volts = rtu("01 03 20 07 00 01"), rtu("01 03 20 08 00 01")
+    volts = rtu("01 03 02 00 64")
+    unknown = hear(ask_volts, volts)
+    assert unknown.items[0].missing == ("voltage_ratio",)
+    assert "--with voltage_ratio=VALUE" in said(unknown)[0]
+    known = hear(ask_ratio, rtu("01 03 02 00 C8"), ask_volts, volts)
+    assert said(known)[0].startswith("voltage_setpoint = 200 V")
+    both = hear(rtu("01 03 20 07 00 02"), rtu("01 03 04 00 C8 00 64"))
+    assert said(both)[1].startswith("voltage_setpoint = 200 V")
+    assert said(hear(ask_volts, volts, voltage_ratio=400))[0].startswith("voltage_setpoint = 100 V")
+
+
+def test_commands_and_loopback() -> None:
+    assert said(hear(rtu("01 06 09 00 00 01"))) == ["command enter: Store parameters; the memory stands 100000 writes"]
+    assert said(hear(rtu("01 08 00 00 12 34"))) == ["test data 1234h; the device sends it back unchanged"]
+
+
+def test_tcp_is_known_by_its_header() -> None:
+    rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
+    heard = Listener(rtu_only, {}, ModbusSpeech(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
+    assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
+    assert heard.checks == "ok (transaction 7)"
+    assert heard.findings == ("the manual knows only RTU frames",)
+    wrong = Listener(DEVICE, {}, ModbusSpeech(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
+    assert wrong.faults == ("the length in the header is wrong",)
+    assert said(wrong) == said(heard)
+
+
+@pytest.mark.parametrize("text", ["", "01", "01 03", "01 03 04", "FF FF FF FF FF FF", "01 2B 0E 01 00 00 00", "01 83"])
+def test_pieces_are_no_frames(text: str) -> None:
+    heard = hear(bytes.fromhex(text))
+    assert heard.kind == "unreadable"
+    assert heard.faults
+
+
+@given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
+def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE, framing))
+    if asked:
+        listening.expect_reply_to(frames[0])
+    for data in frames:
+        for whole in (data, data + crc16(data).to_bytes(2, "little")):
+            assert listening.hear(whole).summary
+
+
+@given(st.integers(0, 0xFFFF), st.sampled_from([1, 2, 3, 4, 5, 6, 8, 15, 16]), st.binary(min_size=2, max_size=20))
+def test_any_request_and_reply_are_safe(address: int, function: int, rest: bytes) -> None:
+    request = rtu((bytes((1, function)) + address.to_bytes(2, "big") + rest).hex())
+    for reply in (rest, bytes((len(rest),)) + rest, address.to_bytes(2, "big") + rest[:2]):
+        assert hear(request, rtu((bytes((1, function)) + reply).hex()), request=request).summary
+
+
+def test_words() -> None:
+    swapped = named(DEVICE, "swapped_count")
+    assert words_of(swapped, 0x12345678, swapped.addresses) == (0x5678, 0x1234)
+    assert raw_of(swapped, (0x1234, 0x5678)) == 0x12345678
+    factor = named(DEVICE, "power_factor")
+    assert words_of(factor, -1, factor.addresses) == (0xFFFF,)
+    assert raw_of(factor, (0xFFFF,)) == -1
+
+
+def test_requests_to_write() -> None:
+    request, data = write_request(DEVICE, named(DEVICE, "base_frequency"), 500, 5, None)
+    assert data == bytes.fromhex("0506102801F40C91")
+    assert (request.unit, request.function) == (5, 6)
+    assert write_request(DEVICE, named(DEVICE, "acceleration_time"), 300000, None, None)[1][1] == 0x10
+    assert write_request(DEVICE, named(DEVICE, "run_command"), 1, None, "tcp")[1][6:9] == b"\x01\x05\x00"
+    with pytest.raises(RefusedError, match="shares its word") as caught:
+        write_request(DEVICE, named(DEVICE, "signed_byte"), -1, None, None)
+    assert "3FC0h by 3FC0h" in caught.value.hint
+    with pytest.raises(RefusedError, match="unit number"):
+        write_request(DEVICE, named(DEVICE, "base_frequency"), 500, 99, None)
+    rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
+    with pytest.raises(RefusedError, match="does not speak this framing"):
+        write_request(rtu_only, named(DEVICE, "base_frequency"), 500, 1, "tcp")
+    slow = replace(DEVICE, bus=replace(DEVICE.bus, functions=()))
+    with pytest.raises(RefusedError, match="no function"):
+        write_request(slow, named(DEVICE, "base_frequency"), 500, 1, None)

@@ -1,0 +1,408 @@
+"""USS telegrams in words, and values into USS telegrams."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.asked import Options, RefusedError, UnclearError
+from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.listener import Listener, decode
+from fieldscribe.conversation.lookup import find
+from fieldscribe.conversation.options import refuse_foreign
+from fieldscribe.conversation.others import explain_others
+from fieldscribe.conversation.requests import frames_for
+from fieldscribe.conversation.selection import choose_point, choose_variants
+from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.uss.speech import UssSpeech
+from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
+from fieldscribe.wording.samples import sample_raw
+from hypothesis import given
+from hypothesis import strategies as st
+from support.asked import asked
+from support.devices_by_family import coded, shipped, uss_bytes
+from support.models import sample_device
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from fieldscribe.families.answers import Heard
+
+DEVICE = shipped("siemens_mm4")
+SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])
+READ, ANSWER = "143A 0000 0000 0000", "243A 0000 4248 0000"
+PKW = asked(framing="pkw")
+
+
+def hear(*texts: str, options: Options | None = None, **settings: int | Fraction) -> list[Heard]:
+    """All telegrams, one after the other."""
+    return decode(DEVICE, settings, texts, options or asked())
+
+
+def pkw(*texts: str, link: int | None = None, direction: str | None = None) -> list[Heard]:
+    """Parameter parts alone."""
+    return hear(*texts, options=asked(framing="pkw", pkw=link, direction=direction))
+
+
+def send(code: str, value: str, options: Options | None = None, *given: str) -> tuple[str, ...]:
+    """The telegrams that write a value."""
+    settings = read_settings(DEVICE, list(given))
+    chosen = options or asked()
+    point = choose_point(DEVICE, code, index=chosen.index)
+    return frames_for(DEVICE, point, encode_point(DEVICE, point, value, settings).raw, settings, chosen).frames
+
+
+def test_the_manuals_parameter_parts() -> None:
+    heard = pkw(READ, ANSWER, "343A 0000 4220 0000", "743A 0000 0011", "22BC 0000 0005 0000", "12BC 0000 0005")
+    assert [one.kind for one in heard] == ["request", "reply", "request", "exception", "request", "reply"]
+    assert heard[0].summary == "USS: request, task 1 read_value, parameter 1082"
+    assert heard[1].items[0].text == "P1082 maximum_frequency = 50 Hz (raw 1112014848 = 42480000h): Maximum frequency"
+    assert heard[2].items[0].text.startswith("P1082 maximum_frequency = 40 Hz")
+    assert "error 17 not_in_this_operating_state: " in heard[3].summary
+    assert heard[3].exception == 17
+    assert heard[5].items[0].text.startswith("P0700 command_source = uss_rs485")
+    assert [one.faults for one in heard] == [()] * 6
+
+
+def test_single_words_by_the_length_of_the_part() -> None:
+    last = pkw("22BC 0000 0000 0005", "12BC 0000 0000 0005", link=4)
+    assert [one.items[0].raw for one in last] == [5, 5]
+    misplaced = pkw("22BC 0000 0005 0000", link=4)[0]
+    assert "the second value word, here the first is used; is --pkw 127 or --single-first meant?" in misplaced.notes[0]
+    assert "is --pkw 4 meant?" in pkw("22BC 0000 0000 0005")[0].notes[0]
+    first = hear("22BC 0000 0005 0000", options=asked(framing="pkw", pkw=4, single_first=True))[0]
+    assert first.items[0].raw == 5
+    short = pkw("12BC 0000 0000", "12BC 0000 0002", link=3)
+    assert short[1].items[0].raw == 2
+    assert "does not fit" in pkw("343A 0000 4220", link=3)[0].findings[0]
+
+
+def test_pages_and_indices() -> None:
+    heard = pkw("100A 8001 0000 0000", "100A 8001 0006")
+    assert heard[0].summary.endswith("parameter 2010, index 1")
+    assert heard[1].items[0].text.startswith("P2010 uss_baud_rate_index_1 = 6")
+    assert heard[1].details == {"response": 1, "parameter": 2010, "index": 1}
+    unknown = pkw("1001 0000 0000 0000", "1001 0000 1234")[1]
+    assert unknown.items[0].text == "parameter 1: no point is described here (carries 1234h)"
+    assert pkw("600A 80FF 0000 0000")[0].summary.endswith("parameter 2010, all elements (index 255)")
+
+
+def test_a_word_written_to_a_double_word() -> None:
+    heard = pkw("243A 0000 4220 0000")[0]
+    assert "carries 4220h 0000h; the parameter is a double word, the task carries 1" in heard.items[0].text
+
+
+def test_documented_only_parameters_are_not_interpreted() -> None:
+    assert (
+        "carries 0005h; the manual does not settle its type"
+        in pkw("1015 0000 0000 0000", "1015 0000 0005")[1].items[0].text
+    )
+
+
+@pytest.mark.parametrize(
+    ("request_part", "reply", "status"),
+    [
+        (READ, "243B 0000 4248 0000", "another parameter"),
+        (READ, "443A 0000 4248", "does not belong to the task"),
+        (READ, "243A 0000 4248", "too few words"),
+    ],
+)
+def test_answers_that_do_not_fit(request_part: str, reply: str, status: str) -> None:
+    heard = hear(reply, options=replace(PKW, request=request_part))[1]
+    assert heard.kind in ("reply", "exception")
+    assert any(status in fault for fault in heard.faults), heard.faults
+
+
+def test_tasks_that_the_device_cannot_do() -> None:
+    assert "cannot do this task; expect response 7 not_executable" in pkw("A43A 0000 0000 0000")[0].findings[0]
+    assert "EEPROM" in pkw("D43A 0000 4220 0000")[0].notes[0]
+    assert "SP" in pkw("1C3A 0000 0000 0000")[0].findings[0]
+    error = pkw("143A 0000 0000 0000", "743A 0000 0005")[1]
+    assert error.findings == ("the manual does not give error 5 for task 1",)
+    assert "which the manual does not list" in pkw(READ, "743A 0000 0063")[1].summary
+    assert pkw(READ, "843A 0000 0000")[1].summary.endswith("response 8 no_control, parameter 1082")
+    assert pkw(READ, "003A 0000 0000", ANSWER)[2].kind == "reply"
+
+
+def test_whole_telegrams() -> None:
+    asked, answer = uss_bytes(1, "1000 8000 0000 0000 047F 3333"), uss_bytes(1, "2000 8000 4248 0000 FA31 3333")
+    heard = hear(asked, answer, asked, uss_normalisation=0)
+    assert [one.kind for one in heard] == ["request", "reply", "request"]
+    assert [one.unit for one in heard] == [1, 1, 1]
+    assert heard[0].checks == "ok (E6)"
+    items = [item.text for item in heard[1].items]
+    assert items[0].startswith("P2000 reference_frequency = 50 Hz")
+    assert items[1].startswith("ZSW status_word = ready_to_switch_on, deviation (its bit is 0)")
+    assert "off2_pending (no OFF2)" in items[1]
+    assert items[2].startswith("HIW main_actual_value = about 39.9993896 Hz")
+    assert heard[0].items[-1].missing == ("reference_frequency",)
+    assert "HSW main_setpoint = about 39.9993896 Hz" in heard[2].items[-1].text
+
+
+def test_settings_are_learned_where_the_interface_is_chosen() -> None:
+    telegrams = [uss_bytes(1, words) for words in (
+        "1000 8000 0000 0000 0000 0000", "2000 8000 4248 0000 0000 0000",
+        "1009 8000 0000 0000 0000 0000", "1009 8000 0001 0000 0000", "0000 0000 0000 0000 047F 0FA0",
+    )]  # fmt: skip
+    chosen = choose_variants(DEVICE, ["interface=rs485"])
+    heard = decode(chosen, {}, telegrams, asked())
+    assert heard[4].items[-1].text.startswith("HSW main_setpoint = 40 Hz")
+    assert hear(*telegrams)[4].items[-1].missing == ("uss_normalisation",)
+
+
+def test_units_are_kept_apart() -> None:
+    asked = uss_bytes(1, "143A 0000 0000 0000 0000 0000")
+    assert hear(asked, uss_bytes(2, "243A 0000 4248 0000 FA31 0000"))[1].kind == "request"
+    assert hear(asked, uss_bytes(1, "243A 0000 4248 0000 FA31 0000"))[1].kind == "reply"
+
+
+def test_the_first_telegram_may_be_an_answer() -> None:
+    answer = uss_bytes(1, "243A 0000 4248 0000 FA31 0000")
+    assert "--direction response" in hear(answer)[0].notes[0]
+    forced = hear(answer, options=asked(direction="response"))[0]
+    assert (forced.kind, forced.notes) == ("reply", ())
+    assert forced.items[0].text.startswith("P1082 maximum_frequency = 50 Hz")
+
+
+def test_process_data_alone() -> None:
+    no_part = asked(pkw=0)
+    heard = hear(uss_bytes(1, "047F 3333"), uss_bytes(1, "FA31 3333"), options=no_part)
+    assert [item.point for one in heard for item in one.items] == [
+        "control_word",
+        "main_setpoint",
+        "status_word",
+        "main_actual_value",
+    ]
+    words = hear("FA31 3333", options=asked(framing="pzd", direction="response"), **SCALED)[0]
+    assert "39.9993896 Hz" in words.items[1].text
+    assert "--direction response" in hear("047F 3333", options=asked(framing="pzd"))[0].notes[0]
+    assert hear("00" * 20, options=asked(framing="pzd"))[0].faults == (
+        "there are 0 to 8 words of process data, here are 10",
+    )
+    ignored = hear("0000", options=asked(framing="pzd", direction="request"))[0]
+    assert "breaks what is always written: bit 10 always 1" in ignored.items[0].text
+
+
+@pytest.mark.parametrize(
+    ("words", "texts"),
+    [
+        (
+            "0006 FFFF 0000 0000 047F 3333",
+            ["words 1 and 2 of process data count", "every bit of STW counts", "no bit of STW2"],
+        ),
+        (
+            "0006 0401 0000 0000 0400 0000",
+            ["words 1 and 2", "only these bits of STW count (on, setpoints_valid)", "no bit"],
+        ),
+        (
+            "0000 0000 1234 5678 0000 0000",
+            ["no word of process data counts", "no bit of STW", "only these bits of STW2 count"],
+        ),
+        ("FFFF FFFF FFFF FFFF 0000 0000", ["words 1, 2, 3", "every bit of STW counts", "every bit of STW2 counts"]),
+    ],
+)
+def test_broadcasts(words: str, texts: list[str]) -> None:
+    for heard in (hear(uss_bytes(32, words))[0], hear(words, options=asked(framing="broadcast"))[0]):
+        assert heard.kind == "broadcast"
+        for item, text in zip(heard.items, texts, strict=False):
+            assert text in item.text
+    assert hear("0006 FFFF", options=asked(framing="broadcast"))[0].faults
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("02", "at least 4 bytes"),
+        ("020E01143A0000000000000000000024", "the check byte is wrong"),
+        ("020E01143A00000000000000000000", "the check byte is missing"),
+        ("020D01143A0000000000000000000020", "its length byte says 15 bytes, here are 16"),
+        ("030E01143A0000000000000000000022", "begins with 02h, this with 03h"),
+        ("02050114000012", "no whole number of words"),
+        (uss_bytes(1, "143A 0000 0000 0000"), "it has 4 words; a parameter part of variable length"),
+        (uss_bytes(1, "143A 0000 0000 0000 0000 0000 0000 0000"), "5 or 6"),
+    ],
+)
+def test_broken_telegrams(text: str, fault: str) -> None:
+    faults = hear(text)[0].faults
+    assert any(fault in one for one in faults), faults
+
+
+def test_words_that_are_no_telegram() -> None:
+    heard = hear(READ)[0]
+    assert heard.kind == "unreadable"
+    assert "--framing pkw" in heard.notes[0]
+    assert hear("143A00", options=PKW)[0].faults == ("the part is made of words of two bytes, here are 3 bytes",)
+    with pytest.raises(UnclearError, match="not a telegram"):
+        hear("zz")
+    assert "cannot have unit 33" in hear(uss_bytes(33, "143A 0000 0000 0000 0000 0000"))[0].findings[0]
+
+
+@pytest.mark.parametrize(
+    ("options", "why"), [(asked(pkw=5), "no parameter part of this length"), (asked(pzd=9), "0 to 8 words")]
+)
+def test_links_that_the_device_does_not_know(options: Options, why: str) -> None:
+    with pytest.raises(UnclearError, match=why):
+        hear("00", options=options)
+
+
+@given(
+    st.lists(st.binary(max_size=24), min_size=1, max_size=5),
+    st.sampled_from(["uss", "pkw", "pzd", "broadcast"]),
+    st.sampled_from([0, 3, 4, 127]),
+    st.sampled_from([None, "request", "response"]),
+)
+def test_any_bytes_are_safe(frames: list[bytes], framing: str, words: int, direction: str | None) -> None:
+    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, Link(words, 2), framing, direction))
+    for data in frames:
+        even = data[: len(data) & ~1]
+        for whole in (data, telegram(1, [int.from_bytes(even[at : at + 2], "big") for at in range(0, len(even), 2)])):
+            heard = listening.hear(whole)
+            assert heard.summary
+            assert heard.as_data()
+
+
+@given(
+    st.integers(0, 15),
+    st.integers(0, 2047),
+    st.integers(0, 0xFFFF),
+    st.integers(0, 0xFFFFFFFF),
+    st.sampled_from([3, 4, 127]),
+)
+def test_answers_without_faults_are_those_of_the_reference(
+    code: int, number: int, place: int, value: int, words: int
+) -> None:
+    """Whatever the reference does not take as an answer is either called a request or faulty."""
+    asked = Request(1, 1, 1082, 0, words=(0, 0))
+    link = Link(words, 2)
+    part = (code << 12 | number, place, value >> 16, value & 0xFFFF)[: link.sent]
+    answer = telegram(1, (*part, 0, 0))
+    status = parse(DEVICE.bus, link, asked, answer).status
+    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, link))
+    listening.hear(telegram(1, (*(0x143A, 0, 0, 0)[: link.sent], 0, 0)))
+    heard = listening.hear(answer)
+    assert (heard.kind in ("reply", "exception")) == (status in ("ok", "refused", "no_rights", "no_answer"))
+    assert heard.faults == ()
+
+
+@pytest.mark.parametrize(
+    ("code", "value", "options", "frame"),
+    [
+        ("P1082", "40 Hz", asked(framing="pkw"), "343A 0000 4220 0000"),
+        ("P1082", "40", asked(framing="pkw", keep=True), "D43A 0000 4220 0000"),
+        ("P0700", "5", asked(framing="pkw"), "22BC 0000 0005 0000"),
+        ("P0700", "uss_rs485", asked(framing="pkw", pkw=4), "22BC 0000 0000 0005"),
+        ("P0700", "5", asked(framing="pkw", pkw=4, single_first=True), "22BC 0000 0005 0000"),
+        ("P0700", "5", asked(framing="pkw", pkw=3), "22BC 0000 0005"),
+        ("P2010", "6", asked(framing="pkw", index=1), "700A 8001 0006 0000"),
+        ("P2010[1]", "6", asked(framing="pkw", keep=True), "C00A 8001 0006 0000"),
+        ("STW", "047Fh", asked(framing="pzd"), "047F 0000"),
+        ("STW", "47Eh", asked(framing="pzd", pzd=1), "047E"),
+        ("P1082", "40", asked(unit=3), "02 0E 03 34 3A 00 00 42 20 00 00 00 00 00 00 63"),
+    ],
+)
+def test_telegrams_that_write(code: str, value: str, options: Options, frame: str) -> None:
+    assert send(code, value, options) == (frame,)
+
+
+def test_process_data_takes_along_what_is_given() -> None:
+    frames = send("HSW", "40", asked(framing="pzd"), "STW=047Fh", "P2000=50", "P2009=0")
+    assert frames == ("047F 3333",)
+    point = coded(DEVICE, "P1082")
+    told = frames_for(DEVICE, point, 0, {}, asked())
+    assert "task 3 write_double_word" in told.notes[0]
+    assert "STW control_word goes along as 0000h" in told.notes[1]
+    assert len(frames_for(DEVICE, point, 0, {coded(DEVICE, "STW").name: 0x047E}, asked()).notes) == 1
+
+
+@pytest.mark.parametrize(
+    ("code", "value", "options", "why"),
+    [
+        ("P1082", "40", asked(pkw=3), "does not fit into the parameter part"),
+        ("P1082", "40", asked(pkw=0), "no task that writes it"),
+        ("P1082", "40", asked(unit=32), "unit number"),
+        ("STW2", "0", asked(), "word 4 of the process data, the link has 2"),
+        ("ZSW", "0", asked(), "read only"),
+        ("r0000", "0", asked(), "cannot be written"),
+    ],
+)
+def test_telegrams_that_cannot_be(code: str, value: str, options: Options, why: str) -> None:
+    with pytest.raises(RefusedError, match=why):
+        send(code, value, options)
+
+
+@pytest.mark.parametrize(
+    ("code", "value", "options", "why"),
+    [
+        ("STW", "0", asked(keep=True), "--keep is for parameters"),
+        ("STW", "0", asked(framing="pkw"), "is a word of process data"),
+        ("P1082", "40", asked(framing="pzd"), "is a parameter"),
+        ("P1082", "40", asked(framing="broadcast"), "not built"),
+        ("P2010", "6", asked(), "has 2 elements"),
+        ("P2010", "6", asked(index=7), "no element 7"),
+        ("P1082", "6", asked(index=0), "no element 0"),
+    ],
+)
+def test_requests_that_are_unclear(code: str, value: str, options: Options, why: str) -> None:
+    with pytest.raises(UnclearError, match=why):
+        send(code, value, options)
+
+
+@pytest.mark.parametrize("options", [asked(framing="tcp"), asked(can_id="321"), asked(with_word="0")])
+def test_options_of_other_families_are_refused(options: Options) -> None:
+    with pytest.raises(UnclearError, match="siemens_mm4"):
+        refuse_foreign(DEVICE, options)
+    for other in (asked(pkw=0), asked(pzd=0), asked(keep=True), asked(framing="pkw")):
+        with pytest.raises(UnclearError, match="sample_drive"):
+            refuse_foreign(sample_device(), other)
+
+
+def test_explained() -> None:
+    rows = dict(explain_point(DEVICE, coded(DEVICE, "P1082")).rows)
+    assert "PKW 143A 0000 0000 0000; telegram to unit 1 (PKW variable, PZD 2): 02 0E 01 14 3A" in rows["Read"]
+    assert "task 3 write_double_word (RAM) or task 13 store_double_word (EEPROM too)" in rows["Write"]
+    rows = dict(explain_point(DEVICE, coded(DEVICE, "ZSW")).rows)
+    assert rows["Read"].startswith("word 1 of the process data of every answer")
+    rows = dict(explain_point(DEVICE, coded(DEVICE, "HSW")).rows)
+    assert rows["Write"].startswith("word 2 of the process data of every request")
+    assert [match.point.index for match in find(DEVICE, "P2010[1]")] == [1]
+    assert [match.point.index for match in find(DEVICE, "wire:2010[0]")] == [0]
+    assert find(DEVICE, "P2010[9]") == []
+    assert [match.point.index for match in find(DEVICE, "P2010")] == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("what", "heading"),
+    [
+        ("task:1", "task 1 read_value"),
+        ("response:2", "response 2 double_word"),
+        ("error:17", "error 17 not_in_this_operating_state"),
+        ("write_word", "task 2 write_word"),
+    ],
+)
+def test_codes_are_explained(what: str, heading: str) -> None:
+    assert [told.heading.partition(":")[0] for _, told in explain_others(DEVICE, what)] == [heading]
+
+
+def test_every_point_is_explained() -> None:
+    for one in DEVICE.points:
+        rows = dict(explain_point(DEVICE, one).rows)
+        assert ("Read" in rows) == (one.generated and one.readable), one.name
+        assert ("Write" in rows) == (one.generated and one.writable), one.name
+
+
+@pytest.mark.parametrize(("pkw_words", "keep"), [(127, False), (127, True), (4, False), (4, True)])
+def test_every_point_comes_back_from_its_telegram(pkw_words: int, keep: bool) -> None:
+    for one in DEVICE.points:
+        raw = sample_raw(one) if one.writable and one.generated else None
+        if raw is None or (keep and one.telegram is not None):
+            continue
+        raw = with_fixed(one, raw)
+        options = asked(pkw=pkw_words, pzd=8, keep=keep)
+        (frame,) = frames_for(DEVICE, one, raw, {}, options).frames
+        (heard,) = hear(frame, options=asked(pkw=pkw_words, pzd=8))
+        assert not heard.faults
+        items = [item for item in heard.items if item.point in (one.item, one.name)]
+        assert [item.raw for item in items] == [raw], one.name

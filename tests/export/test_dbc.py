@@ -1,0 +1,403 @@
+"""The CAN database: cantools and our own frames, in both directions, say the same numbers."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import cantools
+import pytest
+from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.cli import main
+from fieldscribe.export import export_form
+from fieldscribe.export.rules import ExportError
+from fieldscribe.families.can.export.dbc import export_dbc
+from fieldscribe.families.can.export.dbc_points import decimal
+from fieldscribe.families.can.facts import of_bus
+from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
+from fieldscribe.families.can.receiver import Receiver
+from fieldscribe.model import Entry, Enum, Message, Role, Unit
+from fieldscribe.text import dbc_string
+from fieldscribe.wording.exact import fixed_rule
+from support.devices_by_family import shipped
+from support.models import named, point, sample_device, titles
+from support.python_package import imported, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from cantools.database.can import Database
+    from fieldscribe.model import Device, Point
+
+DEVICE = shipped("woodward_mpu2s")
+TELEGRAM = DEVICE.telegrams[0]
+CYCLIC = next(one for one in DEVICE.messages if one.name == TELEGRAM.message)
+SLOTS = -(-TELEGRAM.words // CYCLIC.words)
+POINTS = tuple(one for one in DEVICE.points if one.telegram == TELEGRAM.name)
+PARAMETERS = ("read_request", "write_request", "read_answer", "write_answer")
+UNIT = 1
+
+
+@lru_cache
+def database(unit: int = UNIT) -> Database:
+    """The database as cantools reads it, strictly."""
+    return loaded(export_dbc(DEVICE, unit))
+
+
+def loaded(text: str) -> Database:
+    """What cantools reads, strictly."""
+    found = cantools.database.load_string(text, "dbc", strict=True)
+    assert isinstance(found, cantools.database.can.Database)
+    return found
+
+
+def decoded(frame: CanFrame, unit: int = UNIT, *, scaling: bool = False) -> dict[str, Any]:
+    """What cantools says of a frame."""
+    message = database(unit).get_message_by_frame_id(frame.id)
+    return dict(message.decode(frame.data, decode_choices=False, scaling=scaling))  # type: ignore[arg-type]  # it takes bytes
+
+
+def slot_frame(slot: int, words: list[int]) -> CanFrame:
+    """A frame of the telegram."""
+    data = bytes((0xDD, slot)) + b"".join(word.to_bytes(2, "big") for word in words)
+    return CanFrame(identifier(CYCLIC, UNIT), data)
+
+
+def named_parts(one: Point) -> list[tuple[str, int]]:
+    """The signals of a point, with their words: one, or a high and a low one where the words are in two frames."""
+    slots = {address // CYCLIC.words for address in one.addresses}
+    if len(slots) == 1:
+        return [(one.name, one.addresses[0] // CYCLIC.words)]
+    return [(f"{one.name}_{half}", at // CYCLIC.words) for half, at in zip(("high", "low"), one.addresses, strict=True)]
+
+
+def test_every_word_is_a_signal() -> None:
+    names = {name for one in POINTS for name, _ in named_parts(one)}
+    message = database().get_message_by_frame_id(0x321)
+    assert names <= {signal.name for signal in message.signals}
+    assert len(POINTS) >= TELEGRAM.words - 2
+    assert {len(signal.multiplexer_ids or ()) for signal in message.signals if signal.name != "message"} == {1}
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_cantools_reads_what_we_read(seed: int) -> None:
+    chance = random.Random(seed)
+    words = [chance.choice((chance.getrandbits(16), 0, 0xFFFF, 0x8000, 0x7FFF)) for _ in range(SLOTS * CYCLIC.words)]
+    frames = [slot_frame(slot, words[slot * 3 : slot * 3 + 3]) for slot in range(SLOTS)]
+    receiver = Receiver(TELEGRAM, CYCLIC, UNIT)
+    assert all(receiver.take(frame) for frame in [*frames, *frames])
+    plain = [decoded(frame) for frame in frames]
+    scaled = [decoded(frame, scaling=True) for frame in frames]
+    for one in POINTS:
+        status, found = receiver.words(one.addresses)
+        assert status == "ok"
+        raw, parts = raw_of(one, found), named_parts(one)
+        theirs = [plain[slot][name] for name, slot in parts]
+        assert (theirs[0] if len(theirs) == 1 else theirs[0] << 16 | theirs[1]) == raw, one.name
+        if one.generated and fixed_rule(one) is not None and len(parts) == 1:
+            value = codec.decode(one, raw, {})
+            assert scaled[parts[0][1]][one.name] == pytest.approx(float(value), rel=1e-12), one.name
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_we_read_what_cantools_writes(seed: int) -> None:
+    chance = random.Random(seed)
+    message = database().get_message_by_frame_id(0x321)
+    receiver = Receiver(TELEGRAM, CYCLIC, UNIT)
+    raws: dict[str, int] = {}
+    for slot in [*range(SLOTS), *range(SLOTS)]:
+        signals = [signal for signal in message.signals if signal.multiplexer_signal == "visualisation_multiplexer"]
+        here = [signal for signal in signals if slot in (signal.multiplexer_ids or ())]
+        for signal in here:
+            low = -(1 << signal.length - 1) if signal.is_signed else 0
+            raws.setdefault(signal.name, chance.randrange(low, low + (1 << signal.length)))
+        chosen = {signal.name: raws[signal.name] for signal in here}
+        data = message.encode(
+            {"message": 0xDD, "visualisation_multiplexer": slot, **chosen}, scaling=False, strict=False
+        )
+        assert receiver.take(CanFrame(0x321, data))
+    for one in POINTS:
+        parts = [raws[name] for name, _ in named_parts(one)]
+        raw = raw_of(one, receiver.words(one.addresses)[1])
+        assert raw == (parts[0] if len(parts) == 1 else parts[0] << 16 | parts[1]), one.name
+
+
+def test_scaled_values_make_the_raw_numbers_of_the_reference() -> None:
+    message = database().get_message_by_frame_id(0x321)
+    for one in POINTS:
+        if one.form != "scaled" or not one.generated or fixed_rule(one) is None:
+            continue
+        slot = one.addresses[0] // CYCLIC.words
+        others = {
+            signal.name: 0
+            for signal in message.signals
+            if signal.multiplexer_signal == "visualisation_multiplexer" and slot in (signal.multiplexer_ids or ())
+        }
+        for raw in (0, 1, 99, 12345, one.greatest, *((-1, one.least) if one.info.signed else ())):
+            value = float(codec.decode(one, raw, {}))
+            data = message.encode(
+                {**others, "message": 0xDD, "visualisation_multiplexer": slot, one.name: value}, strict=False
+            )
+            receiver = Receiver(TELEGRAM, CYCLIC, UNIT)
+            assert receiver.take(CanFrame(0x321, data))
+            assert raw_of(one, receiver.words(one.addresses)[1]) == raw
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+@pytest.mark.parametrize("unit", [0, 1, 30])
+def test_parameter_messages(name: str, unit: int) -> None:
+    """All ids up to the last of the device and some beyond, with any word."""
+    chance = random.Random(unit)
+    message = next(one for one in DEVICE.messages if one.name == name)
+    carries = any(role.kind == "raw" for role in message.roles)
+    theirs = database(unit).get_message_by_frame_id(identifier(message, unit))
+    last = max(at for one in DEVICE.points if one.space == "parameter" for at in one.addresses)
+    for address in (*range(last + 2), 0x7FFF, 0xFFFF):
+        raw = chance.getrandbits(16) if carries else 0
+        status, frame = build(message, DEVICE.bus.units, unit, address, raw)
+        assert status == "ok"
+        found = decoded(frame, unit)
+        checksum = int.from_bytes(frame.data[6:], "big")
+        expected = {
+            "message": frame.data[0],
+            f"{name}_unit": unit,
+            f"{name}_parameter": address,
+            f"{name}_checksum": checksum,
+        }
+        expected |= {f"{name}_value": raw} if carries else {f"{name}_byte_4": 0, f"{name}_byte_5": 0}
+        assert found == expected
+        again = CanFrame(frame.id, theirs.encode(found, scaling=False))
+        assert again == frame
+        parsed = parse(message, unit, again)
+        assert (parsed.status, parsed.address, parsed.raw) == ("ok", address, raw)
+
+
+def test_parameters_are_named() -> None:
+    status, frame = build(DEVICE.messages[3], DEVICE.bus.units, UNIT, 739, 0)
+    assert status == "ok"
+    named_ones = database().get_message_by_frame_id(0x321).decode(frame.data)
+    assert isinstance(named_ones, dict)
+    assert str(named_ones["read_answer_parameter"]) == "fault_text_terminal_62 1"
+    assert str(named_ones["message"]) == "read_answer"
+
+
+def test_what_a_database_cannot_say_is_in_comments() -> None:
+    signals = {one.name: one for one in database().get_message_by_frame_id(0x321).signals}
+    power = signals["generator_active_power"]
+    assert (power.scale, power.offset, power.unit, power.is_signed) == (1, 0, None, True)
+    assert "Raw: the value is raw x 10^generator_power_exponent.raw W" in (power.comment or "")
+    assert "bits 7..6 fault_class_3: 0 Inactive, 3 Active" in (signals["present_fault_classes"].comment or "")
+    assert "cannot put them together" in (signals["operating_hours_high"].comment or "")
+    assert "does not settle its scale" in (signals["generator_reactive_power"].comment or "")
+    assert signals["generator_frequency"].unit == "Hz"
+    assert dict(signals["mains_state"].choices or {}) == {0: "absent", 255: "present"}
+    specifics = database().dbc
+    assert specifics is not None
+    assert specifics.attributes["Baudrate"].value == 125000
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """The generated Python package."""
+    folder: Path = write_package(DEVICE, tmp_path_factory.mktemp("dbc"))
+    yield from imported(folder, DEVICE.id)
+
+
+class _Bus:
+    """A bus on which frames come from a list."""
+
+    def __init__(self) -> None:
+        self.frames: list[Any] = []
+
+    def send(self, frame: Any) -> None:
+        raise AssertionError(frame)
+
+    def receive(self) -> Any:
+        if not self.frames:
+            raise TimeoutError
+        return self.frames.pop(0)
+
+
+def test_the_generated_package_reads_what_cantools_reads(package: Any) -> None:
+    from importlib import import_module
+
+    runtime = import_module("fieldscribe_runtime.can")
+    chance, bus = random.Random(7), _Bus()
+    device = package.WoodwardMpu2s(bus, UNIT)
+    frames = [slot_frame(slot, [chance.getrandbits(16) for _ in range(3)]) for slot in range(SLOTS)]
+    for frame in [*frames, *frames]:
+        assert device.take(runtime.Frame(frame.id, frame.data))
+    plain = [decoded(frame) for frame in frames]
+    scaled = [decoded(frame, scaling=True) for frame in frames]
+    for one in POINTS:
+        if not one.generated:
+            continue
+        theirs = [plain[slot][name] for name, slot in named_parts(one)]
+        handle = getattr(device, one.name)
+        assert handle.read_raw() == (theirs[0] if len(theirs) == 1 else theirs[0] << 16 | theirs[1]), one.name
+        if one.form == "scaled" and fixed_rule(one) is not None:
+            assert handle.read() == pytest.approx(scaled[named_parts(one)[0][1]][one.name], rel=1e-12)
+
+
+def hostile() -> Device:
+    """A CAN device with texts that want to end strings, and names that are too long."""
+    text = 'a "quoted"; \\ CM_ "x";\n\u202eπ°\\'
+    enum = Enum(
+        "states", titles(text), (Entry(0, "off", titles(text), None), Entry(1, "on", titles(text), None)), False
+    )
+    facts: dict[str, Any] = {"space": "telegram", "telegram": "cycle", "access": "r", "title": titles(text)}
+    long = "a_name_that_is_much_longer_than_thirty_two_characters"
+    points = (
+        point(f"{long}_1", 0, unit=Unit('"\n°C', "celsius", "temperature"), **facts),
+        point(f"{long}_2", 1, "s16", enum=enum, **facts),
+        point("wide", 2, "s32", **facts),
+        point("swapped", 4, "u32", order=(5, 4), **facts),
+        point("group", 6, "s8", bits=(9, 5), **facts),
+        point("message", 7, **facts),
+    )
+    words = tuple(Role("word", number) for number in range(6))
+    cyclic = replace(
+        CYCLIC, name="cycle", title=titles(text), roles=(Role("constant", 1), Role("multiplexer", 0), *words)
+    )
+    telegram = replace(TELEGRAM, name="cycle", message="cycle", words=9)
+    return replace(
+        sample_device(points), family="can", bus=DEVICE.bus, messages=(cyclic,), telegrams=(telegram,), frames=()
+    )
+
+
+def test_hostile_texts_stay_strings() -> None:
+    device = hostile()
+    text = export_dbc(device, 0)
+    text.encode("latin-1")
+    found = loaded(text)
+    message = found.get_message_by_frame_id(0x320)
+    assert message.name == "cycle"
+    names = {signal.name for signal in message.signals}
+    assert {
+        "swapped_high",
+        "swapped_low",
+        "wide_high",
+        "wide_low",
+        "group",
+        "message",
+        "cycle_word_8",
+        device.points[0].name,
+    } <= names
+    assert all("\n" not in line for line in text.split("\n"))
+    data = bytes((1, 0)) + bytes.fromhex("0102 FFFE 8000")
+    plain = message.decode(data, scaling=False, decode_choices=False)
+    assert isinstance(plain, dict)
+    assert plain[device.points[1].name] == -2
+    assert plain["wide_high"] == 0x8000
+    group = message.decode(bytes((1, 2)) + bytes.fromhex("03E0 0000 0000"), scaling=False, decode_choices=False)
+    assert isinstance(group, dict)
+    assert group["group"] == -1
+
+
+@pytest.mark.parametrize(
+    ("text", "string"),
+    [
+        ('say "x"', "\"say 'x'\""),
+        ("a\\", '"a/"'),
+        ("a\nb\u202e", '"a b"'),
+        ("°C π", '"°C ?"'),
+    ],
+)
+def test_strings(text: str, string: str) -> None:
+    assert dbc_string(text) == string
+
+
+@pytest.mark.parametrize(
+    ("number", "text"), [("1/100", "0.01"), ("-3", "-3"), ("1/3", "0.3333333333333333"), ("0", "0")]
+)
+def test_decimals(number: str, text: str) -> None:
+    assert decimal(Fraction(number)) == text
+
+
+def test_little_endian_layouts() -> None:
+    words = (Role("word", 1), Role("word", 0), Role("word", 3), Role("word", 2), Role("word", 5), Role("word", 4))
+    cyclic = replace(CYCLIC, roles=(*CYCLIC.roles[:2], *words))
+    device = replace(DEVICE, messages=(cyclic,))
+    message = loaded(export_dbc(device)).get_message_by_frame_id(0x321)
+    data = bytes((0xDD, 0, 1, 0, 0x88, 0x13, 0, 0))
+    found = message.decode(data)
+    assert isinstance(found, dict)
+    assert found["generator_frequency"] == 50
+    receiver = Receiver(TELEGRAM, cyclic, 1)
+    assert receiver.take(CanFrame(0x321, data))
+    assert receiver.words((1,)) == ("ok", (5000,))
+
+
+def test_a_point_may_have_the_name_of_what_selects() -> None:
+    twin = replace(named(DEVICE, "reserved_word_49"), name="message")
+    points = tuple(twin if one.name == "reserved_word_49" else one for one in DEVICE.points)
+    message = loaded(export_dbc(replace(DEVICE, points=points))).get_message_by_frame_id(0x321)
+    found = message.decode(slot_frame(16, [7, 0, 0]).data, decode_choices=False)
+    assert isinstance(found, dict)
+    assert (found["message"], found["message_2"]) == (0xDD, 7)
+
+
+def _scattered() -> Device:
+    roles = (*CYCLIC.roles[:2], *(Role("word", number) for number in (0, 2, 1, 3, 4, 5)))
+    return replace(DEVICE, messages=(replace(CYCLIC, roles=roles),))
+
+
+def _alike() -> Device:
+    return replace(DEVICE, messages=(CYCLIC, replace(CYCLIC, name="other")))
+
+
+def _overlapping() -> Device:
+    twin = replace(named(DEVICE, "generator_frequency"), name="twin")
+    return replace(DEVICE, points=(*DEVICE.points, twin))
+
+
+@pytest.mark.parametrize(
+    ("device", "unit", "why"),
+    [
+        (sample_device(), None, "sample_drive is a modbus device"),
+        (shipped("siemens_mm4"), None, "siemens_mm4 is a uss device"),
+        (DEVICE, 31, "units are 0 to 30"),
+        (DEVICE, -1, "units are 0 to 30"),
+        (_scattered(), None, "not neighbours"),
+        (_alike(), None, "no byte tells the messages visualisation, other apart"),
+        (_overlapping(), None, "twin and generator_frequency share bits"),
+    ],
+)
+def test_refusals(device: Device, unit: int | None, why: str) -> None:
+    with pytest.raises(ExportError, match=why):
+        export_form("dbc", device, unit)
+
+
+def test_extended_identifiers() -> None:
+    device = replace(DEVICE, bus=replace(DEVICE.bus, own=replace(of_bus(DEVICE.bus), identifier_bits=29)))
+    message = loaded(export_dbc(device)).get_message_by_frame_id(0x321, force_extended_id=True)
+    assert message.is_extended_frame
+
+
+def test_a_message_alone_needs_no_selector() -> None:
+    alone: Message = replace(next(one for one in DEVICE.messages if one.name == "read_request"))
+    found = loaded(export_dbc(replace(DEVICE, messages=(alone,), telegrams=()))).messages[0]
+    assert found.name == "read_request"
+    assert not found.is_multiplexed()
+    assert found.signals[0].name == "read_request_byte_0"
+
+
+def test_the_command(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    assert main(["export", "dbc", "woodward_mpu2s", "--unit", "3", "--variant", "voltage=400V"]) == 0
+    out = capfdbinary.readouterr().out
+    assert out.decode("latin-1") == export_dbc(DEVICE, 3)
+    assert loaded(out.decode("latin-1")).get_message_by_frame_id(0x323)
+    for words in (
+        ["dbc", "hitachi_l200"],
+        ["dbc", "woodward_mpu2s", "--unit", "99"],
+        ["json", "woodward_mpu2s", "--unit", "1"],
+    ):
+        assert main(["export", *words]) == 2
+        told = capfdbinary.readouterr()
+        assert told.out == b""
+        assert told.err.startswith(b"fieldscribe: ")

@@ -1,0 +1,280 @@
+"""The exported model: its schema, and single points held against expectations written by hand."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import fieldscribe
+import pytest
+from fieldscribe.export import export_model
+from fieldscribe.export.rules import ExportError, bound_of, use_of
+from fieldscribe.model import Factor, Limit, Special
+from jsonschema import Draft202012Validator
+from support.models import linear, point, sample_device, scaled, titles, value_of
+
+DEVICE = sample_device()
+SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
+POINT_KEYS = (
+    *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
+    *("places", "type", "words", "access", "bits", "variant", "when", "since", "until", "record", "set", "repeat"),
+    *(
+        "format",
+        "unit",
+        "display",
+        "default",
+        "step",
+        "special",
+        "fixed",
+        "changes",
+        "together",
+        "scale",
+        "raw",
+        "enum",
+        "open",
+    ),
+    *("flags", "digits", "encoding", "persistence", "conditions", "title", "source", "errata", "generated"),
+)
+TOP_KEYS = (
+    *("format", "device", "version", "family", "documents", "variants", "limits", "points", "commands", "messages"),
+    *("telegrams", "frames", "codes", "errata"),
+)
+
+
+@lru_cache(maxsize=1)
+def _model() -> dict[str, Any]:
+    loaded: dict[str, Any] = json.loads(json.dumps(export_model(DEVICE)))
+    return loaded
+
+
+def _point(name: str) -> dict[str, Any]:
+    found: dict[str, Any] = next(one for one in _model()["points"] if one["name"] == name)
+    return found
+
+
+def test_the_schema_is_valid_and_the_model_follows_it() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    assert [error.message for error in Draft202012Validator(SCHEMA).iter_errors(_model())] == []
+
+
+def test_the_schema_describes_every_key_and_refuses_others() -> None:
+    def walk(node: Any) -> None:
+        if isinstance(node, dict):
+            if "properties" in node:
+                assert node["additionalProperties"] is False
+                assert sorted(node["required"]) == sorted(node["properties"])
+                assert all(one.get("description") for one in node["properties"].values())
+            for child in node.values():
+                walk(child)
+        elif isinstance(node, list):
+            for child in node:
+                walk(child)
+
+    walk(SCHEMA)
+    strange = {**_model(), "x_more": 1}
+    assert list(Draft202012Validator(SCHEMA).iter_errors(strange))
+
+
+def test_keys_are_those_of_the_contract_in_its_order() -> None:
+    assert list(_model()) == list(TOP_KEYS)
+    assert all(list(one) == list(POINT_KEYS) for one in _model()["points"])
+
+
+def test_a_scaled_point() -> None:
+    assert _point("base_frequency") == {
+        "name": "base_frequency",
+        "code": "A020",
+        "group": "main",
+        "space": "holding",
+        "telegram": None,
+        "direction": None,
+        "address": 4136,
+        "index": None,
+        "addresses": [4136],
+        "references": {"modicon": 4137, "reference": 404137},
+        "places": [{"for": "read", "space": "holding", "address": 4136, "function": None}],
+        "type": "u16",
+        "words": 1,
+        "access": "rw",
+        "bits": None,
+        "variant": None,
+        "when": None,
+        "since": None,
+        "until": None,
+        "record": None,
+        "set": 1,
+        "repeat": None,
+        "format": None,
+        "unit": "Hz",
+        "display": None,
+        "default": 500,
+        "step": None,
+        "special": [],
+        "fixed": {},
+        "changes": None,
+        "together": None,
+        "scale": [{"when": None, "num": "10", "den": "1", "offset": "0", "uses": []}],
+        "raw": {"ranges": [[0, 4000]], "values": None},
+        "enum": None,
+        "open": False,
+        "flags": [],
+        "digits": None,
+        "encoding": None,
+        "persistence": "enter",
+        "conditions": [],
+        "title": {"en": "Base frequency", "de": "Basisfrequenz"},
+        "source": {"document": "manual", "section": "Gruppe A", "page": None, "line": 780},
+        "errata": ["a020_wire"],
+        "generated": True,
+    }
+
+
+def test_words_enums_flags_and_specials() -> None:
+    assert _point("swapped_count")["addresses"] == [0x2001, 0x2000]
+    assert _point("swapped_count")["address"] == 0x2000
+    assert _point("delay_class")["bits"] == [15, 14]
+    source = _point("frequency_source")
+    assert source["raw"] == {"ranges": [[0, 1], [10, 10]], "values": [0, 1, 10]}
+    assert source["enum"]["0"] == {"name": "keypad", "title": {"en": "Keypad", "de": "Bedienfeld"}, "quantity": None}
+    assert (source["open"], _point("analog_filter")["open"]) == (False, True)
+    assert _point("analog_filter")["enum"]["17"]["quantity"] == "500 ms"
+    assert _point("status_word")["flags"] == [
+        {"bits": [0, 0], "name": "ready", "values": {"1": {"name": "ready", "title": {"en": "Ready", "de": "Bereit"}}}},
+        {"bits": [3, 3], "name": "fault", "values": {"0": {"name": "fault", "title": {"en": "Fault"}}}},
+        {
+            "bits": [5, 4],
+            "name": "mode",
+            "values": {
+                "0": {"name": "stop", "title": {"en": "stop"}},
+                "3": {"name": "run", "title": {"en": "run"}},
+            },
+        },
+    ]
+    no_sensor = {"raw": [32767, 32767], "name": "no_sensor", "no_value": True, "writable": False}
+    assert _point("temperature")["special"] == [no_sensor]
+    assert _point("upper_limit")["special"] == [
+        {"raw": [0, 0], "name": "inactive", "no_value": False, "writable": True}
+    ]
+    assert _point("acceleration_time")["step"] == [{"from": 1, "step": 1}, {"from": 10000, "step": 10}]
+
+
+def test_no_value_and_a_span_of_special_codes() -> None:
+    no_value = Special(0x8000, 0x8000, "no_value", titles("No value"), True)
+    errors = Special(0xFF00, 0xFFFF, "error", titles("Error"), False)
+    exported: Any = export_model(sample_device((point("level", 1, specials=(no_value, errors)),)))
+    assert exported["points"][0]["special"] == [
+        {"raw": [32768, 32768], "name": "no_value", "no_value": True, "writable": False},
+        {"raw": [65280, 65535], "name": "error", "no_value": False, "writable": False},
+    ]
+    assert exported["format"] == 3
+    assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
+
+
+def test_scales_with_offset_factors_and_cases() -> None:
+    assert _point("temperature")["scale"][0]["offset"] == "5/2"
+    assert (_point("third")["scale"][0]["num"], _point("third")["scale"][0]["den"]) == ("3", "7")
+    assert _point("voltage_setpoint")["scale"] == [
+        {
+            "when": None,
+            "num": "1",
+            "den": "400",
+            "offset": "0",
+            "uses": [{"point": "voltage_ratio", "part": "raw", "power": 1}],
+        }
+    ]
+    assert _point("power")["scale"][0]["uses"] == [{"point": "power_exponent", "part": "raw", "ten_to": -1}]
+    assert [case["when"] for case in _point("setpoint")["scale"]] == [
+        {"point": "unit_mode", "raw": 0},
+        {"point": "unit_mode", "raw": 1},
+    ]
+
+
+def test_ranges_in_units_and_computed_ends() -> None:
+    assert _point("float_setpoint")["raw"] == {"ranges": [["0", "650"]], "values": None}
+    assert _point("upper_limit")["raw"]["ranges"] == [["0 if lower_limit.raw == 0 else lower_limit.raw", 4000]]
+    assert _point("lower_limit")["raw"]["ranges"][0] == [
+        "max(5, start_frequency.raw)",
+        "4000 if upper_limit.raw == 0 else min(4000, upper_limit.raw)",
+    ]
+
+
+def test_variants_frames_errata_and_what_is_only_documented() -> None:
+    variants = [one["variant"] for one in _model()["points"] if one["name"] == "dc_level"]
+    assert variants == ["voltage_class=200V", "voltage_class=400V"]
+    display = _point("setpoint_display")
+    assert (display["address"], display["addresses"], display["places"], display["generated"]) == (None, [], [], False)
+    assert _model()["frames"] == [
+        {
+            "name": "write_base",
+            "bytes": "05 06 10 28 01 F4 A8 54",
+            "direction": "request",
+            "meaning": {"base_frequency": 500},
+            "valid": False,
+        }
+    ]
+    assert [one["point"] for one in _model()["errata"]] == ["base_frequency", "setpoint_display", None]
+    assert _model()["limits"]["most"]["3"] == 4
+    assert _model()["codes"]["exceptions"]["33"]["name"] == "value_out_of_range"
+
+
+@pytest.mark.parametrize(
+    ("factor", "constant", "uses"),
+    [
+        (value_of("other"), 1, [("raw", "power", 1)]),
+        (value_of("other", -1), 1, [("raw", "power", -1)]),
+        (value_of("other", slope=1, intercept=-5), 10, [("value", "power", 1)]),
+        (value_of("other", -1, slope=3, intercept=-15), Fraction(1, 30), [("value", "power", -1)]),
+        (value_of("other", -1, slope=4), Fraction(1, 4), [("raw", "power", -1)]),
+        (value_of("other", ten_to=True), 1, [("raw", "ten_to", 1)]),
+        (value_of("other", -1, slope=-1, ten_to=True), 1, [("raw", "ten_to", 1)]),
+        (value_of("other", intercept=3, ten_to=True), 1000, [("raw", "ten_to", 1)]),
+        (value_of("other", -1, intercept=3, ten_to=True), Fraction(1, 1000), [("raw", "ten_to", -1)]),
+        (value_of("other", slope=2, ten_to=True), 1, [("raw", "ten_to", 1), ("raw", "ten_to", 1)]),
+    ],
+)
+def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: list[tuple[str, str, int]]) -> None:
+    other = point("other", 1, "s16", scale=scaled(10, 5))
+    found, said = use_of(factor, other)
+    assert (found, said) == (constant, [{"point": "other", "part": part, kind: sign} for part, kind, sign in uses])
+    for raw in (7, -3):
+        value = Fraction(raw - 5, 10)
+        total = found
+        for part, kind, sign in uses:
+            number = Fraction(raw) if part == "raw" else value
+            total *= Fraction(10) ** int(number * sign) if kind == "ten_to" else number**sign
+        inner = raw * factor.slope + factor.intercept
+        assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
+
+
+def test_an_erratum_names_its_points() -> None:
+    several = replace(DEVICE.errata[0], points=("base_frequency", "ready"))
+    exported: Any = export_model(replace(DEVICE, errata=(several,)))
+    assert exported["errata"][0]["point"] == ["base_frequency", "ready"]
+
+
+def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
+    doubled = point("doubled", 1, scale=scaled("1/2", 0))
+    constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
+    assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
+
+
+@pytest.mark.parametrize("factor", [value_of("other", intercept=5), value_of("other", slope=99, ten_to=True)])
+def test_what_the_format_cannot_say_is_refused(factor: Factor) -> None:
+    with pytest.raises(ExportError, match=r"other\.raw"):
+        use_of(factor, point("other", 1))
+
+
+def test_computed_ends_as_expressions() -> None:
+    limited = point("limited", 1, "s16")
+    rule = linear("10/4", "-1/2", value_of("a", slope=2, intercept=-1), value_of("b", -1))
+    assert bound_of(Limit(rule, (), -32768, 32767), True, limited) == "(a.raw * 2 - 1) * 5 / b.raw / 2 - 1 / 2"
+    power = linear(3, 0, value_of("c", -1, ten_to=True))
+    assert bound_of(Limit(power, (), -32768, 100), False, limited) == "min(100, 3 / 10 ** c.raw)"
+    moved = linear(1, "1/2", value_of("d", intercept=3), value_of("e", -1, intercept=-2, ten_to=True))
+    assert bound_of(Limit(moved, (), -32768, 32767), True, limited) == "(d.raw + 3) / 10 ** (e.raw - 2) + 1 / 2"
+    alone = linear("1/3", 4, value_of("f", -1, slope=5))
+    assert bound_of(Limit(alone, (), -32768, 32767), True, limited) == "1 / (f.raw * 5) / 3 + 4"

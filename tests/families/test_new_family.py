@@ -1,0 +1,93 @@
+"""A family is one folder and one line: `toy_family/` beside this, entered into the registry, and nothing else."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+from support.places import TESTS
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+HERE = TESTS
+WITH_BELLS = (
+    "from fieldscribe.families import FAMILIES; FAMILIES['bell'] = 'toy_family'; "
+    "from fieldscribe.cli import main; import sys; sys.exit(main(sys.argv[1:]))"
+)
+DEVICE = """\
+fieldscribe: 1
+device: carillon
+version: 0.1.0
+vendor: Foundry
+model: C2
+title: Carillon
+family: bell
+documents: {manual: {title: The manual, language: en}}
+bus: {units: 1..4, strikes: 90, source: {section: Line}}
+frames:
+  - {name: ring_low, bytes: 31 42, says: {low: 1}, line: 7}
+---
+group: tones
+title: Tones
+source: {section: Tones}
+space: tone
+access: w
+type: u16
+points:
+  - {name: high, at: 0, line: 3}
+  - {name: low, at: 1, range: 0..9, line: 4}
+"""
+
+
+def run(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The command line, with bells in the registry."""
+    command = [sys.executable, "-c", WITH_BELLS, *words]
+    return subprocess.run(
+        command, cwd=folder, env={"PYTHONPATH": str(HERE)}, capture_output=True, text=True, check=False
+    )
+
+
+def described(folder: Path, text: str = DEVICE) -> Path:
+    """A folder with the description of a carillon."""
+    (folder / "carillon").mkdir()
+    (folder / "carillon/device.yaml").write_text(text, "utf-8")
+    return folder
+
+
+def test_docs_and_vectors(tmp_path: Path) -> None:
+    made = run(described(tmp_path), "generate", "carillon", "--target", "docs,vectors", "--out", "out")
+    assert (made.returncode, made.stderr) == (0, "")
+    page = (tmp_path / "out/docs/carillon.md").read_text("utf-8")
+    assert "| Strikes in a minute | 90 |" in page
+    vectors = (tmp_path / "out/vectors/carillon.txt").read_text("utf-8").splitlines()
+    assert "kind\tstrike\t2\tunit:int\ttone:int\tbytes:bytes" in vectors
+    assert {"limit\tstrikes\t90", "strike\t1\t0\t3141", "strike\t1\t1\t3142"} <= set(vectors)
+
+
+def test_targets_that_do_not_know_it(tmp_path: Path) -> None:
+    refused = run(described(tmp_path), "generate", "carillon", "--target", "c,docs", "--out", "out")
+    assert refused.returncode == 1
+    assert "the target c does not know the family bell; nothing of carillon was written" in refused.stderr
+    assert not (tmp_path / "out/docs").exists()
+
+
+def test_its_own_findings(tmp_path: Path) -> None:
+    foreign = run(described(tmp_path, DEVICE.replace("space: tone", "space: coil")), "check", "carillon")
+    assert (foreign.returncode, "unknown-space" in foreign.stdout) == (1, True)
+    wrong = DEVICE.replace("strikes: 90", "strikes: 2000").replace("31 42", "31 42 0A")
+    (tmp_path / "carillon/device.yaml").write_text(wrong, "utf-8")
+    told = run(tmp_path, "check", "carillon").stdout
+    assert "too-many-strikes" in told
+    assert "this rings nothing" in told
+
+
+def test_what_people_ask(tmp_path: Path) -> None:
+    folder = described(tmp_path)
+    assert "space tone" in run(folder, "explain", "carillon", "low").stdout
+    assert "raw 5" in run(folder, "encode", "carillon", "low", "5").stdout
+    assert "frames of the family bell are not known here" in run(folder, "decode", "carillon", "31 42").stderr
+    exported = json.loads(run(folder, "export", "json", "carillon").stdout)
+    assert (exported["family"], exported["points"][1]["space"]) == ("bell", "tone")

@@ -1,0 +1,91 @@
+"""Every key that takes a whole number takes it in every notation of manuals, and means the same by it."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.load import load
+from fieldscribe.language.source import SourceFile
+from fieldscribe.pipeline import load_device
+from support.descriptions_as_values import as_texts, write_files
+from support.places import ROOT, TESTS
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+
+DEVICES = TESTS / "devices"
+REAL = ROOT / "descriptions"
+AS_WRITTEN = {"page", "serial", "timing", "errata", "values"}
+"""What is repeated as it stands in the description."""
+FOLDERS = [*sorted(DEVICES.iterdir()), REAL / "nord_sk5xxe", REAL / "siemens_mm4"]
+
+HEAD = """\
+fieldscribe: 1
+device: drive
+version: 1.0.0
+vendor: Acme
+model: X
+title: Drive
+family: modbus
+documents: {manual: {title: Manual, language: en}}
+bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+"""
+
+
+def noted(value: Any, notation: str) -> Any:
+    """The same value with each whole number in that notation."""
+    if isinstance(value, dict):
+        return {key: noted(one, "" if key in AS_WRITTEN else notation) for key, one in value.items()}
+    if isinstance(value, list):
+        return [noted(one, notation) for one in value]
+    if isinstance(value, Decimal):
+        return float(value)
+    return notation.format(value) if notation and type(value) is int and value >= 0 else value
+
+
+def loaded(folder: Path) -> Device:
+    report = Report()
+    device = load_device(folder / "device.yaml", report)
+    assert device is not None, report.findings
+    return device
+
+
+@pytest.mark.parametrize("notation", ["0x{:x}", "0{:X}h", "H'{:X}", "0b{:b}", "{}"])
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation: str, tmp_path: Path) -> None:
+    """As texts in quotes, so that YAML leaves them alone."""
+    files = {}
+    for path in sorted(folder.glob("*.yaml")):
+        files[path.name] = noted(load(SourceFile(path.name, path.read_text("utf-8")), Report()), notation)
+    write_files(tmp_path / "device", as_texts(files))
+    assert loaded(tmp_path / "device") == loaded(folder)
+
+
+@pytest.mark.parametrize(
+    ("facts", "message"),
+    [
+        ("type: text, characters: 1h", "1 is out of bounds: at least 2"),
+        ("digits: {count: 0Ah, enum: {0: a}}", "10 is out of bounds: 1 to 5"),
+        ("flags: {0: {name: a, active: 2h}}", "2 is none of 0, 1"),
+        ("untyped: wide, length: FFh", "255 is out of bounds: 1 to 125"),
+        ("untyped: wide, length: some", "the text `some` stands where a whole number belongs"),
+        ("line: 0b", "the text `0b` stands where a whole number belongs"),
+        ("lines: {range: 20h..10h}", "lines `20h..10h` run downwards"),
+    ],
+)
+def test_bounds_hold_in_every_notation(facts: str, message: str, tmp_path: Path) -> None:
+    file = tmp_path / "device.yaml"
+    file.write_text(f"{HEAD}- {{name: a, at: 1, {facts}}}\n", "utf-8")
+    report = Report()
+    assert load_device(file, report) is None
+    assert [one.message for one in report.findings] == [message]

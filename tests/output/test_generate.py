@@ -1,0 +1,354 @@
+"""`fieldscribe generate` as a user runs it: in a folder of their own, after a change, with broken descriptions."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import find_devices
+from support.places import ROOT
+from support.strange_files import KINDS, put
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+DOCS = [
+    *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
+    "manifest/hitachi_l200.json",
+]
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with descriptions/hitachi_l200, the working folder, with a cache of its own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    place = tmp_path / "project"
+    shutil.copytree(ROOT / "descriptions/hitachi_l200", place / "descriptions/hitachi_l200")
+    monkeypatch.chdir(place)
+    return place
+
+
+def files(folder: Path) -> dict[str, int]:
+    return {
+        path.relative_to(folder).as_posix(): path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()
+    }
+
+
+def test_writes_every_target_once(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate"]) == 0
+    first = files(project / "generated")
+    assert {
+        "c/hitachi_l200.h",
+        "python/hitachi_l200/__init__.py",
+        "docs/hitachi_l200.md",
+        "vectors/hitachi_l200.txt",
+    } <= first.keys()
+    assert main(["generate"]) == 0
+    assert files(project / "generated") == first
+    assert f"0 written, 0 removed, {len(first)} unchanged" in capsys.readouterr().out
+
+
+def test_one_target_touches_no_other(project: Path) -> None:
+    assert main(["generate", "--target", "docs", "--out", "made"]) == 0
+    assert {path.split("/")[0] for path in files(project / "made")} == {"docs", "manifest"}
+    assert main(["generate", "--target", "vectors", "--out", "made"]) == 0
+    assert {path.split("/")[0] for path in files(project / "made")} == {"docs", "manifest", "vectors"}
+
+
+@pytest.mark.parametrize("spoil", ["edit", "delete", "same size and time"])
+def test_check_sees_a_touched_output_and_writes_nothing(
+    project: Path, spoil: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["generate", "--target", "docs"])
+    assert main(["generate", "--target", "docs", "--check"]) == 0
+    place = project / "generated/docs/hitachi_l200.md"
+    before = place.stat()
+    if spoil == "delete":
+        place.unlink()
+    else:
+        place.write_bytes(place.read_bytes().replace(b"4136", b"4135", 1))
+    if spoil == "same size and time":
+        os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert main(["generate", "--target", "docs", "--check"]) == 1
+    assert "stale: generated/docs/hitachi_l200.md" in capsys.readouterr().out
+    assert main(["generate", "--target", "docs"]) == 0
+    assert main(["generate", "--target", "docs", "--check"]) == 0
+
+
+def test_check_asks_no_memory(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    main(["generate", "--target", "docs"])
+
+    def asked(*_: object) -> None:
+        raise AssertionError("--check asked its memory")
+
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.outputs", asked)
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.__init__", asked)
+    assert main(["generate", "--target", "docs", "--check"]) == 0
+
+
+def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_compiled(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from fieldscribe import pipeline
+
+    assert main(["generate", "--target", "docs", "--out", "right"]) == 0
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    text, before, load = place.read_bytes(), place.stat(), pipeline.load_device
+
+    def meddling(*arguments: Any) -> Any:
+        place.write_bytes(text.replace(b"version: 1.0.0", b"version: 6.6.6"))
+        try:
+            return load(*arguments)
+        finally:
+            place.write_bytes(text)
+            os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+    monkeypatch.setattr(pipeline, "load_device", meddling)
+    assert main(["generate", "--target", "docs"]) == 0
+    monkeypatch.setattr(pipeline, "load_device", load)
+    made = project / "generated/docs/hitachi_l200.md"
+    assert b"6.6.6" in made.read_bytes()
+    assert main(["generate", "--target", "docs", "--check"]) == 1
+    assert main(["generate", "--target", "docs"]) == 0
+    assert made.read_bytes() == (project / "right/docs/hitachi_l200.md").read_bytes()
+
+
+def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = project / "made/docs/hitachi_l200.csv"
+    place.parent.mkdir(parents=True)
+    place.write_text("precious")
+    assert main(["generate", "--target", "docs", "--out", "made"]) == 1
+    assert "made/docs/hitachi_l200.csv" in (said := capsys.readouterr().err)
+    assert "--force" in said
+    assert place.read_text() == "precious"
+    assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
+    assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
+    assert main(["generate", "--target", "docs", "--out", "made", "--check"]) == 0
+
+
+def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe.targets import vectors
+
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/other")
+    place = project / "descriptions/other/device.yaml"
+    place.write_text(place.read_text("utf-8").replace("device: hitachi_l200", "device: other"), "utf-8")
+    outputs = vectors.outputs
+
+    def failing(device: Any, render: Any) -> Any:
+        if device.id == "other":
+            raise ValueError("no \x1b[31m vectors")
+        return outputs(device, render)
+
+    monkeypatch.setattr(vectors, "outputs", failing)
+    assert main(["generate", "--target", "docs,vectors"]) == 1
+    assert sorted(files(project / "generated")) == [*DOCS, "vectors/hitachi_l200.txt"]
+    said = capsys.readouterr().err
+    assert "internal error in target vectors: ValueError: no [31m vectors" in said
+    assert "descriptions/other/device.yaml" in said
+    assert main(["generate", "--target", "docs,vectors", "--check"]) == 1
+
+
+def test_a_compiler_that_fails_on_one_device_writes_the_others(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe import pipeline
+
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/a_broken_one")
+    load = pipeline.load_device
+
+    def failing(device_file: Path, *rest: Any) -> Any:
+        if "broken" in str(device_file):
+            raise KeyError("x")
+        return load(device_file, *rest)
+
+    monkeypatch.setattr(pipeline, "load_device", failing)
+    assert main(["generate", "--target", "docs"]) == 1
+    assert "docs/hitachi_l200.md" in files(project / "generated")
+    assert "internal error in the compiler: KeyError: 'x'" in capsys.readouterr().err
+
+
+def test_what_lies_beside_a_description_is_not_read(project: Path) -> None:
+    for number, kind in enumerate(KINDS):
+        put(kind, project / f"descriptions/hitachi_l200/.#device_{number}.yaml")
+        put(kind, project / f"descriptions/hitachi_l200/another_{number}.yaml")
+    assert run_bounded(project, "generate", "--target", "docs", "--depfile", "docs.d").returncode == 0
+    rule = (project / "docs.d").read_text()
+    assert "standard_a.yaml" in rule
+    assert "another" not in rule
+    assert "device_" not in rule
+
+
+@pytest.mark.parametrize("kind", KINDS[:-1])
+@pytest.mark.parametrize("name", ["device.yaml", "standard_a.yaml"])
+def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind: str, name: str) -> None:
+    place = project / "descriptions/hitachi_l200" / name
+    place.unlink()
+    put(kind, place)
+    for command in (["check"], ["generate", "--target", "docs"]):
+        done = run_bounded(project, *command)
+        assert done.returncode == 1
+        said = done.stdout + done.stderr
+        assert any(rule in said for rule in ("file-unreadable", "file-too-large", "part-outside")), said
+        assert f"hitachi_l200/{'device.yaml' if 'part-outside' in said else name}" in said
+
+
+def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path, tmp_path: Path) -> None:
+    folder = project / "descriptions/hitachi_l200"
+    (folder / "standard_a.yaml").rename(folder / "somewhere.txt")
+    (folder / "standard_a.yaml").symlink_to("somewhere.txt")
+    assert main(["check"]) == 0
+    (folder / "somewhere.txt").rename(tmp_path / "outside.txt")
+    (folder / "standard_a.yaml").unlink()
+    (folder / "standard_a.yaml").symlink_to(tmp_path / "outside.txt")
+    assert main(["check"]) == 1
+
+
+def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:
+    farm = tmp_path / "farm/hitachi_l200"
+    farm.mkdir(parents=True)
+    for path in (project / "descriptions/hitachi_l200").iterdir():
+        (farm / path.name).symlink_to(path)
+    assert main(["check", str(farm.parent)]) == 0
+
+
+def test_a_device_whose_folder_may_not_be_looked_into_is_not_left_out(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lstat = os.lstat
+
+    def denied(path: Any, *arguments: Any, **named: Any) -> os.stat_result:
+        if "secret" in str(path) and str(path).endswith("device.yaml"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return lstat(path, *arguments, **named)
+
+    (project / "descriptions/secret").mkdir()
+    monkeypatch.setattr(os, "lstat", denied)
+    found = find_devices([project / "descriptions"], Report())
+    assert project / "descriptions/secret/device.yaml" in found
+
+
+def test_a_circle_of_links_is_a_finding(project: Path) -> None:
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    place.unlink()
+    place.symlink_to("device.yaml")
+    assert main(["check"]) == 1
+
+
+def test_names_of_files_reach_nobody_raw(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    evil = "made\x1b]0;owned\x07\u202e"
+    for command in (
+        ["generate", "--target", "docs", "--out", evil, "--check"],
+        ["generate", "--target", "docs", "--out", evil, "--list-outputs"],
+        ["generate", "--target", "docs", "--out", evil],
+        ["generate", "--target", evil],
+        ["generate", f"--{evil}"],
+        ["generate", "--format", evil],
+        ["check", evil],
+        ["audit", "hitachi_l200", "--manual", evil],
+        [evil],
+    ):
+        main(command)
+        said = capsys.readouterr()
+        shown = said.out + said.err
+        assert shown
+        assert "\x1b" not in shown, command
+        assert "\u202e" not in shown, command
+
+
+def test_a_name_that_make_cannot_hold_is_no_rule(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    evil = "made\nall:\n\trm -rf x"
+    assert main(["generate", "--target", "docs", "--out", evil, "--depfile", "docs.d"]) == 2
+    assert "make cannot name the path" in capsys.readouterr().err
+    assert not (project / "docs.d").exists()
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder"])
+def test_a_depfile_replaces_only_a_file(project: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    put(kind, project / "docs.d")
+    assert main(["generate", "--target", "docs", "--depfile", "docs.d"]) == 2
+    assert f"it is a {kind}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "huge"])
+def test_a_manual_has_to_be_a_regular_file_too(project: Path, kind: str) -> None:
+    put(kind, project / "manual.txt")
+    done = run_bounded(project, "audit", "hitachi_l200", "--manual", "manual.txt")
+    assert done.returncode == 2
+    assert "it is " in done.stderr
+
+
+def run_bounded(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The command as a process: one that waits for a pipe, or fills the memory, fails the test."""
+    command = [sys.executable, "-m", "fieldscribe", *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=30, check=False)
+
+
+def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/broken")
+    place = project / "descriptions/broken/device.yaml"
+    place.write_text(place.read_text("utf-8").replace("device: hitachi_l200", "device: broken\nnonsense: 1"), "utf-8")
+    assert main(["generate", "--target", "docs"]) == 1
+    made = files(project / "generated")
+    assert "docs/hitachi_l200.md" in made
+    assert not any("broken" in path for path in made)
+    assert "descriptions/broken/device.yaml" in capsys.readouterr().err
+
+
+def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/copy")
+    assert main(["generate", "--target", "docs"]) == 1
+    assert "described twice" in capsys.readouterr().err
+
+
+def test_depfile_and_list(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "--target", "docs", "--out", "my out", "--depfile", "docs.d"]) == 0
+    rule = (project / "docs.d").read_text("utf-8")
+    assert rule.startswith(" ".join(f"my\\ out/{path}" for path in DOCS) + ":")
+    assert "descriptions/hitachi_l200/standard_a.yaml" in rule
+    capsys.readouterr()
+    assert main(["generate", "--target", "docs", "--out", "elsewhere", "--list-outputs"]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == "elsewhere/docs/hitachi_l200.csv"
+    assert not (project / "elsewhere").exists()
+
+
+def test_json_tells_what_happened(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "--target", "docs", "--format", "json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert sorted(told["written"]) == DOCS
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        (["--target", "cobol"], 2, "cobol"),
+        (["--target", ""], 2, "target"),
+        (["no/such/folder"], 2, "no such file or folder"),
+        (["hitachi_l20"], 2, "did you mean `hitachi_l200`?"),
+        (["--out", ""], 2, "the path is empty"),
+        (["--out", "descriptions/hitachi_l200/device.yaml"], 2, "cannot write"),
+    ],
+)
+def test_wrong_calls(
+    project: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str
+) -> None:
+    assert main(["generate", *arguments]) == code
+    assert says in capsys.readouterr().err
+
+
+def test_a_changed_compiler_is_not_mistaken_for_unchanged_input() -> None:
+    from fieldscribe.output import memory
+
+    assert (memory.PACKAGE / "pipeline.py").is_file()

@@ -1,0 +1,43 @@
+"""What may change in a description without touching code: titles, notes and sources are for people."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device, outputs
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+CODE = ("c", "python", "rust")
+
+
+def compiled(folder: Path) -> dict[str, str]:
+    report = Report()
+    device = load_device(folder / "device.yaml", report)
+    assert device is not None, report.findings
+    return {path: text for _, path, text in outputs(device, CODE)}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: re.sub(r"\ben: [A-Z]\w+", "en: Something else", text),
+        lambda text: re.sub(r"\bde: [A-Z]\w+", "de: Anderes", text),
+        lambda text: re.sub(r"line: (\d+)", lambda found: f"line: {int(found[1]) + 7}", text),
+        lambda text: "# a comment\n" + text,
+    ],
+    ids=["english titles", "german titles", "lines", "comments"],
+)
+def test_what_is_for_people_does_not_reach_code(tmp_path: Path, change: Callable[[str], str]) -> None:
+    folder = tmp_path / "hitachi_l200"
+    shutil.copytree(ROOT / "descriptions/hitachi_l200", folder)
+    for path in folder.glob("*.yaml"):
+        path.write_text(change(path.read_text("utf-8")), "utf-8")
+    assert compiled(folder) == compiled(ROOT / "descriptions/hitachi_l200")

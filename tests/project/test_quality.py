@@ -1,0 +1,102 @@
+"""The sources are typed, linted and free of what belongs to one machine; `generated/` is current and deterministic."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.places import ROOT
+
+RUNTIME = ROOT / "templates/python/runtime"
+
+
+def run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=False, env={**os.environ, **environment}
+    )
+
+
+def assert_clean(done: subprocess.CompletedProcess[str]) -> None:
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_ruff() -> None:
+    assert_clean(run(sys.executable, "-m", "ruff", "check", "generator", "tests", "templates"))
+
+
+def test_mypy_of_the_compiler_and_the_tests() -> None:
+    assert_clean(run(sys.executable, "-m", "mypy", "--no-error-summary"))
+
+
+def test_mypy_and_ruff_of_the_generated_python() -> None:
+    places = [str(path.parent) for path in sorted((ROOT / "generated/python").glob("*/__init__.py"))]
+    assert places
+    assert_clean(
+        run(
+            sys.executable,
+            "-m",
+            "mypy",
+            "--config-file",
+            os.devnull,
+            "--strict",
+            "--no-error-summary",
+            *places,
+            MYPYPATH="generated/python",
+        )
+    )
+    assert_clean(run(sys.executable, "-m", "ruff", "check", "--isolated", *places))
+    assert_clean(run(sys.executable, "-m", "ruff", "format", "--isolated", "--line-length", "120", "--check", *places))
+
+
+def test_generated_is_current() -> None:
+    assert_clean(run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--check"))
+
+
+def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
+    for seed in ("1", "2"):
+        out = str(tmp_path / seed)
+        assert_clean(
+            run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--out", out, PYTHONHASHSEED=seed)
+        )
+    first, second = (
+        {
+            path.relative_to(tmp_path / seed): path.read_bytes()
+            for path in (tmp_path / seed).rglob("*")
+            if path.is_file()
+        }
+        for seed in "12"
+    )
+    assert first == second
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    [r"(?<![\w.])/(?:root|home|work|usr/local)/\w", r"pypi\.org|crates\.io/|registry\.npmjs|deb\.debian\.org"],
+)
+def test_no_machine_paths_and_no_registry_hosts(pattern: str) -> None:
+    found = []
+    for folder in ("descriptions", "generator", "templates", "generated", "tests"):
+        for path in (ROOT / folder).rglob("*"):
+            if (
+                path.suffix in {".py", ".yaml", ".j2", ".h", ".c", ".rs", ".toml", ".md", ".json", ".csv", ".sh"}
+                and path.name != Path(__file__).name
+            ):
+                found += [
+                    f"{path}: {line}"
+                    for line in path.read_text("utf-8", "replace").splitlines()
+                    if re.search(pattern, line)
+                ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "path",
+    [*sorted(p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"})],
+    ids=lambda p: p.name,
+)
+def test_runtime_sources_carry_their_licence(path: Path) -> None:
+    assert "0BSD" in path.read_text("utf-8")[:600]

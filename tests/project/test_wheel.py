@@ -1,0 +1,52 @@
+"""The wheel brings templates and descriptions along and works in an empty environment, in a folder of its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import venv
+from typing import TYPE_CHECKING
+
+import pytest
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def run(*command: object, folder: Path) -> str:
+    done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.full(seconds=10)
+def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
+    run(
+        sys.executable,
+        "-m",
+        "pip",
+        "wheel",
+        "--quiet",
+        "--no-deps",
+        "--wheel-dir",
+        tmp_path / "dist",
+        ROOT,
+        folder=tmp_path,
+    )
+    (wheel,) = (tmp_path / "dist").glob("fieldscribe-*.whl")
+    venv.create(tmp_path / "empty", with_pip=True)
+    scripts = tmp_path / "empty" / "bin"
+    run(scripts / "python", "-m", "pip", "install", "--quiet", wheel, folder=tmp_path)
+    project = tmp_path / "project"
+    project.mkdir()
+    run(scripts / "fieldscribe", "generate", "hitachi_l200", "--out", "bindings", folder=project)
+    for path in (
+        "c/hitachi_l200.h",
+        "rust/hitachi_l200/Cargo.toml",
+        "vectors/hitachi_l200.txt",
+        "docs/hitachi_l200.md",
+    ):
+        made = (project / "bindings" / path).read_bytes()
+        assert made == (ROOT / "generated" / path).read_bytes(), f"{path} differs from the checkout's"
+    assert "base_frequency" in run(scripts / "fieldscribe", "explain", "hitachi_l200", "A020", folder=project)

@@ -1,0 +1,559 @@
+"""Generated C: it compiles without a warning everywhere, passes every vector, and stays small."""
+
+from __future__ import annotations
+
+import platform
+import re
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from fieldscribe.targets import c
+from fieldscribe.targets.identifiers import clashes
+from support.c_device import (
+    MADE,
+    SANITIZERS,
+    STANDARDS,
+    WARNINGS,
+    Folders,
+    conformance_source,
+    driver,
+    kitchen,
+    rare_device,
+    write_c,
+)
+from support.models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
+from support.places import ROOT
+from support.toolchains import compiled, run, succeed, tool
+from support.vector_file import counts_of, spoil
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from _pytest.mark.structures import ParameterSet
+    from fieldscribe.model import Device
+
+GENERATED = ROOT / "generated"
+SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
+FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
+CORE = ("c99", "c++17")
+COMPILERS = ("gcc", "clang")
+
+
+class Build(NamedTuple):
+    """One way to compile a conformance program."""
+
+    compiler: str
+    standard: str
+    floats: str
+    optimize: str
+    sanitized: bool
+
+    @property
+    def flags(self) -> tuple[str, ...]:
+        sanitizers = SANITIZERS[self.compiler] if self.sanitized else ()
+        return (*STANDARDS[self.standard], *WARNINGS, *FLOATS[self.floats], self.optimize, *sanitizers)
+
+
+def builds(standards: Iterable[str], sanitized: Iterable[str]) -> list[Build]:
+    """Both compilers with and without floating point, for those standards, as quickly as they compile."""
+    of_all = product(COMPILERS, standards, FLOATS)
+    return [Build(*one, "-O0", one[1] in sanitized) for one in of_all]
+
+
+def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[ParameterSet]:
+    """Devices and builds: both compilers with and without floating point, for each list of standards.
+
+    The standards of a list take turns, so each of them is built in each of these ways for some device.
+    """
+    found = []
+    for (turn, device), standards in product(enumerate(devices), languages):
+        for way, (compiler, floats) in enumerate(product(COMPILERS, FLOATS)):
+            build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
+            found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
+    return found
+
+
+AS_C = ("gcc", "c99", "float")
+AS_CPP = ("clang", "c++17", "no_float")
+QUICKEST = ("clang", "c99", "float")
+
+
+def quick_first(of_all: list[Build], *quick: tuple[str, str, str]) -> list[Build | ParameterSet]:
+    """The core suite takes one build of C with floating point; of made devices also one of C++ without, by clang."""
+    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all]
+
+
+def named(build: Build) -> str:
+    return "-".join(map(str, build[:4]))
+
+
+@pytest.fixture(scope="session")
+def sample(folders: Folders) -> Path:
+    return folders["sample_drive"]
+
+
+@pytest.fixture(scope="session")
+def sink(folders: Folders) -> Path:
+    return folders["kitchen_sink"]
+
+
+def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
+    """Runs all vectors and holds the counts against those of the file."""
+    compiler = driver(build.compiler, build.standard)
+    program = compiled(compiler, build.flags, conformance_source(folder, device), out / "conformance")
+    vectors = folder / "vectors" / f"{device}.txt"
+    done = run([program, vectors])
+    assert done.returncode == 0, done.stdout + done.stderr
+    counts = counts_of(vectors.read_text("utf-8"), "c")
+    left_out = ("decode", "encode") if build.floats == "no_float" else ()
+    assert passed(done.stdout) == {kind: n for kind, n in counts.items() if n and kind not in left_out}
+
+
+def passed(output: str) -> dict[str, int]:
+    """How many vectors of each kind passed."""
+    rows = [line.split() for line in output.splitlines()]
+    return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
+
+
+@pytest.mark.parametrize("build", quick_first(builds(STANDARDS, STANDARDS), AS_C, AS_CPP), ids=named)
+@pytest.mark.parametrize("device", MADE)
+def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
+    """The sanitizers see most where nothing is optimized away."""
+    conforms(folders[device], device, build, tmp_path)
+
+
+@pytest.mark.full(seconds=4)
+@pytest.mark.parametrize(("device", "build"), optimized(MADE, ("c99", "c11", "c17"), ("c++11", "c++17", "c++20")))
+def test_models_conform_optimized(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
+    conforms(folders[device], device, build, tmp_path)
+
+
+@pytest.mark.parametrize("device", MADE)
+def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Path) -> None:
+    """All vectors again where values are float; those that a float cannot hold are not asked."""
+    flags = (*WARNINGS, "-std=c99", "-DFIELDSCRIBE_FLOAT32")
+    program = compiled("gcc", flags, conformance_source(folders[device], device), tmp_path / "conformance")
+    vectors = folders[device] / "vectors" / f"{device}.txt"
+    done = run([program, vectors])
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
+
+
+@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"]), QUICKEST), ids=named)
+@pytest.mark.parametrize("device", SHIPPED)
+def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
+    conforms(GENERATED, device, build, tmp_path)
+
+
+@pytest.mark.full(seconds=10)
+@pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, ("c17", "c++20")))
+def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
+    """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
+    conforms(GENERATED, device, build, tmp_path)
+
+
+ALL = [sample_device(), rare_device(), kitchen_sink(), kitchen("kitchen_can"), kitchen("kitchen_uss")]
+
+
+def frames_header(folder: Path, device: str) -> Path:
+    """The header of a device's frames, whatever its family."""
+    return next((folder / "c").glob(f"{device}_*.h"))
+
+
+@pytest.mark.parametrize("device", ALL, ids=lambda device: str(device.id))
+def test_every_identifier_is_one_thing(device: Device) -> None:
+    assert list(clashes(c.identifiers(device))) == []
+
+
+def test_a_clash_is_found() -> None:
+    entries = (replace(FREQUENCY_SOURCE.entries[0], name="address"),)
+    points = (point("base", 1, enum=replace(FREQUENCY_SOURCE, name="base", entries=entries)),)
+    clash = replace(sample_device(points), frames=(), blocks={})
+    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_ADDRESS"]
+
+
+VENDORED = {"hitachi_l200": (6_000, 260_000), "woodward_mpu2s": (10_000, 480_000)}
+"""Lines and bytes of the headers of points and frames that a firmware team is asked to vendor, at most."""
+
+
+@pytest.mark.parametrize("device", VENDORED)
+def test_what_a_firmware_team_vendors_is_small(device: str) -> None:
+    """Without the shared runtimes and the conformance program; no line is longer than a screen."""
+    texts = [path.read_text("utf-8") for path in (GENERATED / "c").glob(f"{device}*.h")]
+    lines, size = VENDORED[device]
+    assert sum(text.count("\n") for text in texts) <= lines
+    assert sum(len(text.encode()) for text in texts) <= size
+    assert max(len(line) for text in texts for line in text.splitlines()) <= 120
+
+
+def test_a_function_is_one_or_two_statements(sink: Path) -> None:
+    """All else is in the cores."""
+    text = (sink / "c/kitchen_sink.h").read_text("utf-8")
+    bodies = re.findall(r"^\{\n(.*?)^\}|\{ ([^\n]*) \}$", text, re.MULTILINE | re.DOTALL)
+    functions = [block or line for block, line in bodies if "return" in block + line]
+    assert len(functions) > 300
+    assert max(body.count(";") for body in functions) <= 2
+
+
+FUSED = """
+#include "sample_drive.h"
+int main(void)
+{
+    volatile double value = -0.3; /* times ten it is -3 rounded, and a little more than that when the product is not */
+    int16_t raw = 0;
+    return sample_drive_temperature_encode(value, &raw) == SAMPLE_DRIVE_OK && raw == -1 ? 0 : 1;
+}
+"""
+
+
+@pytest.mark.parametrize("standard", ["c99", "gnu99"])
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_steps_are_never_fused(compiler: str, standard: str, sample: Path, tmp_path: Path) -> None:
+    """A fused multiply-add rounds once where two roundings are meant; GNU modes fuse unless they are kept from it."""
+    if platform.machine() != "x86_64" or " fma " not in Path("/proc/cpuinfo").read_text("utf-8"):
+        pytest.skip("needs an x86-64 processor with FMA")
+    (tmp_path / "fused.c").write_text(FUSED, encoding="utf-8")
+    flags = (f"-std={standard}", "-O2", "-mfma", "-ffp-contract=fast", "-I", str(sample / "c"))
+    succeed([compiled(compiler, flags, tmp_path / "fused.c", tmp_path / "fused")])
+
+
+@pytest.mark.parametrize("build", [*FLOATS.values(), ("-DFIELDSCRIBE_FLOAT32",)], ids=" ".join)
+@pytest.mark.parametrize("language", ["c99", "c++17"])
+def test_headers_have_no_clang_warning_at_all(
+    language: str, build: tuple[str, ...], folders: Folders, tmp_path: Path
+) -> None:
+    left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
+    flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
+    source = tmp_path / "headers.c"
+    headers = [frames_header(folders[device], device).name for device in MADE]
+    source.write_text("".join(f'#include "{header}"\n' for header in headers), encoding="utf-8")
+    places = [f"-I{folders[device]}/c" for device in MADE]
+    succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *places, source])
+
+
+@pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
+def test_conformance_catches_each_kind(device: str, folders: Folders, tmp_path: Path) -> None:
+    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"), "c")
+    (tmp_path / "vectors.txt").write_text(text, encoding="utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
+    done = run([program, tmp_path / "vectors.txt"])
+    assert done.returncode == 1
+    failed = {row[0]: int(row[3]) for row in map(str.split, done.stdout.splitlines())}
+    assert failed == {**spoiled, "total": sum(spoiled.values())}
+
+
+def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path) -> None:
+    text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    for old, new in (("\t0123", "\t1123"), ("vectors\t2", "vectors\t3"), ("\tsample_drive\t", "\tsample\t")):
+        (tmp_path / "vectors.txt").write_text(text.replace(old, new, 1), encoding="utf-8")
+        assert run([program, tmp_path / "vectors.txt"]).returncode == 1
+    assert run([program]).returncode == 2
+    assert run([program, tmp_path / "absent.txt"]).returncode == 2
+
+
+def test_a_file_that_lacks_vectors_is_refused(sample: Path, tmp_path: Path) -> None:
+    text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    (tmp_path / "vectors.txt").write_text("\n".join(text.split("\n")[:-2]) + "\n", encoding="utf-8")
+    assert run([program, tmp_path / "vectors.txt"]).returncode == 1
+
+
+def test_no_float_is_left(folders: Folders) -> None:
+    for device in MADE:
+        command = [tool("gcc"), "-E", "-P", "-std=c99", "-ffreestanding", "-DFIELDSCRIBE_NO_FLOAT"]
+        text = succeed([*command, "-x", "c", frames_header(folders[device], device)])
+        own = text[text.index("typedef enum") :]
+        assert not re.search(r"\b(double|float)\b|[0-9]\.[0-9]", own)
+
+
+FLOAT32 = """
+#include "sample_drive.h"
+int main(void)
+{
+    uint32_t at;
+    for (at = 0; at <= 65535U; ++at) {
+        const uint16_t raw = (uint16_t)at;
+        uint16_t again = 1;
+        sample_drive_real value = sample_drive_frequency_fine_decode(raw);
+        if (sample_drive_frequency_fine_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw) {
+            return 1;
+        }
+        value = sample_drive_main_frequency_decode(raw); /* the old name of base_frequency */
+        if (raw <= SAMPLE_DRIVE_BASE_FREQUENCY_RAW_MAX &&
+            (sample_drive_base_frequency_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw)) {
+            return 2;
+        }
+        if (sizeof(sample_drive_third_decode(raw)) != sizeof(sample_drive_real)) {
+            return 3;
+        }
+    }
+    return sizeof(sample_drive_acceleration_time_decode(1U)) == sizeof(double) ? 0 : 4;
+}
+"""
+
+
+@pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
+def test_every_raw_survives_the_value(build: str, sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "trip.c").write_text(FLOAT32, encoding="utf-8")
+    flags = ("-std=c99", "-O2", *WARNINGS, build, "-I", str(sample / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "trip.c", tmp_path / "trip")])
+
+
+TRIPS = """
+#include "trips.h"
+#define TRIP(point, type, first)                                                           \\
+    for (at = first; at <= first + 65535; ++at) {                                          \\
+        const type raw = (type)at;                                                         \\
+        type again = (type)(raw ^ 1);                                                      \\
+        if (trips_##point##_encode(trips_##point##_decode(raw), &again) != TRIPS_OK ||     \\
+            again != raw) {                                                                \\
+            return 1;                                                                      \\
+        }                                                                                  \\
+        again = (type)(raw ^ 1);                                                           \\
+        if (trips_##point##_encode_count(trips_##point##_decode_count(raw), &again) !=     \\
+                TRIPS_OK || again != raw) {                                                \\
+            return 2;                                                                      \\
+        }                                                                                  \\
+    }
+int main(void)
+{
+    int32_t at;
+    TRIP(tenth, uint16_t, 0)
+    TRIP(fine, uint16_t, 0)
+    TRIP(sevenths, uint16_t, 0)
+    TRIP(falling, int16_t, -32768)
+    TRIP(shifted, int16_t, -32768)
+    return 0;
+}
+"""
+
+
+@pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
+def test_every_raw_survives_every_kind_of_rule(build: str, tmp_path: Path) -> None:
+    folder = write_c(trip_device(), tmp_path)
+    (tmp_path / "trips.c").write_text(TRIPS, encoding="utf-8")
+    flags = ("-std=c99", "-O2", *WARNINGS, build, "-I", str(folder / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "trips.c", tmp_path / "trips")])
+
+
+NOISE = """
+#include <stdlib.h>
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "sample_drive_modbus.h"
+static uint32_t state = 1U;
+static uint32_t draw(void)
+{
+    state = (uint32_t)(((uint64_t)state * 48271U) % 2147483647U);
+    return state;
+}
+int main(void)
+{
+    static const uint8_t codes[] = {1, 2, 3, 4, 5, 6, 8, 15, 16, 43};
+    const uint16_t written[1] = {1U};
+    unsigned round_number;
+    for (round_number = 0; round_number < 200000U; ++round_number) {
+        const uint16_t count = (uint16_t)(draw() % 130U + 1U);
+        const fieldscribe_modbus_reading what = {codes[draw() % 10U], 2U, count};
+        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
+        const size_t length = draw() % 24U;
+        uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
+        uint8_t *const exact = bytes + 1;
+        uint16_t *const values = (uint16_t *)malloc(count * sizeof(uint16_t));
+        fieldscribe_modbus_reply reply = {values, count, 0U, 0U};
+        size_t at;
+        const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
+        const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
+        request.values = written;
+        request.first = written[0];
+        request.given = 1U;
+        for (at = 0; at < length; ++at) {
+            exact[at] = (uint8_t)(draw() & 0xFFU);
+        }
+        if (length > head + 4U && draw() % 4U != 0U) { /* mostly frames that get far */
+            exact[head] = 1U;
+            exact[head + 1U] = request.function;
+            exact[head + 2U] = (uint8_t)(length - head - (head != 0U ? 3U : 5U));
+            if (head != 0U) {
+                fieldscribe_modbus_put(exact, 0U);
+                fieldscribe_modbus_put(exact + 2, 0U);
+                fieldscribe_modbus_put(exact + 4, (uint16_t)(length - 6U));
+            } else {
+                const uint16_t crc = fieldscribe_modbus_crc(exact, length - 2U);
+                exact[length - 2U] = (uint8_t)(crc & 0xFFU);
+                exact[length - 1U] = (uint8_t)(crc >> 8);
+            }
+        }
+        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 300U, length) >
+            300U - length) { /* whatever they say of their length, no more than fit */
+            return 2;
+        }
+        if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&
+            reply.count > 0U) {
+            return 1;
+        }
+        free(values);
+        free(bytes);
+    }
+    return 0;
+}
+"""
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "noise.c").write_text(NOISE, encoding="utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
+    succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
+
+
+ECHO = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "sample_drive_modbus.h"
+int main(void)
+{
+    static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
+    const uint16_t written[1] = {500U};
+    static const fieldscribe_modbus_writing what = {6U, 0x1028U, 1U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written, 1U);
+    fieldscribe_modbus_reply reply = {NULL, 0U, 9U, 9U};
+    uint16_t value = 0U;
+    request.transaction = 7U;
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
+            FIELDSCRIBE_MODBUS_OK || reply.count != 0U) {
+        return 1;
+    }
+    reply.values = &value;
+    reply.room = 1U;
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
+            FIELDSCRIBE_MODBUS_OK || reply.count != 1U || value != 500U) {
+        return 2;
+    }
+    return 0;
+}
+"""
+
+
+def test_an_echo_needs_no_room(sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "echo.c").write_text(ECHO, encoding="utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], "-I", str(sample / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "echo.c", tmp_path / "echo")])
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
+def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -> None:
+    header = sample / "c/sample_drive.h"
+    words: list[str | Path] = [tool(compiler), "-std=c99", "-fsyntax-only", flag, "-x", "c", header]
+    refused = run(words)
+    assert refused.returncode != 0
+    assert "Compile without -ffast-math" in refused.stderr
+    assert run([*words, "-DFIELDSCRIBE_NO_FLOAT"]).returncode == 0
+
+
+UNSIGNED = ("-fno-signed-zeros", "-fno-trapping-math")
+"""What -fassociative-math asks for."""
+
+
+@pytest.mark.parametrize("flag", ["-freciprocal-math", "-funsafe-math-optimizations", "-fassociative-math"])
+def test_parts_of_fast_math_are_refused(flag: str, sample: Path) -> None:
+    """gcc tells which of them it was given."""
+    words = ["-std=c99", "-fsyntax-only", flag, *UNSIGNED, "-x", "c"]
+    assert "Compile without -ffast-math" in run([tool("gcc"), *words, sample / "c/sample_drive.h"]).stderr
+
+
+@pytest.mark.full(seconds=4)
+@pytest.mark.parametrize("flag", ["-freciprocal-math", "-fassociative-math"])
+def test_parts_of_fast_math_are_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
+    """clang does not tell, and takes them back for the functions that compute.
+
+    With -funsafe-math-optimizations its start-up file makes the whole program flush subnormal numbers: no header can
+    see or undo that.
+    """
+    source = sample / "c/conformance/sample_drive_conformance.c"
+    words = ("-std=c99", "-O2", *WARNINGS, flag, *UNSIGNED, "-I", str(sample / "c"))
+    succeed([compiled("clang", words, source, tmp_path / "run"), sample / "vectors/sample_drive.txt"])
+
+
+def test_a_runtime_of_another_version_is_refused(sample: Path, tmp_path: Path) -> None:
+    for path in (sample / "c").glob("*.h"):
+        text = path.read_text("utf-8").replace("MODBUS_INTERFACE 2\n", "MODBUS_INTERFACE 3\n")
+        (tmp_path / path.name).write_text(text, encoding="utf-8")
+    done = run([tool("gcc"), "-std=c99", "-fsyntax-only", "-x", "c", tmp_path / "sample_drive_modbus.h"])
+    assert done.returncode != 0
+    assert "of another version" in done.stderr
+
+
+FIRMWARE = """
+#define FIELDSCRIBE_NO_FLOAT
+#include "sample_drive.h"
+volatile int32_t wanted;
+volatile int32_t shown;
+volatile uint16_t wire;
+void start(void);
+void start(void)
+{
+    uint16_t raw = 0U;
+    if (sample_drive_base_frequency_encode_count(wanted, &raw) == SAMPLE_DRIVE_OK) {
+        wire = raw;
+    }
+    shown = sample_drive_base_frequency_decode_count(wire);
+    for (;;) {
+    }
+}
+"""
+
+
+def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "firmware.c").write_text(FIRMWARE, encoding="utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostdlib", "-Wl,-e,start", "-I", str(sample / "c"))
+    image = compiled("arm-none-eabi-gcc", (*flags, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    calls = succeed([tool("arm-none-eabi-objdump"), "-d", image])
+    assert "start" in symbols
+    assert not re.search(r"__aeabi_|__[a-z]*[sd]f[0-9]", symbols + calls)
+    text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
+    print(f"Cortex-M0, -Os, one encode_count and one decode_count: .text {text} bytes")
+    assert text <= 40
+
+
+INTEGER_FIRMWARE = """
+#define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+volatile int64_t wanted;
+volatile uint32_t pattern;
+volatile uint16_t word;
+volatile int32_t result;
+uint8_t frame[FIELDSCRIBE_MODBUS_TCP_MOST];
+void start(void);
+void start(void)
+{
+    int16_t current = 0;
+    uint16_t words[2];
+    size_t length = 0U;
+    fieldscribe_modbus_request request;
+    result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
+    result += (int32_t)kitchen_sink_plain_f32_check(pattern);
+    word = kitchen_sink_ratio_insert(word, 200U);
+    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words, 2U);
+    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words, 2U);
+    result += (int32_t)fieldscribe_modbus_build(
+        &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
+    for (;;) {
+    }
+}
+"""
+
+
+def test_cortex_m0_image_of_all_mechanisms_is_without_float(sink: Path, tmp_path: Path) -> None:
+    """Run-time factors, floating-point patterns, bit groups and frames: 64-bit integers at most."""
+    (tmp_path / "firmware.c").write_text(INTEGER_FIRMWARE, encoding="utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", "-I", str(sink / "c"))
+    image = compiled("arm-none-eabi-gcc", (*flags, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    assert "start" in symbols
+    assert not re.search(r"__aeabi_[df]|__[a-z]*[sd]f[0-9]", symbols)

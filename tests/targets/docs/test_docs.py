@@ -1,0 +1,212 @@
+"""The documentation target: valid tables, nothing lost, nothing that escapes its cell."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import replace
+from functools import lru_cache
+
+import pytest
+from fieldscribe.model import Device, Enum, Place, Special
+from fieldscribe.render import render
+from fieldscribe.targets.docs import outputs
+from support.models import NUMBER, changed, entry, point, sample_device, titles
+
+HOSTILE = "a | b `c` </td><script>alert(1)</script> [x](http://e) {{ 7*7 }} \\"
+DEVICE = sample_device()
+
+
+@lru_cache(maxsize=1)
+def _written() -> dict[str, str]:
+    return dict(outputs(DEVICE, render))
+
+
+def _page(device: Device | None = None) -> str:
+    return (_written() if device is None else dict(outputs(device, render)))["docs/sample_drive.md"]
+
+
+def _rows(device: Device | None = None) -> dict[str, dict[str, str]]:
+    text = (_written() if device is None else dict(outputs(device, render)))["docs/sample_drive.csv"]
+    return {row["name"] + row["variant"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def _cells(line: str) -> list[str]:
+    """The cells of a table row, as GitHub counts them: a backslash keeps a border inside its cell."""
+    return re.split(r"(?<!\\)(?:\\\\)*\|", line)[1:-1]
+
+
+def _row(page: str, item: str) -> list[str]:
+    found = next(line for line in page.splitlines() if f'<a id="point-{item}"></a>' in line)
+    return [one.strip() for one in _cells(found)]
+
+
+def test_three_files_and_the_same_bytes_each_time() -> None:
+    names = ["docs/sample_drive.md", "docs/sample_drive.csv", "docs/sample_drive_special_codes.csv"]
+    assert list(_written()) == names
+    assert dict(outputs(sample_device(), render)) == _written()
+
+
+def test_every_table_is_well_formed() -> None:
+    width = 0
+    lines = _page().split("\n")
+    for number, line in enumerate(lines):
+        assert line == line.rstrip(), f"trailing blank in line {number + 1}"
+        if not line.startswith("|"):
+            width = 0
+            continue
+        if not width:
+            width = len(_cells(line))
+            assert lines[number - 1] == "", "a table starts after an empty line"
+            assert lines[number + 1] == "| " + " | ".join(["---"] * width) + " |"
+        assert len(_cells(line)) == width, line
+    assert lines[-1] == ""
+    assert lines[-2] != ""
+
+
+def test_a_second_place_says_what_it_is_for() -> None:
+    places = (Place("read", "holding", (7,), None), Place("write", "holding", (0x20, 0x21), None))
+    made = changed(point("made", 7), places=places)
+    assert any("write: holding 0020h (32), 0021h (33)" in cell for cell in _row(_page(sample_device((made,))), "made"))
+
+
+def test_every_link_has_its_target() -> None:
+    page = _page()
+    targets = re.findall(r'<a id="([^"]+)"></a>', page)
+    assert len(targets) == len(set(targets))
+    assert set(re.findall(r"\]\(#([^)]+)\)", page)) <= set(targets)
+
+
+def test_names_that_only_a_documented_point_uses_are_shown() -> None:
+    entries = tuple(entry(number, f"baud_{number}") for number in range(6))
+    speeds = Enum("speeds", titles("Speeds"), entries, True)
+    page = _page(sample_device((point("baud_rate", 1, enum=speeds, generated=False, reason="not reachable"),)))
+    assert "names: [`speeds`](#names-speeds)" in page
+    assert '<a id="names-speeds"></a>' in page
+
+
+def test_a_row_of_the_page() -> None:
+    assert _row(_page(), "base_frequency") == [
+        "A020",
+        '<a id="point-base_frequency"></a>`base_frequency`',
+        "Base frequency / Basisfrequenz",
+        "holding",
+        "1028h (4136)",
+        "4137",
+        "404137",
+        "u16",
+        "rw",
+        "0..400 Hz",
+        "0..4000",
+        "raw x 0.1 Hz",
+        "50 Hz",
+        "set 1; kept after [`enter`](#command-enter); was `main_frequency`; erratum [`a020_wire`](#erratum-a020_wire)",
+        "Gruppe A, line 780",
+    ]
+
+
+def test_the_page_names_what_is_not_generated_and_why() -> None:
+    missing = _page().partition("## Not generated")[2]
+    assert "the manual prints no address" in missing
+    assert "not reachable over the bus" in missing
+
+
+def test_frames_show_printed_and_corrected_bytes_and_their_meaning() -> None:
+    line = next(one for one in _page().splitlines() if '<a id="frame-write_base"></a>' in one)
+    assert "`05 06 10 28 01 F4 A8 54` | `05 06 10 28 01 F4 0C 91` | `base_frequency` = 500 (50 Hz)" in line
+
+
+def test_errata_lead_to_their_points_and_frames() -> None:
+    page = _page()
+    assert "| [`base_frequency`](#point-base_frequency) |  | wire 4137 | wire 4136 |" in page
+    assert "|  | frame [`write_base`](#frame-write_base) | crc A8 54 | crc 0C 91 |" in page
+
+
+def test_a_row_of_the_sheet() -> None:
+    row = _rows()["base_frequency"]
+    expected = {
+        "code": "A020",
+        "title_en": "Base frequency",
+        "title_de": "Basisfrequenz",
+        "space": "holding",
+        "wire_hex": "1028h",
+        "wire": "4136",
+        "words_high_first": "",
+        "modicon": "4137",
+        "reference": "404137",
+        "type": "u16",
+        "words": "1",
+        "access": "rw",
+        "raw_min": "0",
+        "raw_max": "4000",
+        "raw_range": "0..4000",
+        "range": "0..400 Hz",
+        "unit": "Hz",
+        "scale": "raw x 0.1 Hz",
+        "resolution": "0.1 Hz",
+        "default": "50",
+        "set": "1",
+        "was": "main_frequency",
+        "errata": "a020_wire",
+        "document": "manual",
+        "section": "Gruppe A",
+        "page": "",
+        "line": "780",
+        "generated": "yes",
+        "reason": "",
+    }
+    assert {key: row[key] for key in expected} == expected
+
+
+def test_the_sheet_has_one_row_a_point() -> None:
+    rows = _rows()
+    assert len(rows) == len(DEVICE.points)
+    assert rows["acceleration_time"]["words_high_first"] == "1013h 1014h"
+    assert rows["analog_filter"]["names"] == "17 = dead_band (16 samples, dead band, 500 ms)"
+    assert rows["status_word"]["flags"].startswith("bit 0 = ready (Ready / Bereit); bit 3 = fault")
+    assert rows["temperature"]["specials"] == "32767 = no_sensor (No sensor), no value"
+    assert rows["dc_levelvoltage_class=400V"]["raw_max"] == "780"
+
+
+def _hostile() -> Device:
+    titles = {"en": HOSTILE, "de": "=cmd()|'x'\r\nnew"}
+    special = Special(9, 9, "odd", titles, False)
+    bad = point("bad", 1, title=titles, note=titles, code=HOSTILE, specials=(special,), conditions=(HOSTILE,))
+    unit = replace(NUMBER, symbol="|<b>")
+    group = replace(DEVICE.groups[0], title=titles, note={"en": "1. one"})
+    enum = replace(DEVICE.enums[0], title=titles, entries=(entry(0, "zero", HOSTILE),))
+    errata = (replace(DEVICE.errata[0], printed=HOSTILE, why=HOSTILE, points=("bad",)),)
+    made = sample_device((bad, changed(bad, name="worse", unit=unit, enum=enum)))
+    return replace(made, title=titles, note=titles, groups=(group,), enums=(enum,), errata=errata, vendor=HOSTILE)
+
+
+def test_hostile_text_stays_in_its_cell() -> None:
+    page = _page(_hostile())
+    assert len(_row(page, "bad")) == len(_row(page, "worse"))
+    assert "<script" not in page
+    assert "<b>" not in page
+    assert "</td>" not in page
+    assert "\r" not in page
+    assert "](http" not in page.replace("\\]\\(http", "")
+    assert "1\\. one" in page
+
+
+def test_hostile_text_is_plain_html_for_a_real_parser() -> None:
+    parser = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
+    page = _page(_hostile())
+    html = parser.render(page)
+    assert "<script" not in html
+    assert 'href="http' not in html
+    assert "<li>one" not in html
+    columns = {len(re.findall("<t[dh]", row)) for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if "bad" in row}
+    assert columns
+    assert html.count("<table>") == page.count("\n| ---")
+
+
+def test_hostile_text_stays_in_its_row_of_the_sheet() -> None:
+    rows = _rows(_hostile())
+    assert set(rows) == {"bad", "worse"}
+    assert rows["bad"]["title_de"].startswith("'=cmd()")
+    assert rows["bad"]["page"] == ""
+    assert rows["bad"]["line"] == "780"

@@ -1,0 +1,507 @@
+"""Generated Python for CAN devices: parameters, texts, digits, telegrams, and every way in which that can fail."""
+
+from __future__ import annotations
+
+import asyncio
+import importlib
+import sys
+import threading
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.asked import Options
+from fieldscribe.conversation.listener import decode
+from fieldscribe.families.can.frames import CanFrame, parse
+from support import wrong_bytes
+from support.c_device import kitchen
+from support.python_families import AsyncCanUnit, CanUnit, can_device
+from support.python_package import error, imported, typed_findings, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from fieldscribe.families.answers import Heard
+    from fieldscribe.model import Message
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_package(can_device(), tmp_path_factory.mktemp("can"))
+
+
+@pytest.fixture(scope="module")
+def package(folder: Path) -> Iterator[Any]:
+    yield from imported(folder, "sample_can")
+
+
+@pytest.fixture
+def can(package: Any) -> Any:
+    return sys.modules["fieldscribe_runtime.can"]
+
+
+@pytest.fixture
+def unit(can: Any) -> CanUnit:
+    return CanUnit(can.Frame, 5)
+
+
+@pytest.fixture
+def mpu(package: Any, unit: CanUnit) -> Any:
+    return package.SampleCan(unit, 5, voltage="400V")
+
+
+@pytest.fixture(scope="module")
+def kitchen_package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    folder = write_package(kitchen("kitchen_can"), tmp_path_factory.mktemp("kitchen"))
+    yield from imported(folder, "kitchen_can")
+
+
+def test_a_frame_of_a_telegram_is_checked_byte_for_byte(kitchen_package: Any) -> None:
+    """Constant, unit and checksum of a cyclic message count as they do in an answer."""
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    heartbeat = profile.message("heartbeat")
+    receiver = can.Receiver(profile, "heartbeat", wrong_bytes.UNIT)
+    frame = partial(can.Frame, wrong_bytes.IDENTIFIER + wrong_bytes.UNIT)
+    for reason, data in wrong_bytes.cases():
+        assert not receiver.take(frame(data)), reason
+        assert error(can.parse, heartbeat, wrong_bytes.UNIT, frame(data)).status == reason
+        assert parse(described("heartbeat"), wrong_bytes.UNIT, CanFrame(0x705, data)).status == reason
+        assert hear_kitchen(f"705#{data.hex()}").faults, reason
+    assert not hear_kitchen(f"705#{wrong_bytes.RIGHT.hex()}").faults
+    assert receiver.take(frame(wrong_bytes.RIGHT))
+    assert receiver.word(0) == 0x1234
+
+
+def test_a_unit_of_two_bytes_has_its_high_byte_first(kitchen_package: Any) -> None:
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    stop = profile.message("stop")
+    assert can.build(stop, profile, 5).data == bytes((1, 0, 5, 0, 0, 0, 0, 0))
+    assert can.parse(stop, 5, can.Frame(0x7FF, bytes((1, 0, 5, 0, 0, 0, 0, 0)))) == (0, 0)
+    assert error(can.parse, stop, 5, can.Frame(0x7FF, bytes((1, 5, 5, 0, 0, 0, 0, 0)))).status == "wrong_unit"
+
+
+def test_units_that_the_device_cannot_have_are_refused(kitchen_package: Any) -> None:
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    for unit in (0, 31, 256, "5"):
+        assert error(can.Receiver, profile, "heartbeat", unit).status == "bad_unit"
+        assert error(kitchen_package.KitchenCan, CanUnit(can.Frame, 1), unit).status == "bad_unit"
+    data = bytes((5, 31, 0, 0, 0, 0, 5, 31))
+    assert hear_kitchen(f"71F#{data.hex()}").kind == "other"
+
+
+def described(name: str) -> Message:
+    """A message as the compiler knows it."""
+    return next(one for one in kitchen("kitchen_can").messages if one.name == name)
+
+
+def hear_kitchen(text: str) -> Heard:
+    """What the command line makes of a frame."""
+    return decode(kitchen("kitchen_can"), {}, [text], Options())[0]
+
+
+def test_parameters(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters[508] = 7
+    assert mpu.transformer.read() == 7
+    mpu.transformer.write(500)
+    assert unit.log == ["33F#ff0501fc0000fef9", "33F#ee0501fc01f4ee0d"]
+    mpu.level.write(99)
+    assert unit.parameters[600] == 99
+    assert error(mpu.level.write, 100).status == "out_of_range"
+    assert mpu.read_at("parameter", 507, 3) == (0, 500, 0)
+    mpu.write_at("parameter", 1, 0xFFFF)
+    assert unit.parameters[1] == 0xFFFF
+    assert error(mpu.read_at, "telegram", 1).status == "bad_space"
+    assert error(mpu.write_at, "telegram", 1, 1).status == "bad_space"
+    assert error(mpu.read_at, "parameter", 0x10000).status == "bad_address"
+    assert error(mpu.write_at, "parameter", 1, 0x10000).status == "bad_value"
+
+
+def test_bits_keep_their_neighbours_and_constants(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.parameters[19] = 0x3FF6
+    mpu.controller.write(package.Switch.ON)
+    assert unit.parameters[19] == 0xFFF6
+    mpu.slow_ramp.write(True)
+    assert unit.parameters[19] == 0xFF0F
+    assert mpu.controller.read() is package.Switch.ON
+    unit.parameters[19] = 0x4000
+    assert mpu.controller.read() == 1  # an undefined pattern survives
+
+
+def test_constant_bits_of_whole_words(mpu: Any, package: Any, unit: CanUnit) -> None:
+    mpu.command_word.write(package.CommandWord.START)
+    assert unit.parameters[30] == 0x0406 | 1 & ~0x040F
+    assert error(mpu.command_word.write_raw, 1).status == "out_of_range"
+    mpu.command_word.write_raw(0x8406)
+    assert mpu.command_number.encode(5) == 0x8005
+    assert error(mpu.command_number.encode, 0x100).status == "out_of_range"
+    assert error(mpu.command_number.check, 5).status == "out_of_range"
+    assert mpu.command_number.decode(5) == 5
+
+
+def test_texts(mpu: Any, unit: CanUnit) -> None:
+    mpu.fault_text.write("Low oil")
+    assert [unit.parameters[address] for address in (739, 738, 737, 736)] == [0x4C6F, 0x7720, 0x6F69, 0x6C20]
+    assert mpu.fault_text.read() == "Low oil"
+    unit.parameters.update({740: 0xFF80, 741: 0x0020})
+    assert mpu.label.read() == "ÿ\x80\x00"
+    mpu.label.write("Ölä")
+    assert mpu.label.read() == "Ölä"
+    for point, value in (("fault_text", "123456789"), ("fault_text", "Öl"), ("fault_text", "\n"), ("label", "€")):
+        assert error(getattr(mpu, point).write, value).status == "out_of_range"
+    message = str(error(mpu.fault_text.write, "much too long"))
+    assert message == "fault_text: much too long is no text of at most 8 printable ascii characters"
+    assert error(mpu.fault_text.write, 5).status == "out_of_range"
+    assert error(mpu.fault_text.write_raw, 0).status == "out_of_range"
+    assert type(mpu).fault_text.encode("") == 0x2020202020202020
+    mpu.fault_text.write_raw(0x4142434445464748)
+    assert mpu.fault_text.read() == "ABCDEFGH"
+    for raw in (-1, 1 << 64, 0x2020202020202020 | 1 << 64, 0x2020202020202000):
+        assert error(mpu.fault_text.check, raw).status == "out_of_range"
+
+
+def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.parameters[404] = 1257
+    assert mpu.delays.read() == (1, 2, 5, 7)
+    assert mpu.delays.read()[0] is package.Delay.STEP_1
+    mpu.delays.write((5, package.Delay.STEP_0, 1, 2))
+    assert unit.parameters[404] == 5012
+    assert type(mpu).delays.decode(12345) == (12, 3, 4, 5)
+    assert error(mpu.delays.write, (1, 2, 3, 5)).status == "unknown_value"
+    assert error(mpu.delays.write, (1, 2, package.Switch.OFF, 5)).status == "unknown_value"
+    assert error(mpu.delays.write, (1, 2)).status == "wrong_length"
+    assert str(error(mpu.delays.write, None)) == "delays: takes 4 digits, not None"
+    assert error(mpu.delays.write, (1, 2, True, 5)).status == "wrong_type"
+    assert error(mpu.delays.check, 1234).status == "unknown_value"
+    assert mpu.delays.name_of(5) == "step_5"
+    unit.parameters[404] = 1
+    assert mpu.read_many(["delays", "fault_text"]) == {"delays": (0, 0, 0, 1), "fault_text": "\0" * 8}
+
+
+def test_points_of_other_variants(package: Any, unit: CanUnit) -> None:
+    small = package.SampleCan(unit, 5, size="small")
+    assert str(error(getattr, small, "spare")) == "spare exists only for size large"
+    unit.parameters[507] = 100
+    assert "spare" not in small.read_many("main")
+    assert len(unit.log) == len(set(unit.log))  # a word that points share is read once
+    assert package.SampleCan(unit, 5, size="large").spare.read() == 0
+    assert package.SampleCan(unit, 5).spare.read() == 0
+    assert package.SampleCan.spare.facts.only_for == ("size", ("large",))
+
+
+def test_factors_are_kept_until_what_changes_them_is_written(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters.update({507: 200, 510: 100})
+    assert mpu.voltage_setpoint.read() == 200.0
+    assert mpu.voltage_setpoint.read() == 200.0
+    assert len(unit.log) == 3  # the factor was read once
+    mpu.transformer.write(1)
+    unit.parameters[507] = 400
+    assert mpu.voltage_setpoint.read() == 100.0
+    assert len(unit.log) == 6
+    mpu.write_at("parameter", 508, 2)
+    assert mpu.voltage_setpoint.read() == 100.0
+    assert len(unit.log) == 9
+
+
+def test_factors_are_read_anew_before_each_write(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters.update({507: 200, 510: 100})
+    assert mpu.voltage_setpoint.read() == 200.0
+    unit.parameters[507] = 100  # somebody turns a knob
+    mpu.voltage_setpoint.write(100.0)
+    assert unit.parameters[510] == 25
+    assert len(unit.log) == 4
+    assert mpu.voltage_setpoint.read() == 100.0
+    assert len(unit.log) == 5  # and the new one is kept
+    unit.parameters[507] = 300
+    mpu.limited.write(600)
+    assert error(mpu.limited.write_raw, 601).status == "out_of_range"
+    assert len(unit.log) == 8
+
+
+def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
+    unit.waiting = [unit.words(1, 7), unit.words(0, 5000, 25, 0x0200), unit.words(3, 1, 2)]
+    assert mpu.frequency.read() == 50.0
+    assert mpu.power.read() == 2500.0
+    assert len(unit.waiting) == 1
+    assert mpu.starts.read() == 1 << 16 | 2
+    assert not unit.log
+    assert mpu.take(unit.words(0, 100)) is True
+    assert mpu.take(unit.frame(0x321, b"")) is False
+    assert mpu.read_many(["frequency", "power_exponent"]) == {"frequency": 1.0, "power_exponent": 0}
+    assert not hasattr(mpu.frequency, "write")
+
+
+def test_old_words_do_not_count(mpu: Any, unit: CanUnit) -> None:
+    mpu.fresh_for = -1.0
+    mpu.take(unit.words(0, 1))
+    unit.waiting = [unit.words(0, 2)]
+    mpu.fresh_for = 0.0
+    assert mpu.frequency.read() == 0.02
+
+
+def test_counters_over_two_frames_are_not_torn(mpu: Any, unit: CanUnit) -> None:
+    high_1, high_2 = unit.words(1, 0, 0, 1), unit.words(1, 0, 0, 2)
+    unit.waiting = [high_1, unit.words(2, 0xFFFF), high_2, unit.words(2, 0), high_2]
+    assert mpu.hours.read() == 2 << 16
+    mpu.take(high_1)
+    failure = error(mpu.hours.read)
+    assert (failure.status, type(failure.__cause__).__name__, failure.__cause__.status) == (
+        "timeout",
+        "TelegramError",
+        "torn",
+    )
+    assert isinstance(failure, TimeoutError)
+
+
+def test_frames_of_others_are_passed_on(mpu: Any, unit: CanUnit, can: Any) -> None:
+    unit.others = [
+        unit.words(0, 5000),
+        can.Frame(0x325, b"\xff\x05\x01\xfd\x00\x01\xfe\xf9"),  # for another parameter
+        can.Frame(0x326, b"\xff\x06\x01\xfc\x00\x01\xfe\xfb"),  # of another unit
+        can.Frame(0x325, b"\xff"),
+    ]
+    unit.parameters[508] = 3
+    assert mpu.transformer.read() == 3
+    assert mpu.frequency.read() == 50.0
+    assert unit.log == ["33F#ff0501fc0000fef9"]
+    assert not unit.waiting
+
+
+def test_failures_say_what_they_are(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.silent = True
+    failure = error(mpu.transformer.read)
+    assert (failure.status, str(failure)) == ("timeout", "transformer: read_answer for 508 did not come")
+    assert isinstance(failure, TimeoutError)
+    unit.silent = False
+    unit.spoils = 1
+    failure = error(mpu.transformer.read)
+    assert (failure.status, failure.__cause__.status) == ("timeout", "wrong_check")
+    assert mpu.transformer.read() == 0  # and the device goes on
+    unit.most[508] = 9
+    failure = error(mpu.transformer.write, 10)
+    assert (failure.status, failure.written, failure.answered) == ("echo_mismatch", (10,), (9,))
+    assert str(failure) == "transformer: 10 was written, and the device answered 9"
+    unit.parameters[507], unit.most[510] = 200, 5
+    failure = error(mpu.voltage_setpoint.write, 100.0)
+    assert str(failure) == "voltage_setpoint: 100 V was written, and the device answered 10 V"
+    failure = error(mpu.voltage_setpoint.write_raw, 6)
+    assert str(failure) == "voltage_setpoint: raw 6 was written, and the device answered raw 5"
+    unit.most[19] = 0x00FF
+    assert error(mpu.controller.write, 3).status == "echo_mismatch"
+    unit.most[737] = 1
+    failure = error(mpu.fault_text.write, "Low oil")
+    assert (failure.status, failure.point, failure.answered) == ("echo_mismatch", "fault_text", (1,))
+    assert error(mpu.frequency.read).status == "timeout"
+    assert error(package.SampleCan, unit, 31).status == "bad_unit"
+    mpu.patience = -1.0
+    failure = error(mpu.transformer.read)
+    text = "transformer: read_answer for 508 did not come within -1 s"
+    assert (failure.status, str(failure)) == ("timeout", text)
+
+
+class LateUnit(CanUnit):
+    """A unit whose answers come only after the master gave up, while `late`."""
+
+    late: Any = None
+
+    def receive(self) -> Any:
+        """The next frame, unless it is held back."""
+        if self.late is not None:
+            self.late += self.waiting
+            self.waiting = []
+        return super().receive()
+
+
+class WaitingUnit(CanUnit):
+    """A unit behind a transport that tells what has come already."""
+
+    def receive_waiting(self) -> Any:
+        """The next frame that is there."""
+        return self.waiting.pop(0) if self.waiting else None
+
+
+def test_late_answers_are_no_answers(package: Any, can: Any) -> None:
+    unit = LateUnit(can.Frame, 5)
+    mpu = package.SampleCan(unit, 5)
+    unit.parameters[508], unit.late = 3, []
+    assert error(mpu.transformer.read).status == "timeout"
+    (unit.waiting, unit.late), unit.parameters[508] = (unit.late, None), 4
+    unit.waiting.append(unit.words(0, 5000))
+    assert mpu.transformer.read() == 4
+    assert mpu.frequency.read() == 50.0  # what else came meanwhile counts
+    unit.late = []
+    assert error(mpu.transformer.write, 7).status == "timeout"
+    (unit.waiting, unit.late) = (unit.late, None)
+    mpu.transformer.write(8)
+    assert unit.parameters[508] == 8
+
+
+def test_the_queue_is_cleared_before_a_request(package: Any, can: Any) -> None:
+    unit = WaitingUnit(can.Frame, 5)
+    mpu = package.SampleCan(unit, 5)
+    assert isinstance(unit, can.WaitingCanTransport)
+    unit.parameters[508] = 9
+    unit.waiting = [can.Frame(0x325, bytes.fromhex("ff0501fc0001fef8")), unit.words(0, 4000)]
+    assert can.parse(mpu.PROFILE.message("read_answer"), 5, unit.waiting[0]) == (508, 1)
+    assert mpu.transformer.read() == 9
+    assert mpu.frequency.read() == 40.0
+
+    class AsyncWaitingUnit(AsyncCanUnit):
+        def receive_waiting(self) -> Any:
+            return unit.receive_waiting()
+
+    async def work() -> Any:
+        unit.waiting = [can.Frame(0x325, bytes.fromhex("ff0501fc0001fef8"))]
+        return await package.SampleCanAsync(AsyncWaitingUnit(unit), 5).transformer.read()
+
+    assert asyncio.run(work()) == 9
+
+
+def test_words_of_a_telegram_by_place(mpu: Any, unit: CanUnit) -> None:
+    mpu.take(unit.words(2, 7, 8, 9))
+    assert mpu.read_at("measurements", 6, 3) == (7, 8, 9)
+    assert error(mpu.write_at, "measurements", 1, 1).status == "bad_space"
+
+
+def test_receiver(can: Any, package: Any, unit: CanUnit) -> None:
+    receiver = can.Receiver(package.SampleCan.PROFILE, "measurements", 5)
+    assert error(receiver.word, 0).status == "missing"
+    assert receiver.take(unit.words(0, 1, 2, 3))
+    assert [receiver.word(position) for position in (0, 1, 2)] == [1, 2, 3]
+    assert error(receiver.word, 11).status == "bad_address"
+    frame = unit.words(0, 9)
+    for wrong in (
+        can.Frame(frame.id ^ 1, frame.data),
+        can.Frame(frame.id, frame.data[:7]),
+        can.Frame(frame.id, b"\xdc" + frame.data[1:]),
+        unit.words(4, 9),
+    ):
+        assert not receiver.take(wrong)
+    assert receiver.word(0) == 1
+    assert error(can.Receiver, package.SampleCan.PROFILE, "nothing", 5).status == "no_access"
+    assert [receiver.take(unit.words(slot, 5, 6, 7)) for slot in (1, 2)] == [True, True]
+    assert receiver.words((2, 3, 4, 5, 6)) == (3, 5, 6, 7, 5)  # no counter
+
+
+def test_receiver_without_a_multiplexer(can: Any) -> None:
+    words = (can.Role("unit"), *(can.Role("word", number) for number in (1, 0)), *(can.Role("constant"),) * 5)
+    message = can.Message("beat", "cyclic", 0x700, words, adds_unit=True)
+    profile = can.Profile((0, 9), 11, (message,), (can.Telegram("beats", "cyclic", 1, "beat"),))
+    receiver = can.Receiver(profile, "beats", 5)
+    assert receiver.take(can.Frame(0x705, b"\x05\x34\x12\0\0\0\0\0"))
+    assert receiver.word(0) == 0x1234
+    assert not receiver.take(can.Frame(0x705, b"\x06\x34\x12\0\0\0\0\0"))
+
+
+def test_any_bytes_are_safe(can: Any, package: Any) -> None:
+    profile = package.SampleCan.PROFILE
+    for message in profile.messages:
+        for size in range(10):
+            for byte in (0x00, 0xDD, 0xEE, 0xFF):
+                frame = can.Frame(message.identifier(5), bytes((byte,)) * size)
+                if (message.name, size, byte) == ("measurements", 8, 0xDD):
+                    assert can.parse(message, 5, frame) == (0, 0)
+                else:
+                    failure = error(can.parse, message, 5, frame)
+                    assert failure.status in ("wrong_length", "wrong_constant", "wrong_unit", "wrong_check")
+
+
+def test_async_twin(package: Any, unit: CanUnit) -> None:
+    async def work() -> tuple[Any, ...]:
+        mpu = package.SampleCanAsync(AsyncCanUnit(unit), 5, voltage="100V")
+        await mpu.fault_text.write("Oil")
+        await mpu.controller.write_raw(3)
+        await mpu.write_at("parameter", 508, 4)
+        unit.others = [unit.words(0, 5000, 1, 0x0100)]
+        both = await asyncio.gather(mpu.transformer.read(), mpu.fault_text.read())
+        many = await mpu.read_many(["frequency", "power"])
+        unit.silent, unit.others = True, []
+        late: Any = (await asyncio.gather(mpu.transformer.read(), return_exceptions=True))[0]
+        return (*both, many, await mpu.frequency.read(), late.status)
+
+    assert asyncio.run(work()) == (4, "Oil", {"frequency": 50.0, "power": 10.0}, 50.0, "timeout")
+
+
+TYPED = """
+from collections.abc import Sequence
+from typing import assert_type
+from sample_can import CommandWord, Delay, SampleCan, SampleCanAsync, Switch
+from fieldscribe_runtime import Layout, Value
+from fieldscribe_runtime.can import CanTransport, Decoder, Frame
+
+class Silent:
+    def send(self, frame: Frame) -> None: ...
+    def receive(self) -> Frame:
+        raise TimeoutError
+
+def use(transport: CanTransport) -> None:
+    mpu = SampleCan(transport, 5, voltage="400V")
+    assert_type(mpu.fault_text.read(), str)
+    mpu.fault_text.write("Oil")
+    assert_type(mpu.delays.read(), tuple[Delay, ...])
+    mpu.delays.write((Delay(1), Delay.STEP_2, Delay(5), Delay(0)))
+    mpu.delays.write((1, Delay.STEP_2, 5, 0))  # E: arg-type
+    assert_type(Decoder(SampleCan, "measurements", 5).decode(Frame(0x325, bytes(8))), dict[str, Value])
+    assert_type(SampleCan.layouts("measurements"), tuple[Layout, ...])
+    assert_type(mpu.level.read(), int)
+    assert_type(mpu.frequency.read(), float)
+    assert_type(mpu.take(Frame(0x325, bytes(8))), bool)
+    mpu.controller.write(Switch.ON)
+    mpu.command_word.write(CommandWord.of())
+    CommandWord.of(start=True)  # E: call-arg
+    mpu.frequency.write(5.0)  # E: attr-defined
+    mpu.fault_text.write(5)  # E: arg-type
+    mpu.fault_text.write("Oil", keep=True)  # E: call-arg
+    SampleCan(transport, 5, voltage="200V")  # E: arg-type
+    SampleCan(Silent(), 5)
+
+async def use_async(mpu: SampleCanAsync) -> None:
+    assert_type(await mpu.fault_text.read(), str)
+    assert_type(await mpu.level.read(), int)
+"""
+
+
+def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
+    assert typed_findings(TYPED, folder, "sample_can", tmp_path) == ""
+
+
+def test_over_a_bus_of_python_can(package: Any, can: Any) -> None:
+    """All that a transport over python-can takes; the virtual bus stands for the wire."""
+    python_can = pytest.importorskip("can")
+
+    class BusTransport:
+        def __init__(self, bus: Any) -> None:
+            self.bus = bus
+
+        def send(self, frame: Any) -> None:
+            self.bus.send(python_can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False))
+
+        def receive(self) -> Any:
+            message = self.bus.recv(1.0)
+            if message is None:
+                raise TimeoutError("no frame within 1 s")
+            return can.Frame(message.arbitration_id, bytes(message.data))
+
+    unit = CanUnit(can.Frame, 5)
+    with (
+        python_can.Bus(interface="virtual", channel="fieldscribe") as master,
+        python_can.Bus(interface="virtual", channel="fieldscribe") as slave,
+    ):
+        far_end = BusTransport(slave)
+
+        def answer() -> None:
+            far_end.send(unit.words(0, 5000))
+            for _ in range(2):
+                unit.send(far_end.receive())
+                far_end.send(unit.receive())
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        mpu = package.SampleCan(BusTransport(master), 5)
+        mpu.transformer.write(7)
+        assert (mpu.transformer.read(), mpu.frequency.read()) == (7, 50.0)
+        thread.join()
+        assert error(package.SampleCan(BusTransport(master), 6).transformer.read).status == "timeout"

@@ -1,0 +1,153 @@
+"""Points that only some devices have, in the Python of a device: groups are read without them."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.plain import for_code
+from support.python_package import Slave, error, imported, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device
+
+TEMPCO = """\
+fieldscribe: 1
+device: tempco
+version: 1.0.0
+vendor: Maker
+model: T1
+title: Temperature controller
+family: modbus
+documents: {manual: {title: Manual, language: en}}
+variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
+bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
+---
+group: main
+space: holding
+source: {document: manual, section: "1"}
+points:
+- {name: actual, at: 9, access: r}
+- {name: highest, at: 10, range: 0..400}
+- {name: cascade, at: 11, range: 0 .. highest.raw, when: model == pro, special: {50: {name: off, en: "Off"}}}
+- {name: output, at: 12, access: r}
+- {name: newer, at: 14, access: r, since: firmware 2}
+- {name: trend, at: 15, access: r, when: model == pro and highest == 1}
+---
+group: other
+space: holding
+source: {document: manual, section: "2"}
+points:
+- {name: last, at: 13, access: r}
+- {name: final, at: 16, access: r}
+"""
+
+
+class Basic(Slave):
+    """Refuses all of a request that touches the register that this model does not have."""
+
+    def _answer(self, pdu: bytes) -> bytes:
+        address, count = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
+        self.refuses = (
+            {address: 2} if pdu[0] == 3 and any(one in (11, 15) for one in range(address, address + count)) else {}
+        )
+        return super()._answer(pdu)
+
+
+@pytest.fixture(scope="module")
+def tempco(tmp_path_factory: pytest.TempPathFactory) -> Device:
+    file = tmp_path_factory.mktemp("tempco") / "device.yaml"
+    file.write_text(TEMPCO, "utf-8")
+    report = Report()
+    device = load_device(file, report)
+    assert device is not None, report.findings
+    return device
+
+
+@pytest.fixture(scope="module")
+def package(tempco: Device, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    folder = tmp_path_factory.mktemp("package")
+    yield from imported(write_package(for_code(tempco), folder), "tempco")
+
+
+def test_a_group_is_read_without_what_the_variant_does_not_have(package: Any) -> None:
+    slave = Slave()
+    package.Tempco(slave, 1, model="pro").read_many("main")
+    assert slave.log == [(3, 9, 2), (3, 11, 1), (3, 12, 1), (3, 14, 1), (3, 15, 1)]
+    basic = Basic()
+    device = package.Tempco(basic, 1, model="basic")
+    assert device.read_many("main") == dict.fromkeys(["actual", "highest", "output", "newer"], 0)
+    assert basic.log == [(3, 9, 2), (3, 12, 1), (3, 14, 1)]
+    assert "exists only for model pro" in str(error(lambda: device.trend))
+    basic.log.clear()
+    assert device.read_many("other") == {"last": 0, "final": 0}
+    assert basic.log == [(3, 13, 1), (3, 16, 1)]
+
+
+def test_reads_of_listed_points_cross_nothing_that_may_be_missing(package: Any) -> None:
+    slave = Basic()
+    for model in ("basic", None):
+        slave.log.clear()
+        package.Tempco(slave, 1, model=model).read_many(["highest", "output", "last", "final"])
+        assert slave.log == [(3, 10, 1), (3, 12, 2), (3, 16, 1)], model
+    newest = Slave()
+    package.Tempco(newest, 1, model="pro").read_many(["last", "final"])
+    assert newest.log == [(3, 13, 1), (3, 16, 1)]
+    whole = Slave()
+    package.Tempco(whole, 1, model="pro").read_many(["highest", "output"])
+    assert whole.log == [(3, 10, 3)]
+
+
+def test_every_language_says_when_a_point_exists(tempco: Device) -> None:
+    texts = {path: text for _, path, text in outputs(tempco, ("c", "python", "rust", "docs"))}
+    comments = " ".join(texts["c/tempco.h"].split())
+    assert "exists only when model == pro;" in comments or "exists only when model == pro */" in comments
+    assert "exists only when model == pro and highest == 1" in comments
+    assert "Exists only when model == pro." in texts["python/tempco/points.py"]
+    assert "only when `model == pro`" in "".join(text for path, text in texts.items() if path.endswith(".rs"))
+    assert "exists when model == pro" in texts["docs/tempco.md"]
+
+
+class Silent(Slave):
+    """Nobody answers; `log` says what was sent all the same."""
+
+    def exchange(self, request: bytes) -> bytes:
+        super().exchange(request)
+        raise TimeoutError("the port says nothing")
+
+
+class AsyncSilent(Silent):
+    """The same, asynchronously."""
+
+    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # the async twin of the protocol
+        return super().exchange(request)
+
+
+def test_a_device_that_does_not_answer_is_a_no_reply_error(package: Any) -> None:
+    """As in the other families: the transport's TimeoutError is its cause."""
+
+    async def ask() -> Any:
+        await package.TempcoAsync(AsyncSilent(), 7).actual.read()
+
+    for call in (package.Tempco(Silent(), 7).actual.read, lambda: asyncio.run(ask())):
+        raised = error(call)
+        assert (type(raised).__name__, raised.status) == ("NoReplyError", "timeout")
+        assert str(raised) == "actual: unit 7 did not reply to function 03h"
+        assert isinstance(raised.__cause__, TimeoutError)
+
+
+def test_what_is_never_written_is_refused_before_any_traffic(package: Any) -> None:
+    slave = Slave()
+    cascade = package.Tempco(slave, 1).cascade
+    raised = error(cascade.write, cascade.special.off)
+    assert (raised.status, str(raised)) == ("special", "cascade: raw 50 is the special code off: it is only read")
+    assert error(cascade.write_raw, 50).status == "special"
+    for call in (cascade.write, cascade.write_raw):
+        assert error(call, "off").status == "wrong_type"
+    assert error(cascade.write, cascade.special.off.replaced(name="on")).status == "unknown_value"
+    assert slave.log == []

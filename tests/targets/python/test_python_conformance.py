@@ -1,0 +1,106 @@
+"""The conformance runner for Python: it passes what is right and fails what is wrong."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from conformance.runtime import CHECKS
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import find_devices, load_device
+from fieldscribe.render import render
+from fieldscribe.resources import descriptions_dir
+from fieldscribe.targets import vectors
+from support.c_device import kitchen, rare_device
+from support.models import kitchen_sink, sample_device
+from support.places import TESTS
+from support.python_families import can_device, uss_device
+from support.python_package import write_package
+from support.rust_crates import odd_device
+from support.vector_file import counts_of, spoil
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+
+RUNNER = TESTS / "conformance"
+PROMISES = 1 + len(CHECKS)
+"""What the runner holds beside the vectors: the widths of flags, and what the runtime promises for any device."""
+
+
+def conformance(folder: Path, text: str, device: str = "sample_drive") -> tuple[int, str]:
+    """Runs the runner as users do; its exit code and output."""
+    (folder / "vectors.txt").write_text(text, encoding="utf-8")
+    command = [sys.executable, str(RUNNER), str(folder), device, str(folder / "vectors.txt")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_package(sample_device(), tmp_path_factory.mktemp("python"))
+
+
+def with_enums(device: Device) -> Device:
+    """The device with the enums that only digits name."""
+    enums = {one.name: one for one in (*device.enums, *(point.digits.enum for point in device.points if point.digits))}
+    return replace(device, enums=tuple(enums.values()))
+
+
+def shipped() -> list[Path]:
+    """The descriptions that come with the compiler."""
+    return find_devices([descriptions_dir()], Report())
+
+
+@pytest.mark.parametrize("description", shipped(), ids=lambda path: path.parent.name)
+def test_shipped_devices_pass(description: Path, tmp_path: Path) -> None:
+    device = load_device(description, Report())
+    assert device is not None
+    every_vector_passes(device, write_package(device, tmp_path))
+
+
+def test_all_vectors_pass(folder: Path) -> None:
+    every_vector_passes(sample_device(), folder)
+
+
+@pytest.mark.parametrize(
+    "device",
+    [with_enums(rare_device()), odd_device(), kitchen_sink(), kitchen("kitchen_can"), can_device(), uss_device()],
+    ids=lambda device: str(device.id),
+)
+def test_other_models_pass(device: Device, tmp_path: Path) -> None:
+    every_vector_passes(device, write_package(device, tmp_path))
+
+
+def every_vector_passes(device: Device, folder: Path) -> None:
+    """Runs all vectors of a device and holds the counts against those of the file."""
+    text = next(iter(vectors.outputs(device, render)))[1]
+    code, output = conformance(folder, text, device.id)
+    counts = counts_of(text)
+    assert code == 0, output
+    lines = output.splitlines()
+    counts["runtime"] = PROMISES
+    assert sorted(lines[:-1]) == sorted(f"{kind} {count} passed, 0 failed" for kind, count in counts.items() if count)
+    assert lines[-1:] == [
+        f"total {sum(counts.values())} passed, 0 failed",
+    ]
+
+
+@pytest.mark.parametrize("name", ["kitchen_codes", "kitchen_can", "kitchen_uss"])
+def test_kitchens_pass(name: str, tmp_path: Path) -> None:
+    device = load_device(TESTS / "devices" / name / "device.yaml", Report())
+    assert device is not None
+    every_vector_passes(device, write_package(device, tmp_path))
+
+
+@pytest.mark.parametrize("device", [sample_device(), can_device(), uss_device()], ids=lambda device: str(device.id))
+def test_every_wrong_vector_fails(device: Device, tmp_path: Path) -> None:
+    text, spoiled = spoil(next(iter(vectors.outputs(device, render)))[1])
+    code, output = conformance(write_package(device, tmp_path), text, device.id)
+    failed = {row[0]: int(row[3]) for row in map(str.split, output.splitlines()) if row[0] != "runtime"}
+    assert code == 1
+    assert failed == {**spoiled, "total": sum(spoiled.values())}

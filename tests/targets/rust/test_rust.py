@@ -1,0 +1,539 @@
+"""Generated Rust: it passes every vector, is clean to clippy and rustfmt, never panics, and refuses misuse."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Flag
+from fieldscribe.pipeline import load_device
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import rust
+from fieldscribe.targets.identifiers import clashes as found_clashes
+from fieldscribe.targets.rust.documentation import left_out, point_doc, wrapped
+from fieldscribe.targets.rust.families import in_rust
+from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
+from fieldscribe.targets.rust.subjects import scope_of
+from support.c_device import kitchen
+from support.made_once import made_once
+from support.models import entry, kitchen_sink, point, sample_device, titles, trip_device
+from support.places import ROOT, TESTS
+from support.rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
+from support.toolchains import run, succeed, tool
+from support.vector_file import counts_of
+
+if TYPE_CHECKING:
+    import subprocess
+    from collections.abc import Callable, Iterator
+
+    from fieldscribe.model import Device
+    from fieldscribe.targets.rust.subjects import CratePoint
+
+SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
+PROGRAMS = TESTS / "rust"
+FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
+MODELS: dict[str, Callable[[], Device]] = {
+    "sample_drive": sample_device,
+    "rare": rare_device,
+    "odd": odd_device,
+    "trips": trip_device,
+    "kitchen_sink": kitchen_sink,
+    "kitchen_codes": partial(kitchen, "kitchen_codes"),
+    "kitchen_can": partial(kitchen, "kitchen_can"),
+    "kitchen_uss": partial(kitchen, "kitchen_uss"),
+    "result": partial(kitchen, "odd_names"),
+    "odd_can": can_device,
+    "odd_uss": uss_device,
+}
+RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
+GATEWAYS = ("siemens_mm4", "woodward_mpu2s")
+"""Real devices that programs of users are written for."""
+
+
+@pytest.fixture(scope="session")
+def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
+    """One cargo workspace of all crates; with what cargo builds it stays in pytest's cache."""
+    cache = request.config.cache
+
+    def make(out: Path) -> None:
+        write_workspace(out)
+        if cache:
+            bring_up_to_date(cache.mkdir("crates"), out)
+
+    made = made_once(tmp_path_factory, "crates", make)
+    return (cache.mkdir("crates") if cache else made) / "rust"
+
+
+WORKSPACE = """\
+[workspace]
+resolver = "2"
+members = @MEMBERS@
+
+[profile.dev]
+debug = false
+incremental = false
+"""
+
+
+def write_workspace(out: Path) -> None:
+    """The crates of all devices and their vectors, in a workspace that is built as quickly as it can be."""
+    for make in MODELS.values():
+        write_crate(make(), out)
+    for device in SHIPPED:
+        shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
+        shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
+    devices = [*MODELS, *SHIPPED]
+    members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
+    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
+
+
+def bring_up_to_date(kept: Path, made: Path) -> None:
+    """Makes the kept files those that were made; cargo builds none again that is left as it is."""
+    texts = {path.relative_to(made): path.read_bytes() for path in made.rglob("*") if path.is_file()}
+    for path, text in texts.items():
+        place = kept / path
+        if not place.is_file() or place.read_bytes() != text:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(text)
+    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/**/tests/*.rs")):
+        if place.relative_to(kept) not in texts:
+            place.unlink()
+
+
+@pytest.fixture(scope="session")
+def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The crates of the models, compiled with optimization and checked arithmetic, as libraries and objects."""
+    return made_once(tmp_path_factory, "libraries", partial(write_libraries, workspace)) / "built"
+
+
+def write_libraries(workspace: Path, out: Path) -> None:
+    for name in GATEWAYS:
+        device = load_device(ROOT / "descriptions" / name / "device.yaml", Report())
+        assert device is not None
+        write_crate(device, out)
+    (out / "built").mkdir()
+    for name in ("fieldscribe_runtime", *MODELS, *GATEWAYS):
+        folder = out / "rust" if name in GATEWAYS else workspace
+        done = rustc(folder / name / "src/lib.rs", out / "built", "--crate-name", name, "--emit=link,metadata,obj")
+        assert done.returncode == 0, done.stderr
+
+
+def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[str]:
+    """Compiles one file as a library, with the libraries of the folder at hand."""
+    known = [f"--extern={path.stem.removeprefix('lib')}={path}" for path in sorted(out.glob("lib*.rlib"))]
+    checked = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
+    return run(
+        [
+            tool("rustc"),
+            "--edition=2021",
+            "--crate-type=lib",
+            *checked,
+            "-L",
+            out,
+            *known,
+            *flags,
+            "--out-dir",
+            out,
+            source,
+        ]
+    )
+
+
+def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Runs cargo without the network, and with it where something was never fetched."""
+    done = run([tool("cargo"), "--offline", *words], cwd=workspace)
+    return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
+
+
+def test_long_lines_break_as_rustfmt_breaks_them() -> None:
+    """The crates' own lines are held against rustfmt itself; these say which break is meant."""
+    name = "x" * 60
+    assert assignment(4, f"const {name}: A", ("A::new(", "    1,", ")"))[0].endswith("A::new(")
+    assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
+    assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
+    assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
+    assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
+    assert chain("static A: B", "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
+    assert chain("static A: B", "C::new(1)", [".d()", ".e()"]) == ("static A: B = C::new(1)", "    .d()", "    .e();")
+    assert comparison(8, name, "== 0") == (f"{name} == 0",)
+    assert comparison(36, name, "== 0") == (name, "    == 0")
+
+
+def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
+    assert filled("a [", ", ", ["1", "2"], "];") == ("a [1, 2];",)
+    many = filled("a [", ", ", [f"0x{number:04X}" for number in range(40)], "];")
+    assert max(map(len, many)) <= 104
+    assert "".join(line.strip() for line in many).count("0x") == 40
+    steps = [f".times(with.factor_{number})" for number in range(9)]
+    assert chained(("Rule::new(1, 1).times(with.a)", ".over(with.b)")) == (
+        "Rule::new(1, 1).times(with.a)?.over(with.b)",
+    )
+    assert chained((f"Rule::new(1, 1){steps[0]}", *steps[1:]))[1] == "    ?.times(with.factor_1)"
+    assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
+
+
+def clashes(device: Device) -> list[str]:
+    return [one.name for one in found_clashes(identifiers(device))]
+
+
+def test_clashing_names_are_found() -> None:
+    assert not any(clashes(make()) for make in MODELS.values())
+    assert clashes(sample_device((point("a_b1", 0), point("a_b_1", 1)))) == ["AB1"]
+    low = Flag(0, 1, "off", titles("Off"), 0, ())
+    assert clashes(
+        sample_device((point("word", 0, flags=(low, replace(low, low=1, name="off_active_low", active=1))),))
+    )
+    assert clashes(sample_device((point("word", 0, flags=(replace(low, name="all_false", active=1),)),)))
+
+
+def sources(device: Device) -> dict[str, str]:
+    """The sources of a crate by the name of the file."""
+    return {Path(path).name: text for path, text in rust.outputs(device, render)}
+
+
+def test_active_low_bits_say_so() -> None:
+    low = Flag(1, 1, "motor_overload", titles("Overload"), 0, (entry(0, "zero"), entry(1, "one")))
+    flags = (low, replace(low, low=0, name="ready", active=1))
+    text = sources(sample_device((point("status", 0, flags=flags),)))["flags.rs"]
+    assert "pub const ALL_FALSE: Self = Self(0x0002);" in text
+    assert "pub const MOTOR_OVERLOAD_ACTIVE_LOW: u16 = 0x0002;" in text
+    assert "pub const READY: u16 = 0x0001;" in text
+    documented = (
+        "/// Motor overload.",
+        "///",
+        "/// True while the bit is 0.",
+        "#[must_use]",
+        "pub const fn motor_overload(",
+    )
+    assert "\n    ".join(documented) in text
+    assert "ZERO" not in text
+
+
+def test_what_is_only_documented_has_its_address() -> None:
+    settled = point("speed", 5)
+    device = sample_device((settled, replace(settled, name="ramp", code="P1", generated=False)))
+    assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
+    assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
+    drive = load_device(ROOT / "descriptions/nord_sk5xxe/device.yaml", Report())
+    assert drive is not None
+    known = ["h (" in line for line in left_out(drive)]
+    assert known == [bool(one.places) for one in drive.points if not one.generated]
+    assert any(known)
+
+
+def test_all_crates_name_the_compiler_that_they_need() -> None:
+    """Checked by clippy's `incompatible_msrv` beside; Debian bookworm's `rustc-web` is 1.85 or later."""
+    texts = [(templates_dir() / f"rust/runtime/{name}/Cargo.toml").read_text("utf-8") for name in RUNTIMES]
+    texts.append(sources(sample_device())["Cargo.toml"])
+    versions = {int(found[1]) for text in texts if (found := re.search(r'rust-version = "1\.(\d+)"', text))}
+    assert len(versions) == 1
+    assert max(versions) <= 85
+
+
+def test_a_device_needs_the_runtime_alone(tmp_path: Path) -> None:
+    """A workspace takes the device and the runtime; the vectors stay in a crate of their own."""
+    write_crate(sample_device(), tmp_path / "made")
+    for name in ("sample_drive", "fieldscribe_runtime"):
+        shutil.copytree(tmp_path / "made/rust" / name, tmp_path / name)
+    (tmp_path / "Cargo.toml").write_text('[workspace]\nresolver = "2"\nmembers = ["sample_drive"]\n', encoding="utf-8")
+    done = cargo(tmp_path, "metadata", "--format-version=1")
+    assert done.returncode == 0, done.stderr
+    assert "fieldscribe_conformance" not in done.stdout
+
+
+def test_what_a_device_has_not_makes_no_module() -> None:
+    device = sample_device()
+    assert "pub mod exceptions {" in sources(device)["lib.rs"]
+    without = replace(device, bus=replace(device.bus, exceptions=()), commands=(), blocks={})
+    assert re.findall(r"pub mod (\w+) ?\{", sources(without)["lib.rs"]) == []
+
+
+def test_numbers_of_several_bits_are_shown_by_name() -> None:
+    switch = Flag(0, 2, "switch", titles("Switch"), 1, (entry(0, "off"), entry(3, "on")))
+    text = sources(sample_device((point("status", 0, flags=(switch,)),)))["flags.rs"]
+    assert 'const NAMES_0: runtime::Names = &[(0, "off"), (3, "on")];' in text
+    assert 'runtime::Flag::named("switch", 0x0003, NAMES_0)' in text
+
+
+def test_a_step_is_information() -> None:
+    points = [one for one in kitchen_sink().points if one.generated]
+    docs = {one.item: " ".join(point_doc(one, ())) for one in points}
+    stepped = {one.item for one in points if one.steps}
+    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split())}
+    assert stepped
+
+
+@pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
+def test_the_first_page_runs(workspace: Path, device: str) -> None:
+    """What it shows compiles; nothing answers it."""
+    done = cargo(workspace, "test", "--quiet", "--package", device, "--doc")
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (workspace / device / "src/lib.rs").read_text("utf-8")
+    shown = {"kitchen_sink": (".write::<", ".write_with::<", "Reading::Special", ".read_block(", ".command(")}
+    assert all(one in page for one in shown.get(device, (".read::<",)))
+    assert (".receive::<" in page) is (device == "kitchen_can")
+
+
+LONG = pytest.mark.full(seconds=6)
+
+
+@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
+def test_conforms(workspace: Path, device: str) -> None:
+    done = cargo(workspace, "test", "--quiet", "--package", f"{device}_conformance", "--test", "conformance")
+    assert done.returncode == 0, done.stdout + done.stderr
+    counts = counts_of((workspace.parent / "vectors" / f"{device}.txt").read_text("utf-8"), "rust")
+    passed = dict(re.findall(r"^(\w+) (\d+) passed, 0 failed$", done.stdout, re.MULTILINE))
+    assert int(passed.pop("total")) == sum(counts.values())
+    assert {kind: int(n) for kind, n in passed.items()} == {kind: n for kind, n in counts.items() if n}
+
+
+def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
+    changed = text.replace("\naddress\tcoil\t0\t", "\naddress\tcoil\t1\t", 1)
+    assert changed != text
+    (tmp_path / "wrong.txt").write_text(changed, encoding="utf-8")
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
+    assert done.returncode != 0
+    assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
+
+
+def test_vectors_of_another_description_are_refused(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
+    (tmp_path / "other.txt").write_text(text.replace("\t1.2.0\t", "\t1.2.1\t", 1), encoding="utf-8")
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "other.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
+    assert done.returncode != 0
+    assert "is of another description" in done.stderr
+
+
+def test_vectors_that_are_not_there_say_what_to_set(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "none.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive_conformance", "--test", "conformance")
+    assert done.returncode != 0
+    assert "set FIELDSCRIBE_VECTORS to the absolute path of sample_drive.txt" in done.stderr
+    assert "panicked" not in done.stderr
+
+
+def test_no_line_of_the_runtime_is_too_long() -> None:
+    """What stands in a macro, and what has no place to break, rustfmt leaves as it is."""
+    sources = sorted((templates_dir() / "rust/runtime").rglob("*.rs"))
+    lines = ((path, line) for path in sources for line in path.read_text("utf-8").splitlines())
+    assert not [(path.name, line) for path, line in lines if len(line) > 120]
+    assert len(sources) > 40
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_table_has_every_point_once(name: str) -> None:
+    device = MODELS[name]()
+    text = sources(device)["lib.rs"]
+    found = re.search(
+        r"pub const POINTS: &\[PointInfo\] = runtime::point_table! \{ points:\n(.*?)\n?\};", text, re.DOTALL
+    )
+    assert found
+    assert found[1].split() == [subject.name for subject in scope_of(device).subjects]
+
+
+@pytest.mark.full(seconds=26)
+def test_clippy_has_nothing_to_say(workspace: Path) -> None:
+    flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
+    done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
+    assert done.returncode == 0, done.stderr
+
+
+def test_examples_of_the_runtime_run(workspace: Path) -> None:
+    done = cargo(workspace, "test", "--quiet", "--package", "fieldscribe_runtime")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_rustfmt_changes_nothing(workspace: Path) -> None:
+    tool("rustfmt")
+    assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)
+
+
+@pytest.mark.full(seconds=11)
+def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
+    done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", FAILS)
+def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> None:
+    source = PROGRAMS / "fails" / f"{name}.rs"
+    text = source.read_text("utf-8")
+    expected = text.splitlines()[0].removeprefix("// error: ")
+    out = shutil.copytree(libraries, tmp_path / "out")
+    done = rustc(source, out, "--emit=metadata")
+    assert done.returncode != 0
+    assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
+    assert all(said in done.stderr for said in re.findall("^// says: (.*)$", text, re.MULTILINE)), done.stderr
+
+
+@pytest.mark.parametrize(
+    ("source", "device"),
+    [
+        ("client", "sample_drive"),
+        ("texts", "rare"),
+        ("can_client", "odd_can"),
+        ("uss_client", "odd_uss"),
+        ("trips", "trips"),
+        ("mm4_gateway", "siemens_mm4"),
+        ("mpu2s_gateway", "woodward_mpu2s"),
+    ],
+)
+def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path) -> None:
+    """Clients talk to canned replies; every raw number survives every kind of rule."""
+    program = tmp_path / source
+    externs = [f"--extern={name}={libraries}/lib{name}.rlib" for name in ("fieldscribe_runtime", device)]
+    words: list[str | Path] = [
+        tool("rustc"),
+        "--edition=2021",
+        "-Cpanic=abort",
+        "-L",
+        libraries,
+        *externs,
+        "-o",
+        program,
+    ]
+    assert not succeed([*words, PROGRAMS / f"{source}.rs"])
+    assert not succeed([program])
+
+
+@pytest.mark.parametrize("device", MODELS)
+def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None:
+    """With checked arithmetic the compiler proves every sum: no object calls what panics."""
+    out = shutil.copytree(libraries, tmp_path / "out")
+    probe = tmp_path / "probe.rs"
+    probe.write_text(probe_source(device), encoding="utf-8")
+    done = rustc(probe, out, "--emit=obj")
+    assert done.returncode == 0, done.stderr
+    for name in ("probe", device, "fieldscribe_runtime"):
+        assert b"panicking" not in (out / f"{name}.o").read_bytes(), name
+
+
+WITHOUT_COUNTS = ("float", "text", "digits")
+CLIENTS = {
+    "modbus": """use fieldscribe_runtime::{client::Transport, modbus::{Block, Client, Command}};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
+}
+pub fn command(client: &mut Client<Line>, command: &Command) -> bool { client.command(command).is_ok() }
+pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
+    "can": """use fieldscribe_runtime::can::{Client, Frame, Receiver, Transport};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn send(&mut self, _: &Frame) -> Result<(), ()> { Err(()) }
+    fn receive(&mut self) -> Result<Frame, ()> { Err(()) }
+    fn pending(&mut self) -> Result<Option<Frame>, ()> { Err(()) }
+}""",
+    "uss": """use fieldscribe_runtime::{client::Transport, uss::Client};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
+}""",
+}
+"""What the probes of a family need beside the points."""
+
+
+def probe_source(device: str) -> str:
+    """A crate that calls every function of every point."""
+    model = MODELS[device]()
+    names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
+    lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "")]
+    scope = scope_of(model)
+    for subject in scope.subjects:
+        name = f"{device}::points::{subject.name}"
+        traits = " ".join(in_rust(model.family).traits(subject, scope))
+        reached = model.family == "modbus" or "::Parameter" in traits
+        bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
+        bodies += parameter_probes(subject, name) if reached else ()
+        item = subject.point.item
+        lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
+    return "\n".join(lines) + "\n"
+
+
+def client_probes(subject: CratePoint, name: str, traits: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that call what a client that blocks offers for a point."""
+    point, read, write = subject.point, f"<{name} as Readable>", f"<{name} as Writable>"
+    client, value = "client: &mut Client<Line>", f"<{name} as Point>::Value"
+    with_head, with_body = ("", "") if point.bits else (f", with: {write}::With", ", with")
+    if "uss::Sent" in traits and point.writable:
+        head = f"send({client}, value: {value}{with_head}) -> bool"
+        yield head, f"client.set{'_bits' if point.bits else '_with'}::<{name}>(value{with_body}).is_ok()"
+    if "uss::Received" in traits:
+        yield f"receive({client}, with: {read}::Factors) -> bool", f"client.receive_with::<{name}>(with).is_ok()"
+    if "can::Received" in traits:
+        receiver = f"Receiver<<{name} as runtime::can::Received>::Telegram>"
+        yield f"hear(all: &mut {receiver}, frame: &Frame) -> bool", f"all.take(frame) && all.raw::<{name}>().is_ok()"
+
+
+def parameter_probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that read and write a point over a client: values, counts, raw numbers."""
+    point, client, with_ = subject.point, "client: &mut Client<Line>", f"with: <{name} as Writable>::With"
+    value, raw, factors = (f"<{name} as {one}" for one in ("Point>::Value", "Point>::Raw", "Readable>::Factors"))
+    if point.readable:
+        yield f"get({client}, with: {factors}) -> bool", f"client.read_with::<{name}>(with).is_ok()"
+        if is_counted(subject):
+            yield f"get_count({client}, with: {factors}) -> bool", f"client.read_count_with::<{name}>(with).is_ok()"
+    if not point.writable:
+        return
+    if point.bits:
+        if point.readable and not subject.arguments and point.encodes_values:
+            yield f"put({client}, value: {value}) -> bool", f"client.update::<{name}>(value).is_ok()"
+        return
+    yield f"put_raw({client}, raw: {raw}, {with_}) -> bool", f"client.write_raw_with::<{name}>(raw, with).is_ok()"
+    if point.encodes_values:
+        yield f"put({client}, value: {value}, {with_}) -> bool", f"client.write_with::<{name}>(value, with).is_ok()"
+    if is_counted(subject):
+        head = f"put_count({client}, count: <{name} as CountWritable>::Count, {with_}) -> bool"
+        yield head, f"client.write_count_with::<{name}>(count, with).is_ok()"
+
+
+def is_counted(subject: CratePoint) -> bool:
+    """Whether the point has counts."""
+    return subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
+
+
+def probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that call what a point offers; the name stands for the point's type."""
+    raw, value, words = (
+        f"<{name} as Point>::Raw",
+        f"<{name} as Point>::Value",
+        f"<{name} as Point>::Raw as runtime::Raw",
+    )
+    yield f"words(words: <{words}>::Words) -> {raw}", f"<{name} as Point>::from_words(words)"
+    if subject.point.bits:
+        yield f"insert(word: u16, raw: {raw}) -> u16", f"<{name} as BitGroup>::insert(word, raw)"
+    read, write = f"<{name} as Readable>", f"<{name} as Writable>"
+    counted = is_counted(subject)
+    if subject.point.readable:
+        head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
+        yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"
+        if counted:
+            count = f"<{name} as CountReadable>"
+            yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
+    if subject.point.writable:
+        tail = f", with: {write}::With) -> Result<{raw}, Error>"
+        if subject.point.encodes_values:
+            yield f"encode(value: {value}{tail}", f"<{name} as Encodable>::encode_with(value, with)"
+        if counted:
+            count = f"<{name} as CountWritable>"
+            yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"
