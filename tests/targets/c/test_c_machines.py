@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from support.c_device import WARNINGS, conformance_source, write_files, write_headers
+from support.c_device import WARNINGS, conformance_source, write_headers
+from support.files import write_files
 from support.models import point, sample_device, scaled
 from support.toolchains import compiled, gcc_for_32_bits, run, succeed, tool
 
