@@ -467,10 +467,8 @@ LIMIT = {"group": "limits", "space": "parameter", "access": "r", "addressing": "
 
 def test_elements_of_an_array_are_found_by_address_where_no_index_travels(tmp_path: Path) -> None:
     """The index beside the address is of uss alone: by a rule it is in the address."""
-    cells, limits = (
-        group("- {name: cell, at: 0, indices: 6}\n", **CELL),
-        group("- {name: limit, at: 1, indices: 2}\n", **LIMIT),
-    )
+    cells = group("- {name: cell, at: 0, indices: 6}\n", **CELL)
+    limits = group("- {name: limit, at: 1, indices: 2}\n", **LIMIT)
     device = loaded_in(tmp_path, together(CELLS, cells, limits))
     first, second, told = decode(
         device, {}, ["301#00A5000100020003", "301#01A5000400050006", "201#0201020007000000"], asked()

@@ -14,14 +14,11 @@ from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Tex
 from fieldscribe.plain import digest, for_code
 from fieldscribe.wording import default_text
 from support.described import compile_in, group, head, made, together
-from support.places import TESTS
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.model import Device, Point
-
-DEVICES = TESTS / "devices"
 
 
 def point(name: str, item: str) -> Point:

@@ -51,8 +51,6 @@ if TYPE_CHECKING:
 HOSTILE = '*/ "#]\n#![cfg(no)] \u202e `x` [y](http://z) <b> {{ x }} \\'
 LONG = "a_point_whose_name_is_as_long_as_a_description_lets_names_be_xyz"
 ODD_ENTRIES = ("unknown", "other", "self", "none", "some", "ok", "err", "type", "a_1", "value_1_2", LONG)
-ODD_FLAGS = ("move", "loop", "self", "from_x", "as_y")
-ODD_NAMES = ("option", "ok", "err", "some", "none", "error", "point")
 
 
 def write_crate(device: Device, out: Path) -> Path:
