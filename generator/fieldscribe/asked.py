@@ -1,4 +1,4 @@
-"""What a person asks of frames, and what cannot be done of it, with a hint."""
+"""What a person asks for when frames are read or built, and the errors that say what cannot be done and why."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """None is what nobody said; `own` are options by name that only some families have, as far as they were said."""
+    """Options for frames, None where they were not given; `own` holds by name those that only some families have."""
 
     framing: str | None = None
     unit: int | None = None

@@ -1,4 +1,4 @@
-"""The words in which the table of keys is written: where a key stands, what may stand at it, and what that means.
+"""The classes of which the table of keys is made: where a key stands, which values it takes, and what they mean.
 
 Plain classes, compared by identity: making them dataclasses would take longer than making the whole table.
 """
