@@ -26,7 +26,7 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
         name = str(raw["name"])
         if scope.family.commands_in is None:
             hint = "describe the point that it writes, with its value under `enum` or `flags`"
-            known = " and ".join(one.name for one in families() if one.commands_in is not None)
+            known = " and ".join(family.name for family in families() if family.commands_in is not None)
             scope.report.error("family-key", f"commands are for the family {known}", raw.span("name"), hint)
             continue
         if name in result or name in ("no", "yes", "choice"):
@@ -91,6 +91,6 @@ def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> boo
     message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"
     if function not in known:
         message = f"function {function:02X}h does not write into `{space}`"
-        hint = f"functions that do: {', '.join(f'{one:02X}h' for one in known) or 'none'}"
+        hint = f"functions that do: {', '.join(f'{other:02X}h' for other in known) or 'none'}"
     scope.report.error("unknown-function", message, raw.span("function"), hint)
     return False

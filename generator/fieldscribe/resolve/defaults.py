@@ -38,12 +38,12 @@ def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
         message = "`default` is in raw numbers, which are bit patterns here"
         scope.report.error("float-fact", message, span, f"write `default_in_units: {said}`")
         return None
-    named = {one.name: one.low for one in shape.specials if one.low == one.high}
-    named |= {one.name: one.raw for one in (() if enum is None else enum.entries)}
+    named = {special.name: special.low for special in shape.specials if special.low == special.high}
+    named |= {entry.name: entry.raw for entry in (() if enum is None else enum.entries)}
     if said in named:
         return named[said]
     if isinstance(said, str) and enum is not None and said.isidentifier():
-        hint = f"write a number, or one of {', '.join(one.name for one in enum.entries[:_MOST_NAMES])}"
+        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{said}` is no name of this enum", span, hint)
         return None
     if _has_a_fraction(said):

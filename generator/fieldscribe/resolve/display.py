@@ -33,7 +33,7 @@ def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
             message = f"`{draft.name}` is {kind}, which has no value to show with decimals"
             report.error("display-fact", message, draft.span("display"), "leave `display` out")
         return None
-    fits = [one for one in range(decimals + 1) if _is_shown(draft, shape, bounds, one)]
+    fits = [count for count in range(decimals + 1) if _is_shown(draft, shape, bounds, count)]
     if decimals not in fits:
         message = f"`decimals: {decimals}` needs integers that are wider than code computes with"
         hint = f"write `decimals: {fits[-1]}`" if fits else "leave `display` out: no decimals of this scale are exact"
@@ -43,5 +43,5 @@ def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
 
 
 def _is_shown(draft: Draft, shape: Shape, bounds: Bounds, decimals: int) -> bool:
-    """Whether code computes each value with so many decimals."""
+    """Whether code can compute each value with this many decimals."""
     return shape.scale is None or shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None)

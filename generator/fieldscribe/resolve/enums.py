@@ -90,7 +90,7 @@ def entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
 
 @dataclass(slots=True)
 class _Taken:
-    """What the numbers and names of one point are taken by, with the places for findings."""
+    """The numbers and names that a word has used so far, with their places in the text."""
 
     scope: Scope
     what: str
@@ -99,7 +99,7 @@ class _Taken:
     names: dict[str, Span] = field(default_factory=dict)
 
     def takes(self, band: tuple[int, int], name: str, key: Span, value: Span) -> bool:
-        """Whether the numbers (low, high) and the name are free; a finding if not."""
+        """Take a name and the numbers from low to high; False, with a finding, if some of that is taken already."""
         low, high = band
         other = next((span for first, last, span in self.numbers if first <= high and low <= last), None)
         if other is not None:
@@ -124,7 +124,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     raw: Map | None = draft.get("flags")
     if raw is None:
         return ()
-    _not_masks(scope, raw)
+    _warn_of_masks(scope, raw)
     taken = _Taken(scope, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
@@ -148,7 +148,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     return tuple(result)
 
 
-def _not_masks(scope: Scope, raw: Map) -> None:
+def _warn_of_masks(scope: Scope, raw: Map) -> None:
     """A warning where the keys look like the masks of the bits, 1, 2, 4, 8, and not like their numbers."""
     keys = list(raw)
     if len(keys) >= _MASKS and not any(".." in key for key in keys):

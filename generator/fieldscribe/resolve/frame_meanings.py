@@ -26,15 +26,17 @@ RAW = ".raw"
 def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
     """The raw numbers by item that a frame is said to carry."""
     held: dict[str, int | Fraction] = {}
-    given: Map | None = raw.get("with")
-    for point, found in _Said(scope, given).numbers(index, points) if given is not None else ():
-        held[point.item] = held[point.name] = setting_of(point, found)
+    settings: Map | None = raw.get("with")
+    for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
+        held[point.item] = held[point.name] = setting_of(point, raw_number)
     said: Map | None = raw.get("says")
-    return {} if said is None else {one.item: found for one, found in _Said(scope, said, held).numbers(index, points)}
+    if said is None:
+        return {}
+    return {point.item: raw_number for point, raw_number in _StatedValues(scope, said, held).numbers(index, points)}
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
+class _StatedValues:
     """Values by point as an author wrote them, and what other points hold meanwhile."""
 
     scope: Scope
@@ -42,7 +44,7 @@ class _Said:
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
     def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
-        """Each point that is named, with its raw number; what cannot be told is a finding and left out."""
+        """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
         for word, value in self.said.items():
             name = word.removesuffix(RAW)
             draft = index.find(name)
@@ -52,10 +54,12 @@ class _Said:
             point = points.get(draft.item)
             if point is None or draft.failed & {"scale", "type", "enum"}:
                 continue
-            is_raw = name != word
-            found = integer(value, self.said.span(word), self.scope.report) if is_raw else self._raw(point, word, value)
-            if found is not None:
-                yield point, found
+            if word == name:
+                raw_number = self._raw(point, word, value)
+            else:
+                raw_number = integer(value, self.said.span(word), self.scope.report)
+            if raw_number is not None:
+                yield point, raw_number
 
     def _raw(self, point: Point, word: str, value: Any) -> int | None:
         """The raw number of a name, or of a value in the unit; None after a finding."""
@@ -81,7 +85,7 @@ class _Said:
             try:
                 return encode(point, exact, self.held)
             except CodecError:
-                self._no_number(point, word, value)
+                self._report_no_number(point, word, value)
                 return None
         if point.fixed_scale is not None:
             exact = point.fixed_scale.at(exact)
@@ -91,13 +95,14 @@ class _Said:
             return None
         return exact.numerator
 
-    def _no_number(self, point: Point, word: str, value: Any) -> None:
+    def _report_no_number(self, point: Point, word: str, value: Any) -> None:
         if point.info.floating:
             self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
         else:
             self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
 
     def _fault(self, point: Point) -> str | None:
+        """Why a value cannot become the point's raw number, or None."""
         if point.text is not None:
             return "is a text"
         missing = [name for name in point.scale_arguments if name not in self.held]

@@ -32,10 +32,10 @@ class Index:
 
         Of a point that differs by variant it is the one of this variant, else the first.
         """
-        found = self.by_name.get(word) or self.by_code.get(word, [])
-        if not found or (len(found) > 1 and any(draft.name != found[0].name for draft in found)):
+        drafts = self.by_name.get(word) or self.by_code.get(word, [])
+        if not drafts or (len(drafts) > 1 and any(draft.name != drafts[0].name for draft in drafts)):
             return None
-        return next((draft for draft in found if draft.variant == variant), found[0])
+        return next((draft for draft in drafts if draft.variant == variant), drafts[0])
 
     def by_item(self, item: str) -> Draft:
         """The point that a formula was resolved to: by its item name, or by its name where its variants are alike."""
@@ -56,7 +56,7 @@ class Index:
             message = f"`{word}` is the code of {len(several)} points"
             self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
             return
-        hexadecimal = word.isupper() and all(one in "0123456789ABCDEF" for one in word)
+        hexadecimal = word.isupper() and all(char in "0123456789ABCDEF" for char in word)
         hint = f"if a hexadecimal number is meant, write 0{word}h" if hexadecimal else None
         near = nearest(word, (*axes, *self.by_name, *self.by_code)) if axes else None
         hint = f"did you mean the axis `{near}`?" if near in axes else hint
@@ -69,7 +69,7 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     kept = []
     for draft in drafts:
         known = index.by_name.setdefault(draft.name, [])
-        first = next((one for one in known if not _differ(one, draft)), None)
+        first = next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
@@ -86,9 +86,11 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     return index
 
 
-def _differ(one: Draft, other: Draft) -> bool:
-    """Whether the two are one point in two variants."""
-    return one.variant is not None and other.variant not in (None, one.variant) and one.layers[1] is other.layers[1]
+def _are_variants(draft: Draft, other: Draft) -> bool:
+    """Whether two drafts are one point in two variants."""
+    return (
+        draft.variant is not None and other.variant not in (None, draft.variant) and draft.layers[1] is other.layers[1]
+    )
 
 
 def space_of(scope: Scope, draft: Draft) -> str:
@@ -113,10 +115,10 @@ def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
             "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
         )
         return None
-    return _bits_said(scope, str(text), span)
+    return _parse_bits(scope, str(text), span)
 
 
-def _bits_said(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
     meant = bits_meant(text)
     if meant is not None:
         message = f"{quoted(text)} is not a bit or bits"

@@ -1,4 +1,4 @@
-"""What the checks read: the resolved parts of one device, with their places in the text."""
+"""What the checks look at: the resolved parts of one device, with their places in the text."""
 
 from __future__ import annotations
 
@@ -118,6 +118,7 @@ class Subject:
 
 
 def _lost(value: Any) -> bool:
+    """Whether some key in a mapping, at any depth, could not be read."""
     return isinstance(value, Map) and (bool(value.broken) or any(map(_lost, value.values())))
 
 

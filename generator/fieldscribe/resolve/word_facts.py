@@ -99,26 +99,26 @@ def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     own = 0 if bits is None else ((1 << width) - 1) << bits[1]
     mask = value = 0
     for key, said in raw.items():
-        found = _fixed_bits(scope, draft, raw, key, word)
+        place_and_greatest = _fixed_bits(scope, draft, raw, key, word)
         number = integer(said, raw.span(key), scope.report)
-        if found is None or number is None:
+        if place_and_greatest is None or number is None:
             continue
-        low, part = found
-        if not 0 <= number <= part:
-            message = f"{said} does not fit into {_shown(key)}"
-            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{part}")
-        elif mask & part << low:
-            message = f"{_shown(key)} cannot be fixed twice"
+        low, greatest = place_and_greatest
+        if not 0 <= number <= greatest:
+            message = f"{said} does not fit into {_bits_text(key)}"
+            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{greatest}")
+        elif mask & greatest << low:
+            message = f"{_bits_text(key)} cannot be fixed twice"
             scope.report.error("bits-overlap", message, raw.key_span(key), "remove one of them")
-        elif own & part << low:
-            message = f"{_shown(key)} cannot be fixed, for the point itself takes it"
+        elif own & greatest << low:
+            message = f"{_bits_text(key)} cannot be fixed, for the point itself takes it"
             scope.report.error("bits-overlap", message, raw.key_span(key), "`fixed` names the bits beside it")
         else:
-            mask, value = mask | part << low, value | number << low
+            mask, value = mask | greatest << low, value | number << low
     return Fixed(mask, value) if mask else None
 
 
-def _shown(key: str) -> str:
+def _bits_text(key: str) -> str:
     return f"bits {key}" if ".." in key else f"bit {key}"
 
 
