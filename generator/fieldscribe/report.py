@@ -94,18 +94,18 @@ def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Lin
     lines = read(span.file)
     if lines is None or not 1 <= span.line <= len(lines):
         return
-    whole = lines[span.line - 1]
-    if not whole.strip():
+    text = lines[span.line - 1]
+    if not text.strip():
         return
-    at = min(max(span.column - 1, 0), len(whole))
+    at = min(max(span.column - 1, 0), len(text))
     start = 0 if at <= BEFORE + 10 else at - BEFORE
-    end = len(whole) if len(whole) <= at + AFTER + 10 else at + AFTER
+    end = len(text) if len(text) <= at + AFTER + 10 else at + AFTER
     before, meant = (
-        visible(whole[start:at].lstrip() if start else whole[start:at]),
-        whole[at : min(at + span.width, end)],
+        visible(text[start:at].lstrip() if start else text[start:at]),
+        text[at : min(at + span.width, end)],
     )
     before = f"... {before}" if start else before
-    after = visible(whole[at + len(meant) : end]) + (" ..." if end < len(whole) else "")
+    after = visible(text[at + len(meant) : end]) + (" ..." if end < len(text) else "")
     number = f"{span.line:>{margin}}"
     yield [("frame", f"{number} | "), ("", f"{before}{visible(meant)}{after}".rstrip())]
     mark = "^" * max(1, columns(visible(meant)))

@@ -33,7 +33,7 @@ _LAST_INDEX = 255
 _RULE_KNOWS = "a rule knows number, index, set, sets and indices"
 
 _MOST_PARTED_WORDS = 2
-"""The most words of a number that comes in two frames: a receiver can tell whether two words belong together, not more."""
+"""The most words of a number that comes in two frames: more of them could be old and new ones mixed, unnoticed."""
 
 
 class Places:
@@ -71,14 +71,14 @@ class Places:
         """What a master may do: as the description says, else all that the direction of the telegram allows."""
         telegram_entry = self.telegrams.get(draft.group.get("telegram", "")) if space == SPACE else None
         usual = "rw" if telegram_entry is None else _ACCESS[telegram_entry[0].direction]
-        said = str(draft.get("access", usual))
-        if telegram_entry is not None and not set(said) <= set(usual) and said != "none":
+        access = str(draft.get("access", usual))
+        if telegram_entry is not None and not set(access) <= set(usual) and access != "none":
             message = f"a word of the telegram `{telegram_entry[0].name}` is {_VERBS[usual]} only"
             self.report.error(
                 "wrong-choice", message, draft.span("access"), f"write `access: {usual}`, or leave it out"
             )
             return usual
-        return said
+        return access
 
     def references(self, draft: Draft, address: int | None) -> Mapping[str, int]:
         """The numbers that the manual prints for an address, by numbering.
@@ -112,9 +112,9 @@ class Places:
         first = self._address(draft)
         if first is None:
             return None
-        alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
+        single_word = bits is not None or space in self.scope.family.indexed  # there a number names a whole value
         words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
-        return tuple(range(first, first + (1 if alone else words)))
+        return tuple(range(first, first + (1 if single_word else words)))
 
     def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
         """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""

@@ -41,17 +41,17 @@ class Ranges:
         if draft.text:
             return Allowed((), False, ())
         least, greatest = self.bounds.holds[draft]
-        whole = Allowed((Interval(least, greatest),), False, ())
+        type_range = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):
             if draft.layer(key) is not None:
                 ranged = self.intervals(draft, draft.get(key), draft.span(key), key == "range_in_units")
                 if ranged is None:
                     draft.failed.add("range")
-                return ranged or whole
+                return ranged or type_range
         if enum is not None and not draft.get("open", False):
             numbers = [entry.raw for entry in enum.entries if least <= entry.raw <= greatest]
-            return Allowed(_merged([(number, number) for number in numbers]), True, ()) if numbers else whole
-        return whole
+            return Allowed(_merged([(number, number) for number in numbers]), True, ()) if numbers else type_range
+        return type_range
 
     def intervals(self, draft: Draft, raw: Any, span: Span, in_units: bool, *, printed: bool = False) -> Allowed | None:
         """The raw numbers that a range (its YAML value, in raw numbers or in units) allows; None after a finding.

@@ -78,7 +78,7 @@ def _knows(family: Family, key: str) -> bool:
     return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
 
 
-def ends_of(scope: Scope, raw: Map, key: str, wrong: str, last: int) -> tuple[int, int]:
+def ends_of(scope: Scope, raw: Map, key: str, complaint: str, last: int) -> tuple[int, int]:
     """The ends of an interval under `bus`, such as `units`; zeros after a finding or where it is not said."""
     if key not in raw:
         return 0, 0
@@ -86,7 +86,7 @@ def ends_of(scope: Scope, raw: Map, key: str, wrong: str, last: int) -> tuple[in
     if ends is not None and 0 <= ends[0] <= ends[1] <= last:
         return ends
     if ends is not None:
-        message = f"{key} {ends[0]}..{ends[1]} {wrong}"
+        message = f"{key} {ends[0]}..{ends[1]} {complaint}"
         scope.report.error("address-outside-space", message, raw.span(key), f"they lie in 0..{last}")
     raw.broken += (key,)
     return 0, 0
@@ -135,12 +135,12 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
 def code_list(scope: Scope, raw: Map, key: str) -> tuple[int, ...]:
     """The numbers of a list of codes, where `11..14` stands for several."""
     codes: dict[int, None] = {}
-    said: Seq = raw.get(key) or Seq(raw.file, raw.at)
-    for place, item in enumerate(said):
-        ends = interval(str(item), said.span(place), scope.report)
+    items: Seq = raw.get(key) or Seq(raw.file, raw.at)
+    for place, item in enumerate(items):
+        ends = interval(str(item), items.span(place), scope.report)
         if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_UNIT:
             message = f"the code {item} lies outside 0..{_LAST_UNIT}"
-            scope.report.error("address-outside-space", message, said.span(place), "correct the code")
+            scope.report.error("address-outside-space", message, items.span(place), "correct the code")
         elif ends is not None:
             codes.update(dict.fromkeys(range(ends[0], ends[1] + 1)))
     return tuple(codes)

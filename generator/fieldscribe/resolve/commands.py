@@ -73,14 +73,14 @@ def _fits(scope: Scope, raw: Map, space: str, address: int, value: int | None) -
     """Whether the space has the address and holds the value; a finding if not."""
     last = scope.family.last_address
     greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
-    there, held = 0 <= address <= last, value is None or 0 <= value <= greatest
-    if not there:
+    inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
+    if not inside:
         message = f"the address {address} lies outside 0..{last}"
         scope.report.error("address-outside-space", message, raw.span("at"), "`at` is the number on the wire")
-    if not held:
+    if not holds:
         message = f"the value {value} does not fit into `{space}`"
         scope.report.error("range-outside-type", message, raw.span("value"), f"0..{greatest} can be written")
-    return there and held
+    return inside and holds
 
 
 def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> bool:

@@ -23,10 +23,10 @@ _WITHOUT_VALUE = {
 
 def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
     """The decimals that `display` says; a finding where there is no value to show with them."""
-    said = draft.get("display")
-    if said is None:
+    display = draft.get("display")
+    if display is None:
         return None
-    decimals: int = said["decimals"]
+    decimals: int = display["decimals"]
     kind, report = _WITHOUT_VALUE.get(shape.form), bounds.scales.scope.report
     if kind is not None:
         if draft.layer("display") is not draft.group:  # what a group says is for its quantities
@@ -37,7 +37,7 @@ def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
     if decimals not in fits:
         message = f"`decimals: {decimals}` needs integers that are wider than code computes with"
         hint = f"write `decimals: {fits[-1]}`" if fits else "leave `display` out: no decimals of this scale are exact"
-        report.error("display-fact", message, said.span("decimals"), hint)
+        report.error("display-fact", message, display.span("decimals"), hint)
         return None
     return decimals
 

@@ -55,8 +55,8 @@ class Draft:
             keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
             for pair in _RIVALS:
-                for said, rival in (pair, pair[::-1]):
-                    if said in keys and rival not in keys:
+                for stated, rival in (pair, pair[::-1]):
+                    if stated in keys and rival not in keys:
                         where.pop(rival, None)
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
@@ -86,8 +86,8 @@ class Draft:
     @property
     def keeps(self) -> str | None:
         """Whether a written value is kept, or by which command: the nearer one of `keep_with` and `keeps`."""
-        said: str | None = self.get("keep_with", self.get("keeps"))
-        return said
+        keeps: str | None = self.get("keep_with", self.get("keeps"))
+        return keeps
 
     def _rank(self, layer: Map) -> int:
         """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""

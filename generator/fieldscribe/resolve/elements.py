@@ -53,8 +53,8 @@ class Element:
         """The keys under `each` that mean this element, the most exact first: `set/index`, `index`; or `set` alone."""
         if self.index is None:
             return () if self.set_number is None else (f"{self.set_number}",)
-        alone = (f"{self.index}",)
-        return alone if self.set_number is None else (f"{self.set_number}/{self.index}", *alone)
+        by_index = (f"{self.index}",)
+        return by_index if self.set_number is None else (f"{self.set_number}/{self.index}", *by_index)
 
     def titled(self, title: Titles) -> Titles:
         """The title of this element, from that of the whole."""
@@ -111,15 +111,15 @@ class _Axis:
 
 def _axis(scope: Scope, row: Draft, plural: str, singular: str) -> _Axis | None:
     """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
-    alone: int | None = row.get(singular)
-    said = row.get(plural)
-    if said is None:
-        return _Axis(1, (alone,), "")
-    span, text = row.span(plural), str(said)
+    own_number: int | None = row.get(singular)
+    raw = row.get(plural)
+    if raw is None:
+        return _Axis(1, (own_number,), "")
+    span, text = row.span(plural), str(raw)
     if ".." in text:
         ends = interval(text, span, scope.report)
     else:
-        count = integer(said, span, scope.report)
+        count = integer(raw, span, scope.report)
         ends = None if count is None else (1, count)
     if ends is None:
         return None
@@ -128,15 +128,15 @@ def _axis(scope: Scope, row: Draft, plural: str, singular: str) -> _Axis | None:
         message = f"`{plural}: {text}` is no count of elements, or too many"
         scope.report.error("wrong-choice", message, span, f"write a count, or an interval such as `{plural}: 0..1`")
         return None
-    if alone is None:
+    if own_number is None:
         used = range(low, min(high, low + MOST_ELEMENTS) + 1)
         return _Axis(high - low + 1, tuple(used), singular)
-    if not low <= alone <= high:
-        message = f"there is no {singular} {alone} in {low}..{high}"
+    if not low <= own_number <= high:
+        message = f"there is no {singular} {own_number} in {low}..{high}"
         scope.report.error("wrong-choice", message, row.span(singular), f"correct `{singular}` or `{plural}`")
         return None
-    return _Axis(high - low + 1, (alone,), "")
+    return _Axis(high - low + 1, (own_number,), "")
 
 
 def _words_in(words: list[tuple[dict[str, str], int]], language: str) -> str:
-    return ", ".join(said.get(language, said["en"]).format(number) for said, number in words)
+    return ", ".join(texts.get(language, texts["en"]).format(number) for texts, number in words)

@@ -160,11 +160,11 @@ def _warn_of_masks(scope: Scope, raw: Map) -> None:
 
 def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
     """The names of a flag's numbers: its own, or those of a shared enum."""
-    said: Map | str | None = value.get("values")
-    entries = scope.named_enums.get(said) if isinstance(said, str) else said
+    raw: Map | str | None = value.get("values")
+    entries = scope.named_enums.get(raw) if isinstance(raw, str) else raw
     if entries is None:
-        if said is not None:
-            scope.unknown("enum", str(said), value.span("values"), scope.named_enums)
+        if raw is not None:
+            scope.unknown("enum", str(raw), value.span("values"), scope.named_enums)
         return ()
     return entries_of(scope, entries)
 

@@ -119,22 +119,22 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     title = titles(point.get("title"), humanised(point["name"]))
     layers = (point, *_format(scope, point))
     elements = elements_of(scope, Draft(point["name"], layers, group, point, title))
-    each: Map = point.get("each") or Map(point.file, point.at)
+    rows: Map = point.get("each") or Map(point.file, point.at)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
-    for key in each:
+    for key in rows:
         if _decimal_key(key) in overrides:
-            first = [(each.key_span(spelt[_decimal_key(key)]), "first given here")]
+            first = [(rows.key_span(spelt[_decimal_key(key)]), "first given here")]
             message = f"the element {key} is given twice"
-            scope.report.error("duplicate-name", message, each.key_span(key), "say it once", first)
+            scope.report.error("duplicate-name", message, rows.key_span(key), "say it once", first)
         spelt.setdefault(_decimal_key(key), key)
-        overrides.setdefault(_decimal_key(key), each[key])
+        overrides.setdefault(_decimal_key(key), rows[key])
     known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
-    for key in each:
+    for key in rows:
         if elements and _decimal_key(key) not in known:
             message = f"`{point['name']}` has no element {key}"
             hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
-            scope.report.error("unknown-element", message, each.key_span(key), hint)
+            scope.report.error("unknown-element", message, rows.key_span(key), hint)
     for element in elements:
         own = tuple(overrides[key] for key in element.keys if key in overrides)
         name = point["name"] + element.suffix
@@ -197,13 +197,13 @@ def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> 
         enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
         hidden=draft.hidden - override.keys(),
     )
-    said = next((key for key in ("set", "index") if key in override), None)
-    if said is None:
+    own_key = next((key for key in ("set", "index") if key in override), None)
+    if own_key is None:
         return varied
     if draft.suffix:
         message = f"the row of `{draft.own['name']}` stands for several points, and its variant for one of them"
         hint = "give the variant a row of its own"
-        scope.report.error("two-meanings", message, override.key_span(said), hint)
+        scope.report.error("two-meanings", message, override.key_span(own_key), hint)
         return varied
     varied.element = _single_element(scope, varied)
     return varied

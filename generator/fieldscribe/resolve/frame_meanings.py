@@ -29,10 +29,10 @@ def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]
     settings: Map | None = raw.get("with")
     for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
-    said: Map | None = raw.get("says")
-    if said is None:
+    says: Map | None = raw.get("says")
+    if says is None:
         return {}
-    return {point.item: raw_number for point, raw_number in _StatedValues(scope, said, held).numbers(index, points)}
+    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(index, points)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,16 +40,16 @@ class _StatedValues:
     """Values by point as an author wrote them, and what other points hold meanwhile."""
 
     scope: Scope
-    said: Map
+    values: Map
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
     def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
         """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
-        for word, value in self.said.items():
+        for word, value in self.values.items():
             name = word.removesuffix(RAW)
             draft = index.find(name)
             if draft is None:
-                index.unknown(name, self.said.key_span(word))
+                index.unknown(name, self.values.key_span(word))
                 continue
             point = points.get(draft.item)
             if point is None or draft.failed & {"scale", "type", "enum"}:
@@ -57,7 +57,7 @@ class _StatedValues:
             if word == name:
                 raw_number = self._raw(point, word, value)
             else:
-                raw_number = integer(value, self.said.span(word), self.scope.report)
+                raw_number = integer(value, self.values.span(word), self.scope.report)
             if raw_number is not None:
                 yield point, raw_number
 
@@ -69,14 +69,14 @@ class _StatedValues:
         if value in known:
             return known[value]
         if known and not is_whole_number(value):
-            self.scope.unknown("entry", value, self.said.span(word), known)
+            self.scope.unknown("entry", value, self.values.span(word), known)
             return None
         fault = self._fault(point)
         if fault is not None:
             hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"
             self._refuse("bad-formula", word, fault, hint)
             return None
-        exact = number(value, self.said.span(word), self.scope.report)
+        exact = number(value, self.values.span(word), self.scope.report)
         return None if exact is None else self._number(point, word, value, exact)
 
     def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
@@ -109,7 +109,7 @@ class _StatedValues:
         return f"needs what {', '.join(missing)} holds to be scaled (say it under `with`)" if missing else None
 
     def _refuse(self, rule: str, word: str, fault: str, hint: str) -> None:
-        self.scope.report.error(rule, f"`{word}` {fault}", self.said.span(word), hint)
+        self.scope.report.error(rule, f"`{word}` {fault}", self.values.span(word), hint)
 
 
 def _names(point: Point) -> dict[str, int]:

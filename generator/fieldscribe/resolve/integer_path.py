@@ -71,15 +71,15 @@ class _Needs(NamedTuple):
 
 def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
     """How code computes the point: with the author's decimals, or as few as make each raw step one count or more."""
-    said: int | None = draft.get("decimals")
+    stated: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
+        if stated and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return Paths(0)
-    span = draft.span("decimals" if said is not None else "scale")
-    if said is None and any(bounds.scales.floats(case.rule) for case in cases):
+    span = draft.span("decimals" if stated is not None else "scale")
+    if stated is None and any(bounds.scales.floats(case.rule) for case in cases):
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
@@ -166,22 +166,22 @@ def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numera
 
 def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
     """The decimals of the counts; None, which is no finding, where they are beyond 64 bits."""
-    said: int | None = draft.get("decimals")
+    stated: int | None = draft.get("decimals")
     needed = max(_least_decimals(case.rule, bounds) for case in cases)
     fits = needed <= MOST_DECIMALS and _fit(needs, needed)
-    if said is None:
+    if stated is None:
         return needed if fits else None
-    if said < needed:
-        message = f"with {said} decimals two raw numbers would have one count"
-        alone = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
-        hint = f"write `decimals: {needed}`, or leave it out" if fits else alone
+    if stated < needed:
+        message = f"with {stated} decimals two raw numbers would have one count"
+        no_counts = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
+        hint = f"write `decimals: {needed}`, or leave it out" if fits else no_counts
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
         return needed
-    if fits and not _fit(needs, said):
-        message = f"counts of 10^-{said} units do not fit into 64 bits"
-        hint = f"write `decimals: {max(count for count in range(needed, said) if _fit(needs, count))}`"
+    if fits and not _fit(needs, stated):
+        message = f"counts of 10^-{stated} units do not fit into 64 bits"
+        hint = f"write `decimals: {max(count for count in range(needed, stated) if _fit(needs, count))}`"
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
-    return said if fits else None
+    return stated if fits else None
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:

@@ -148,51 +148,53 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    said = str(draft.get("type") or default) if draft.untyped is None else default
-    fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
-    fault = fault or (None if bits else _carrier_fault(scope, said, space))
+    type_name = str(draft.get("type") or default) if draft.untyped is None else default
+    fault = None if "space" in draft.failed else _type_fault(type_name, space, single, width, default)
+    fault = fault or (None if bits else _carrier_fault(scope, type_name, space))
     if fault is None:
-        return said
+        return type_name
     draft.failed.add("type")
     span = draft.span("type" if draft.layer("type") is not None else "space")
     scope.report.error(fault[0], fault[1], span, fault[2])
     return default
 
 
-def _carrier_fault(scope: Scope, said: str, space: str) -> tuple[str, str, str] | None:
+def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:
     """What is wrong with a type that nothing on the bus could carry, or None."""
     widest = scope.family.widest(space)
-    if said == "text" and space in scope.family.indexed:
+    if type_name == "text" and space in scope.family.indexed:
         message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
         return (
             "type-outside-space",
             message,
             'write in place of `type` and `characters`: `untyped: "a text, one character an index"`, in words that fit',
         )
-    if said == "text" or TYPES[said].bits <= widest:
+    if type_name == "text" or TYPES[type_name].bits <= widest:
         return None
     if space in scope.family.indexed:
-        message = f"`{said}` does not fit an address of `{space}`, which carries {widest} bits"
+        message = f"`{type_name}` does not fit an address of `{space}`, which carries {widest} bits"
         return "type-outside-space", message, "use u32, s32 or f32, or correct `space`"
-    message = f"`{said}` does not fit into a message, which carries one word"
+    message = f"`{type_name}` does not fit into a message, which carries one word"
     return "type-outside-space", message, "give each address a point of its own"
 
 
-def _type_fault(said: str, space: str, single: bool, width: int | None, default: str) -> tuple[str, str, str] | None:
+def _type_fault(
+    type_name: str, space: str, single: bool, width: int | None, default: str
+) -> tuple[str, str, str] | None:
     """Rule, message and hint of what is wrong with the type, or None."""
-    info: TypeInfo = TYPES[said]
-    if said == "text" and (single or width is not None):
+    info: TypeInfo = TYPES[type_name]
+    if type_name == "text" and (single or width is not None):
         return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
     if width is not None:
         if width <= info.bits <= 16 and not info.floating:
             return None
-        return "bit-outside-word", f"{width} bits do not fit the type `{said}`", f"use `{default}`"
-    if single != (said == "bit"):
+        return "bit-outside-word", f"{width} bits do not fit the type `{type_name}`", f"use `{default}`"
+    if single != (type_name == "bit"):
         message = (
-            f"`{said}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
+            f"`{type_name}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
         )
         return "type-outside-space", message, "use `bit`" if single else "use `bits` to take one bit of a word"
     if not single and info.bits < 16:
-        message = f"`{said}` is smaller than the words of `{space}`"
+        message = f"`{type_name}` is smaller than the words of `{space}`"
         return "type-outside-space", message, "use u16 or s16, or say which `bits` of the word it takes"
     return None

@@ -186,17 +186,17 @@ class Scales:
         came_from: dict[Draft, Draft | None] = {used: None}
         waiting = [used]
         while waiting and len(came_from) < _LONGEST_CHAIN:
-            here = waiting.pop()
-            if here is draft:
-                chain = [here.name]
-                step = came_from[here]
+            visited = waiting.pop()
+            if visited is draft:
+                chain = [visited.name]
+                step = came_from[visited]
                 while step is not None:
                     chain.append(step.name)
                     step = came_from[step]
                 return [draft.name, *reversed(chain)]
-            for needed in self._needs(here):
+            for needed in self._needs(visited):
                 if needed not in came_from:
-                    came_from[needed] = here
+                    came_from[needed] = visited
                     waiting.append(needed)
         return []
 

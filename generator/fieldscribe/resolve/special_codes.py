@@ -80,11 +80,11 @@ class SpecialCodes:
         shared = [level for level in levels if level.label]
         inherited = self._merged([self.held(level.codes, kind, width) for level in shared])
         places = {code.span for code in codes}
-        whole = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
+        all_kept = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
         labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
-        own = {id(level.codes) for level in levels if not level.label or not whole}
+        own = {id(level.codes) for level in levels if not level.label or not all_kept}
         specials = tuple(_special(code, id(code.holder) in own) for code in codes)
-        return specials, "_".join((*labels, kind)) if whole else ""
+        return specials, "_".join((*labels, kind)) if all_kept else ""
 
     def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
         """The codes of one `special` as raw numbers of that type; a finding for each that does not fit or clashes."""
