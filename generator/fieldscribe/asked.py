@@ -24,7 +24,7 @@ class Options:
 
 
 class UnclearError(Exception):
-    """Something that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
+    """What was asked for does not exist in the device, or more than once; `hint` says what to do (may be empty)."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)

@@ -51,7 +51,7 @@ class Report:
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), tuple(related)))
 
     def warning(self, rule: str, message: str, span: Span, hint: str | None = None) -> None:
-        """Add a warning: worth a look, but it compiles."""
+        """Add a warning: worth a look, but it does not stop the compilation."""
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), (), "warning"))
 
     def extend(self, other: Report) -> None:

@@ -73,7 +73,7 @@ ANY: Domain = ((-_LARGEST, _LARGEST),)
 
 
 def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -> bool:
-    """Whether all the comparisons can be true at once."""
+    """Whether all comparisons of a clause can be true at once."""
     together: dict[str, list[Comparison]] = {}
     for comparison in clause:
         together.setdefault(comparison.of, []).append(comparison)
@@ -91,7 +91,7 @@ def absent(condition: Condition | None, left: Mapping[str, tuple[str, ...]]) -> 
 
 
 def _samples(comparisons: list[Comparison], domain: Domain) -> Iterator[int | str]:
-    """Enough of the domain to decide the comparisons."""
+    """Samples of the domain that are enough to decide the comparisons."""
     bounds = [part for part in domain if not isinstance(part, str)]
     if not bounds:
         yield from (part for part in domain if isinstance(part, str))

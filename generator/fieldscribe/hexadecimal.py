@@ -21,7 +21,7 @@ _LONGEST = 64
 
 
 class HexError(ValueError):
-    """A text that is no row of bytes."""
+    """The text does not stand for bytes."""
 
 
 def parse_hex(text: str) -> bytes:

@@ -47,7 +47,7 @@ class Whole:
 
 
 class Plain:
-    """What has no bounds of its own: any number, true or false, nothing."""
+    """A kind without bounds: any number, true or false, or nothing."""
 
     __slots__ = ("word",)
 

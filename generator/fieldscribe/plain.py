@@ -68,7 +68,7 @@ def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
 
 
 def _own(own: Own) -> Own:
-    """The facts of one family, whose codes have titles, too."""
+    """The facts of one family, with names as the titles of their codes."""
     held = {fact.name: getattr(own, fact.name) for fact in fields(own)}
     codes = {
         name: value

@@ -25,7 +25,7 @@ _DEEPEST = 30
 
 
 def as_text(raw: Any) -> str:
-    """A range in the one notation that the parser reads: a YAML list is its items with commas."""
+    """A range as the text that the parser reads: of a YAML list its items with commas."""
     return ", ".join(str(item) for item in raw) if isinstance(raw, Seq) else str(raw)
 
 
@@ -80,7 +80,7 @@ class Bounds:
         key = (draft, end)
         bound = self._ends.get(key)
         if bound is None:
-            bound = self._ends[key] = self.holds[draft][end]  # for points of a circle, which ask again
+            bound = self._ends[key] = self.holds[draft][end]  # the answer to points of a circle, which ask again
             self._depth += 1
             if self._depth <= _DEEPEST:
                 bound = self._ends[key] = self._computed_end(draft, end)
@@ -88,7 +88,7 @@ class Bounds:
         return bound
 
     def ends_of(self, factor: Factor) -> tuple[int, int]:
-        """The ends of raw * slope + intercept of a factor's point."""
+        """What a factor is (raw * slope + intercept) at the least and greatest raw number of its point."""
         low, high = self.hull(factor.point)
         return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
 
@@ -128,7 +128,7 @@ class Bounds:
         return {Fraction(1, divisor) for divisor in {low, high, *nearest} if divisor} or {Fraction(1)}
 
     def exponents_fit(self, rule: Linear, span: Span) -> bool:
-        """Whether every point that is an exponent has a range that keeps the power in sight; else a finding."""
+        """Whether the range of every point that is an exponent of ten lies within MOST_EXPONENT; a finding if not."""
         for factor in rule.factors:
             if factor.ten_to and max(map(abs, self.ends_of(factor))) > MOST_EXPONENT:
                 low, high = self.ends_of(factor)

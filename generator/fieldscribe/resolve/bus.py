@@ -74,7 +74,7 @@ def _check_keys(scope: Scope, raw: Map, keys: BusKeys) -> None:
 
 
 def _knows(family: Family, key: str) -> bool:
-    """Whether a family has a key under `bus`: with others, or alone."""
+    """Whether a family has this key under `bus`, be it a common key or one of its own."""
     return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
 
 

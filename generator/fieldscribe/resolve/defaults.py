@@ -19,7 +19,7 @@ _PLAIN = Linear(Fraction(1), Fraction(0), ())
 
 
 def default_of(scope: Scope, draft: Draft, shape: Shape) -> tuple[Fraction | None, int | None]:
-    """The factory setting in the unit and as raw number; what is not said, or what only other points tell, is None."""
+    """The factory setting in the unit and as raw number; None where it is not given or depends on other points."""
     if draft.text:
         return None, None
     rule = None if draft.floating else _rule(draft, shape)
@@ -61,7 +61,7 @@ def _has_a_fraction(default: object) -> bool:
 
 
 def _rule(draft: Draft, shape: Shape) -> Linear | None:
-    """The one rule between raw number and value; None where other points, or nobody, tell."""
+    """The rule between raw number and value; None where it depends on other points or is not known."""
     if shape.scale is not None:
         return shape.fixed_scale
     unsettled = draft.untyped is not None or (draft.layer("scale") is not None and draft.get("scale") is None)

@@ -1,4 +1,4 @@
-"""With how many decimals people see the values of a point."""
+"""How many decimals people see in the values of a point."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _WITHOUT_VALUE = {
     "text": "a text",
     "bit": "a single bit",
 }
-"""The forms of points that are no quantity."""
+"""The forms of points that are no quantity, in words."""
 
 
 def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:

@@ -1,4 +1,4 @@
-"""Points before they are computed: every fact still with its place in the text, and with the layer that says it."""
+"""Points before they are computed: every fact with its place in the text, and with the layer that it comes from."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 _INHERITED = inherited(GROUP)
-"""What a group says for its points."""
+"""Keys that a group may set for its points."""
 
 _RIVALS = (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
 """Pairs of keys that say one fact: the key that the nearer layer has hides the other one of farther layers."""
@@ -61,7 +61,7 @@ class Draft:
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):
-            del where["scale"]  # a scale for the numbers of a group is none for its names, floats and texts
+            del where["scale"]  # a group's scale is for its numbers, not for names, floats and texts
         if where.get("range") is group and (self.text or "digits" in where):
             del where["range"]
 

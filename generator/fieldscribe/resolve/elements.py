@@ -1,4 +1,4 @@
-"""Sets and arrays: one row of the manual that stands for a point in each parameter set, for each index, or both."""
+"""Sets and arrays: rows of the manual that stand for one point in each parameter set, for each index, or both."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Element:
         return by_index if self.set_number is None else (f"{self.set_number}/{self.index}", *by_index)
 
     def titled(self, title: Titles) -> Titles:
-        """The title of this element, from that of the whole."""
+        """The title of this element: that of the row, with its set and index."""
         words = [
             (words, number)
             for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
@@ -79,7 +79,7 @@ ALONE = Element(None, 1, None, 1, "", ())
 
 def elements_of(scope: Scope, row: Draft) -> list[Element]:
     """All points that the row stands for, set by set, in each set index by index; none after a finding."""
-    rows = isinstance(row.get("sets"), Map)  # each set has one of its own
+    rows = isinstance(row.get("sets"), Map)  # each further set has a row of its own
     sets = _Axis(1, (None,), "") if rows else _axis(scope, row, "sets", "set")
     indices = _axis(scope, row, "indices", "index")
     if sets is None or indices is None:

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 _WIDEST = 63
-"""The highest bit that any type has: what is higher is no bit number."""
+"""The highest bit of the widest type: a greater number cannot be a bit number."""
 _MASKS = 3
-"""So many keys that are powers of two in a row are masks."""
+"""So many successive powers of two as keys are probably masks, not bit numbers."""
 
 
 def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
@@ -117,7 +117,7 @@ class _Taken:
 
 
 def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
-    """The bits that the word's description names, in its numbers; bits outside the point or taken twice are findings.
+    """The flags of a point, read by bit numbers of its word; bits outside the point or named twice are findings.
 
     A flag of a point that takes only some `bits` of its word counts from the lowest of them.
     """

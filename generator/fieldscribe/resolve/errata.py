@@ -1,4 +1,4 @@
-"""Errata: whom they are about, and what they say."""
+"""Errata: which points or frames they are about, and what they say."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class OpenErratum:
 
     @property
     def subjects(self) -> tuple[str, ...]:
-        """Whom it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
+        """What it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
         return self.erratum.points or ((self.erratum.where,) if ":" in self.erratum.where else ())
 
     def printed(self, key: str) -> Any:
@@ -131,7 +131,7 @@ def in_one_line(value: Any) -> str:
 
 
 def _facts(value: Any) -> tuple[tuple[str, str], ...]:
-    """Each fact by its key; nothing where words alone are given."""
+    """Each fact as (key, text); none where the erratum says it in words."""
     return tuple((str(key), _fact_text(fact, key)) for key, fact in value.items()) if isinstance(value, Map) else ()
 
 

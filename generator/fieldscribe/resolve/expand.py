@@ -29,7 +29,7 @@ _OF_RECORDS = inherited(USE)
 
 
 def expand(scope: Scope) -> list[Draft]:
-    """All points of all groups, in the order of the text; a finding when rows stand for more than anybody needs."""
+    """All points of all groups, in the order of the text; a finding when there are more than MOST_POINTS."""
     drafts: list[Draft] = []
     for group in groups(scope):
         for point in group.get("points", ()):

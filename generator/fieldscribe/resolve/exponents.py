@@ -16,7 +16,7 @@ Ends = tuple[int, int]
 
 
 def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
-    """The points, whose rules now say for which raw numbers their powers of ten are defined."""
+    """The points, with the raw numbers for which powers of ten are defined added to the rules that have some."""
     names = {factor.point for point in points for rule in _rules(point) for factor in rule.factors if factor.ten_to}
     ends: dict[str, Ends] = {}
     for point in points:

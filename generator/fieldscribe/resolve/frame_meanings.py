@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 RAW = ".raw"
-"""Behind a point's name: the raw number is said, not the value."""
+"""Behind a point's name it says that the raw number follows, not the value."""
 
 
 def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
-    """The raw numbers by item that a frame is said to carry."""
+    """The raw numbers that a frame carries according to its `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = raw.get("with")
     for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
@@ -37,7 +37,7 @@ def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]
 
 @dataclass(frozen=True, slots=True)
 class _StatedValues:
-    """Values by point as an author wrote them, and what other points hold meanwhile."""
+    """Values by point as an author wrote them, and `held`: what other points hold at that time."""
 
     scope: Scope
     values: Map

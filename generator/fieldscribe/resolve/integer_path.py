@@ -165,7 +165,7 @@ def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numera
 
 
 def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
-    """The decimals of the counts; None, which is no finding, where they are beyond 64 bits."""
+    """The decimals of the counts; None (without a finding) where no 64-bit integer holds the counts."""
     stated: int | None = draft.get("decimals")
     needed = max(_least_decimals(case.rule, bounds) for case in cases)
     fits = needed <= MOST_DECIMALS and _fit(needs, needed)
@@ -185,7 +185,7 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """What to do where the integers of a scale do not fit: something that leads into no other fault."""
+    """What to do where the integers of a scale do not fit: a change that really helps, and causes no other finding."""
     factors = [factor for case in cases for factor in case.rule.factors]
     names = " and ".join(
         f"`{name}`" for name in sorted({bounds.scales.index.by_item(factor.point).name for factor in factors})
@@ -219,7 +219,7 @@ def _least_decimals(rule: Linear, bounds: Bounds) -> int:
     """The fewest decimals at which a raw step is one count or more; above MOST_DECIMALS if none are enough."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
     if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
-        return 0  # the author's decimals are all that is known
+        return 0  # nothing can be computed: the author's decimals count
     if rule.factors:
         corners = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
         largest = max((corner for corner in corners if corner), default=abs(rule.ratio))

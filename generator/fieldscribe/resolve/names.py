@@ -1,4 +1,4 @@
-"""Which points exist under which name and code, and what is clear about them before any formula is read."""
+"""Points by name and code, and what is known of them before any formula is read."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Index:
-    """Drafts by name (several where variants differ) and by code; a code that several points carry names none."""
+    """Drafts by name (several where variants differ) and by code; a code that several points have finds none."""
 
     scope: Scope
     by_name: dict[str, list[Draft]]
@@ -28,7 +28,7 @@ class Index:
     by_items: dict[str, Draft]
 
     def find(self, word: str, variant: str | None = None) -> Draft | None:
-        """The point that a formula or an erratum means by `word`: its name, or a code that only one point has.
+        """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
 
         Of a point that differs by variant it is the one of this variant, else the first.
         """
@@ -50,7 +50,7 @@ class Index:
         return self.by_name.get(word) or self.by_code.get(word, [])
 
     def unknown(self, word: str, span: Span, axes: Collection[str] = ()) -> None:
-        """A finding for a word that means no point, or too many; where it stands it could be one of `axes` too."""
+        """A finding for a word that means no point, or several; it could also mean one of the variant `axes`."""
         several = self.by_code.get(word, [])
         if several:
             message = f"`{word}` is the code of {len(several)} points"
@@ -144,7 +144,7 @@ def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
 
 
 def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None) -> str:
-    """The point's wire type: said, or what its space and bits ask for; a finding if they do not fit each other."""
+    """The point's wire type: as described, else by its space and bits; a finding if it does not fit them."""
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
@@ -160,7 +160,7 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
 
 
 def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:
-    """What is wrong with a type that nothing on the bus could carry, or None."""
+    """Rule, message and hint for a type that is too wide for the bus, or None."""
     widest = scope.family.widest(space)
     if type_name == "text" and space in scope.family.indexed:
         message = f"a text does not fit an address of `{space}`, which carries {widest} bits"

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Resolved:
-    """A point with the draft that it came from: the model knows no places in the text, the checks do."""
+    """A point with the draft that it came from: checks need its places in the text, which the model does not have."""
 
     point: Point
     draft: Draft
@@ -70,7 +70,7 @@ class _Tools(NamedTuple):
 def resolve_points(
     scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
 ) -> tuple[list[Resolved], Ranges, Places]:
-    """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
+    """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
     codes = SpecialCodes(scope)
     codes.check_types()
     words = {draft: _word(scope, draft, codes) for draft in drafts}
@@ -203,7 +203,7 @@ def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> s
 
 
 def _untyped(scope: Scope, draft: Draft) -> str | None:
-    """What stands in place of a type; a finding where something is said twice, or of nothing."""
+    """What stands in place of a type; a finding where a type stands beside it, or `length` beside a type."""
     words, typed = draft.layer("untyped"), draft.layer("type")
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
@@ -215,7 +215,7 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
 
 
 def _keeps(scope: Scope, draft: Draft) -> str | None:
-    """What keeps a written value; a finding where one layer says it twice."""
+    """What keeps a written value; a finding where `keeps` and `keep_with` stand side by side."""
     kept, command = draft.layer("keeps"), draft.layer("keep_with")
     if kept is not None and kept is command:
         message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"

@@ -45,7 +45,7 @@ SECTIONS = {
     "unit": "units",
     "variant": "variants",
 }
-"""What a word can name, and under which key that is declared."""
+"""What a word can name, each with the key under which that is declared."""
 
 
 @dataclass(slots=True)
@@ -115,7 +115,7 @@ class Scope:
         return not self.complete or any(marks & file.file.lost for file in self.files)
 
     def unknown(self, what: str, word: str, span: Span, known: Collection[str], hint: str | None = None) -> None:
-        """A finding for a word that names nothing: what it should name (a key of `SECTIONS`), and what there is."""
+        """A finding for a word that names nothing; `what` is a key of `SECTIONS`, `known` are the existing names."""
         section = SECTIONS[what]
         if self.report.full or self.is_lost(word, section):
             return

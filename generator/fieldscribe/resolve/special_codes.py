@@ -50,7 +50,7 @@ class _Level(NamedTuple):
 
 @dataclass(slots=True)
 class SpecialCodes:
-    """The special codes of all points of a device; those that many inherit are worked out once."""
+    """The special codes of all points of a device; codes that many points share are computed once."""
 
     scope: Scope
     _reported: set[tuple[Span, str]] = field(default_factory=set)

@@ -22,7 +22,7 @@ SPACE = "telegram"
 """The space whose points are words of a telegram."""
 
 _MULTIPLEXED = 256
-"""How many frames a multiplexer tells apart."""
+"""How many different frames a multiplexer can number."""
 
 
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:

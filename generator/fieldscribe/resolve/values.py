@@ -24,7 +24,7 @@ class Written(NamedTuple):
     span: Span
 
     def of(self, name: str) -> Span:
-        """Where a name stands in it first."""
+        """The place of a name in it, where it stands first."""
         match = re.search(rf"\b{re.escape(name)}\b", self.text)
         return self.span._replace(column=self.span.column + (match.start() if match else 0), width=len(name))
 
