@@ -1,4 +1,4 @@
-"""The words in which the table of keys is written: where a key stands, what may stand at it, and what that means.
+"""The classes of which the table of keys is made: where a key stands, which values it takes, and what they mean.
 
 Plain classes, compared by identity: making them dataclasses would take longer than making the whole table.
 """
@@ -47,7 +47,7 @@ class Whole:
 
 
 class Plain:
-    """What has no bounds of its own: any number, true or false, nothing."""
+    """A kind without bounds: any number, true or false, or nothing."""
 
     __slots__ = ("word",)
 
