@@ -49,7 +49,7 @@ class Directory:
 
     def starting_at(self, where: str, address: int) -> list[Found]:
         """The points whose lowest address this is, each with its place."""
-        return [one for one in self.places(where, address) if min(one[1].addresses) == address]
+        return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
     def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
         """What rules take of points with these raw numbers; not of variants that are in different places."""

@@ -60,8 +60,10 @@ def _count(point: Point, message: Message) -> str:
 
 def _telegram_text(device: Device, point: Point) -> str:
     """In which frames of a telegram the point comes, and at which bytes."""
-    telegram = next((one for one in device.telegrams if one.name == point.telegram), None)
-    message = next((one for one in device.messages if telegram is not None and one.name == telegram.message), None)
+    telegram = next((telegram for telegram in device.telegrams if telegram.name == point.telegram), None)
+    message = next(
+        (message for message in device.messages if telegram is not None and message.name == telegram.message), None
+    )
     if telegram is None or message is None or not message.words:
         return ""
     unit = device.bus.usual_unit

@@ -53,8 +53,10 @@ def carries(message: Message, kind: str) -> bool:
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
     """What the bytes of a role hold together."""
-    found = zip(message.roles, frame.data, strict=False)
-    return sum(byte << (0 if kind == "multiplexer" else role.number) for role, byte in found if role.kind == kind)
+    bytes_by_role = zip(message.roles, frame.data, strict=False)
+    return sum(
+        byte << (0 if kind == "multiplexer" else role.number) for role, byte in bytes_by_role if role.kind == kind
+    )
 
 
 def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:
@@ -93,15 +95,15 @@ def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
         return Parsed("wrong_id")
     if len(data) != LENGTH:
         return Parsed("wrong_length")
-    found = list(zip(message.roles, data, strict=True))
-    if any(role.kind == "constant" and byte != role.number for role, byte in found):
+    bytes_by_role = list(zip(message.roles, data, strict=True))
+    if any(role.kind == "constant" and byte != role.number for role, byte in bytes_by_role):
         return Parsed("wrong_constant")
-    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in found):
+    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in bytes_by_role):
         return Parsed("wrong_unit")
-    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in found):
+    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in bytes_by_role):
         return Parsed("wrong_check")
-    return Parsed("ok", _carried(found, "address"), _carried(found, "raw"))
+    return Parsed("ok", _carried(bytes_by_role, "address"), _carried(bytes_by_role, "raw"))
 
 
-def _carried(found: list[tuple[Role, int]], kind: str) -> int:
-    return sum(byte << role.number for role, byte in found if role.kind == kind)
+def _carried(bytes_by_role: list[tuple[Role, int]], kind: str) -> int:
+    return sum(byte << role.number for role, byte in bytes_by_role if role.kind == kind)

@@ -67,12 +67,12 @@ class Receiver:
         Two words of two frames are believed when the same high word came before and after the low one. Longer runs of
         words, such as texts, are given as they came last.
         """
-        found = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
-        if any(slot.at == 0 for slot, _ in found):
+        slots = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
+        if any(slot.at == 0 for slot, _ in slots):
             return "missing", ()
-        (high, high_word), (low, low_word) = found[0], found[-1]
-        if high is low or len(found) > 2:
-            return "ok", tuple(slot.words[word] for slot, word in found)
+        (high, high_word), (low, low_word) = slots[0], slots[-1]
+        if high is low or len(slots) > 2:
+            return "ok", tuple(slot.words[word] for slot, word in slots)
         if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
             return "torn", ()
         if high.before < low.at < high.at:

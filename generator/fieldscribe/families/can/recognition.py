@@ -43,9 +43,9 @@ class Recognised:
 
 def recognise(device: Device, frame: CanFrame) -> Recognised | None:
     """The message that a frame is, or is most likely meant to be; None if nothing fits."""
-    found = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
-    whole = [one for one in found if one is not None]
-    return min(whole, key=lambda one: len(one.faults), default=None)
+    readings = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
+    whole = [reading for reading in readings if reading is not None]
+    return min(whole, key=lambda reading: len(reading.faults), default=None)
 
 
 def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:
@@ -63,14 +63,14 @@ def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Reco
     """The frame as that message; None where the first byte that tells messages apart says that it is another."""
     if len(frame.data) != LENGTH:
         return None
-    found = list(zip(message.roles, frame.data, strict=True))
-    fixed = [(role.number, byte) for role, byte in found if role.kind == "constant"]
+    bytes_by_role = list(zip(message.roles, frame.data, strict=True))
+    fixed = [(role.number, byte) for role, byte in bytes_by_role if role.kind == "constant"]
     if fixed and fixed[0][0] != fixed[0][1]:
         return None
     faults = []
     if unit is not None and message.direction != "request" and (strange := strange_unit(bus, unit)):
         faults.append(strange)
-    for place, (role, byte) in enumerate(found):
+    for place, (role, byte) in enumerate(bytes_by_role):
         right = byte
         if role.kind == "constant":
             right = role.number
@@ -78,7 +78,7 @@ def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Reco
             right = unit >> role.number & 0xFF
         if byte != right:
             faults.append(f"byte {place} is {hex_text(byte, 2)}, in this message it is {hex_text(right, 2)}")
-    sums = [(byte, checksum(frame.data, role.number)) for role, byte in found if role.kind == "xor"]
+    sums = [(byte, checksum(frame.data, role.number)) for role, byte in bytes_by_role if role.kind == "xor"]
     checks = ""
     if sums:
         there, right_sums = (bytes(pair[at] for pair in sums) for at in (0, 1))

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 def request_of(device: Device, *, writes: bool) -> Message | None:
     """The message that asks for a parameter, or that changes one."""
-    asking = (one for one in device.messages if one.direction == "request" and carries(one, "address"))
-    return next((one for one in asking if carries(one, "raw") == writes), None)
+    asking = (message for message in device.messages if message.direction == "request" and carries(message, "address"))
+    return next((message for message in asking if carries(message, "raw") == writes), None)
 
 
 def frame_text(frame: CanFrame) -> str:

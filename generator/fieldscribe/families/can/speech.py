@@ -54,7 +54,7 @@ class CanSpeech:
 
     def _message(self, known: Recognised, course: Course) -> Spoken:
         message = known.message
-        telegram = next((one for one in self._device.telegrams if one.message == message.name), None)
+        telegram = next((telegram for telegram in self._device.telegrams if telegram.message == message.name), None)
         said = message_text(self._device, known)
         details = {"message": message.name, **({"parameter": known.address} if telegram is None else {})}
         details |= {} if telegram is None else {"multiplexer": known.slot}
@@ -70,8 +70,8 @@ class CanSpeech:
         if first >= telegram.words or per_frame == 0:
             last = -(-telegram.words // max(1, per_frame)) - 1
             return Spoken(replace(heard, findings=(f"the manual knows multiplexers 0 to {last} only",)))
-        made = Receiver(telegram, known.message, known.unit or 0)
-        receiver = self._receivers.setdefault((known.unit, telegram.name), made)
+        fresh = Receiver(telegram, known.message, known.unit or 0)
+        receiver = self._receivers.setdefault((known.unit, telegram.name), fresh)
         if not receiver.take(known.frame):
             return Spoken(replace(heard, notes=("its words are not read, for the frame is damaged",)))
         positions = range(first, min(first + per_frame, telegram.words))
@@ -98,7 +98,7 @@ class CanSpeech:
 
     def _writes(self, message: Message) -> bool:
         """Whether a message is a request that carries a value, or the answer to one."""
-        asked = next((one for one in self._device.messages if one.name == message.answers), message)
+        asked = next((request for request in self._device.messages if request.name == message.answers), message)
         return asked.direction == "request" and any(role.kind == "raw" for role in asked.roles)
 
     def _unknown(self, pasted: Pasted) -> Spoken:

@@ -65,12 +65,12 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
 
 def _values(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
     """The variants in which points of one name are read at one place."""
-    found: dict[tuple[str, Place], set[str]] = {}
+    variants: dict[tuple[str, Place], set[str]] = {}
     for point in points:
         place = _read_place(point)
         if point.variant is not None and place is not None:
-            found.setdefault((point.name, place), set()).add(point.variant)
-    return found
+            variants.setdefault((point.name, place), set()).add(point.variant)
+    return variants
 
 
 def _always_there(

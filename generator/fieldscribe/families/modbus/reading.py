@@ -29,7 +29,9 @@ class ModbusReading(Reading):
 
     def writes(self, space: str) -> tuple[int, ...]:
         """The functions that write into a space."""
-        return tuple(one for one in (SPACES[space].write_one, SPACES[space].write_many) if one is not None)
+        return tuple(
+            function for function in (SPACES[space].write_one, SPACES[space].write_many) if function is not None
+        )
 
     def blocks(self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
         """The reads that bring all points of a group."""
@@ -53,7 +55,7 @@ def _broadcasts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
     for code in functions:
         if code.broadcast and code.number not in BROADCAST:
             message = f"function {code.number:02X}h is never broadcast: it is of no use without an answer"
-            shown = ", ".join(f"{one:02X}h" for one in sorted(BROADCAST))
+            shown = ", ".join(f"{function:02X}h" for function in sorted(BROADCAST))
             scope.report.error("not-broadcast", message, spans[code.name], f"functions that can be: {shown}")
 
 

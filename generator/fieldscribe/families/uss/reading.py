@@ -69,7 +69,7 @@ def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
     if direction not in ("request", "response"):
         hint = "write `direction: request` for what the master sends, `response` for what the device sends"
         scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
-    other = next((one for one in before if one.direction == direction), None)
+    other = next((telegram for telegram in before if telegram.direction == direction), None)
     if other is not None:
         text = f"`{other.name}` and `{name}` are both of direction {direction}"
         hint = "a telegram has process data once in each direction: make them one, or points with `when`"

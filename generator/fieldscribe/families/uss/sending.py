@@ -51,11 +51,11 @@ def process_words(
     """The words of process data that a telegram takes along, from what is known; all others 0, and what that means."""
     words = dict(own or {})
     notes: list[str] = []
-    telegrams = {one.name for one in device.telegrams if one.direction == "request"}
+    telegrams = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
     for point in device.points:
-        given = settings.get(point.name)
-        if point.telegram in telegrams and isinstance(given, int):
-            for place, word in zip(point.addresses, words_of(point, given), strict=False):
+        raw = settings.get(point.name)
+        if point.telegram in telegrams and isinstance(raw, int):
+            for place, word in zip(point.addresses, words_of(point, raw), strict=False):
                 words.setdefault(place, insert(point, word, word) if point.bits is None else word)
     for point in device.points:
         place = point.addresses[0] if point.addresses else link.pzd

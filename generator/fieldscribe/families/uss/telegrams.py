@@ -157,23 +157,23 @@ def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
     error), `no_rights`, `wrong_response` (one that does not belong to the task), `wrong_length` (a double value in too
     few words).
     """
-    found = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(3, len(data) - 1, 2))
-    pkw = len(found) - link.pzd
+    received = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(3, len(data) - 1, 2))
+    pkw = len(received) - link.pzd
     fault = _envelope_fault(link, request, data, pkw)
     if fault is not None:
         return Reply(fault)
-    words = found[pkw:]
+    words = received[pkw:]
     if link.pkw == 0:
         return Reply("ok", words=words)
-    response = found[0] >> 12
+    response = received[0] >> 12
     if request.task == 0:
         return Reply("ok", response, words=words)
-    fault = _answer_fault(bus, request, found[:pkw])
+    fault = _answer_fault(bus, request, received[:pkw])
     if fault is not None:
-        return Reply(fault, response, error=found[2]) if fault == "refused" else Reply(fault)
+        return Reply(fault, response, error=received[2]) if fault == "refused" else Reply(fault)
     if response in DOUBLE_RESPONSES:
-        return Reply("ok", response, 2, found[2] << 16 | found[3], words=words)
-    return Reply("ok", response, 1, found[3 if link.single_last else 2], words=words)
+        return Reply("ok", response, 2, received[2] << 16 | received[3], words=words)
+    return Reply("ok", response, 1, received[3 if link.single_last else 2], words=words)
 
 
 def _envelope_fault(link: Link, request: Request, data: bytes, pkw: int) -> str | None:

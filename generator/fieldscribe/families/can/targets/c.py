@@ -114,8 +114,10 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places]
-    messages = {one.name: one for one in device.messages}
-    cyclic = {one.name: messages[one.message] for one in device.telegrams if one.message in messages}
+    messages = {message.name: message for message in device.messages}
+    cyclic = {
+        telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
+    }
     reading, writing = _dialogue(device, writes=False), _dialogue(device, writes=True)
     layouts = Layouts(scope)
     asked = (reading[0] is not None, writing[0] is not None)
@@ -134,11 +136,11 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         units=device.bus.units,
         identifier_bits=identifier_bits(device.bus),
         bitrate=of_bus(device.bus).bitrate,
-        messages=tuple(_message(one, scope) for one in device.messages),
+        messages=tuple(_message(message, scope) for message in device.messages),
         telegrams=tuple(
-            _telegram(one, cyclic[one.name], scope)
-            for one in device.telegrams
-            if one.name in cyclic and cyclic[one.name].words
+            _telegram(telegram, cyclic[telegram.name], scope)
+            for telegram in device.telegrams
+            if telegram.name in cyclic and cyclic[telegram.name].words
         ),
         read_request=_array(reading[0], scope),
         read_answer=_array(reading[1], scope),
@@ -147,9 +149,9 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         exceptions=exceptions_of(device, scope),
         groups=tuple(_groups(device, scope)),
         layouts=layouts.descriptors,
-        parameters=tuple(one for one in parameters if one is not None),
+        parameters=tuple(parameter for parameter in parameters if parameter is not None),
         cyclic=heard,
-        aliases=aliases_of((one.descriptor for one in (*filter(None, parameters), *heard)), device, scope),
+        aliases=aliases_of((reachable.descriptor for reachable in (*filter(None, parameters), *heard)), device, scope),
     )
 
 
@@ -164,7 +166,7 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
         yield Owner("group", group.title), (group.array, group.count_name)
-    yield from names_of(bus.layouts, (one.descriptor for one in (*bus.parameters, *bus.cyclic)))
+    yield from names_of(bus.layouts, (reachable.descriptor for reachable in (*bus.parameters, *bus.cyclic)))
     yield from old_names_of(bus.aliases)
 
 
@@ -177,15 +179,19 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
         name = heard.descriptor.name
         how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
         yield heard.function, f"RECEIVED{'_' if heard.text else ''}{how})"
-    for one in bus.parameters:
-        name = one.descriptor.name
-        read = one.read and bus.read_answer
-        how = f"{name}, {one.function}, {one.macro}" if one.text else f"{name}, {one.kind}, {one.raw_type}"
+    for parameter in bus.parameters:
+        name = parameter.descriptor.name
+        read = parameter.read and bus.read_answer
+        how = (
+            f"{name}, {parameter.function}, {parameter.macro}"
+            if parameter.text
+            else f"{name}, {parameter.kind}, {parameter.raw_type}"
+        )
         if read:
-            yield one.function, f"READ{'_TEXT' if one.text else ''}({how})"
-        if one.write and bus.write_answer and (read or not one.shares):
-            tail = "_TEXT" if one.text else "_SHARED" if one.shares else ""
-            yield one.function, f"WRITE{tail}({how})"
+            yield parameter.function, f"READ{'_TEXT' if parameter.text else ''}({how})"
+        if parameter.write and bus.write_answer and (read or not parameter.shares):
+            tail = "_TEXT" if parameter.text else "_SHARED" if parameter.shares else ""
+            yield parameter.function, f"WRITE{tail}({how})"
 
 
 def _array(message: Message | None, scope: HeaderScope) -> str:
@@ -225,7 +231,7 @@ def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message 
     for request in device.messages:
         kinds = {role.kind for role in request.roles}
         if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
-            return request, next((one for one in device.messages if one.answers == request.name), None)
+            return request, next((message for message in device.messages if message.answers == request.name), None)
     return None, None
 
 

@@ -91,7 +91,7 @@ def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message 
     for request in device.messages:
         kinds = {role.kind for role in request.roles}
         if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
-            return request, next((one for one in device.messages if one.answers == request.name), None)
+            return request, next((message for message in device.messages if message.answers == request.name), None)
     return None, None
 
 
@@ -104,8 +104,8 @@ def frames(lines: Lines, device: Device) -> None:
     lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
-        members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
-        addresses = [address for one in members if one.space == "parameter" for address in one.addresses]
+        members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
+        addresses = [address for point in members if point.space == "parameter" for address in point.addresses]
         if addresses and _dialogue(device, writes=False)[0] is not None:
             lines.add("group", group.name, list(dict.fromkeys(addresses)))
     for telegram in device.telegrams:
@@ -149,14 +149,14 @@ def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
 
 
 def _parsed(lines: Lines, message: Message, unit: int, frame: CanFrame) -> None:
-    found = parse(message, unit, frame)
+    parsed = parse(message, unit, frame)
     lines.set("message", message.name)
-    read = (found.address, found.raw) if found.status == "ok" else ()
-    lines.add("can_parse", unit, frame.id, frame.data, found.status, *read)
+    read = (parsed.address, parsed.raw) if parsed.status == "ok" else ()
+    lines.add("can_parse", unit, frame.id, frame.data, parsed.status, *read)
 
 
 def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
-    message = next((one for one in device.messages if one.name == telegram.message), None)
+    message = next((message for message in device.messages if message.name == telegram.message), None)
     if message is None:
         return
     unit = device.bus.units[0]
@@ -165,8 +165,8 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
             (_heard if point.form != "text" else _heard_text)(lines, telegram, message, point, unit)
     if message.words:
         lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
-        for one in dict.fromkeys(device.bus.units):
-            _misheard(lines, telegram, message, one)
+        for sender in dict.fromkeys(device.bus.units):
+            _misheard(lines, telegram, message, sender)
 
 
 def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
@@ -186,7 +186,9 @@ def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> 
     receiver = Receiver(telegram, message, unit)
     lines.set("telegram", telegram.name, unit)
     lines.add("can_carrier", message.name)
-    lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
+    lines.add(
+        "can_taken", [(frame.id, frame.data) for frame in frames], [int(receiver.take(frame)) for frame in frames]
+    )
 
 
 def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
@@ -210,7 +212,7 @@ def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, uni
         (h1, l1, h2, l2, h2), (h1, h1, l1), (h1, l1, l2, h1), (l1, h1, h1), (h1, h1, l1, h1), (h2, l1, h1, l1, h1, l2),
         (l1, h1, l2, h1, l1), (h1, l1, h1, h1), (l1, h0), (h0, l1),
     ):  # fmt: skip
-        ask.answer([ask.frame(*one) for one in order])
+        ask.answer([ask.frame(*position) for position in order])
 
 
 def _heard_text(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
@@ -221,12 +223,12 @@ def _heard_text(lines: Lines, telegram: Telegram, message: Message, point: Point
     for count in dict.fromkeys((0, len(frames) - 1, len(frames))):
         receiver = Receiver(telegram, message, unit)
         taken = [int(receiver.take(frame)) for frame in frames[:count]]
-        found = [receiver.words((position,)) for position in point.addresses]
-        status = next((status for status, _ in found if status != "ok"), "ok")
-        words = [word for _, words in found for word in words] if status == "ok" else None
+        pieces = [receiver.words((position,)) for position in point.addresses]
+        status = next((status for status, _ in pieces if status != "ok"), "ok")
+        words = [word for _, words in pieces for word in words] if status == "ok" else None
         lines.set("point", point.item)
         lines.set("telegram", telegram.name, unit)
-        lines.add("can_text", [(one.id, one.data) for one in frames[:count]], taken, status, words)
+        lines.add("can_text", [(frame.id, frame.data) for frame in frames[:count]], taken, status, words)
 
 
 class _Asking:

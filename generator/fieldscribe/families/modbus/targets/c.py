@@ -118,7 +118,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
-    all_blocks = [one for blocks in device.blocks.values() for one in blocks]
+    all_blocks = [block for blocks in device.blocks.values() for block in blocks]
     frames = [
         _frame(point, views[point.item], numbers, layouts)
         for point in device.points
@@ -133,12 +133,12 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         rtu="true" if "rtu" in framings_of(bus) else "false",
         tcp="true" if "tcp" in framings_of(bus) else "false",
         blocks=tuple(_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks),
-        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((one.count for one in all_blocks), default=0))),
+        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((block.count for block in all_blocks), default=0))),
         layouts=layouts.descriptors,
-        frames=tuple(one for one in frames if one is not None),
+        frames=tuple(frame for frame in frames if frame is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
-        aliases=aliases_of((one.descriptor for one in frames if one is not None), device, scope),
+        aliases=aliases_of((frame.descriptor for frame in frames if frame is not None), device, scope),
     )
 
 
@@ -150,25 +150,28 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
         yield Owner("target", "the largest block"), (bus.block_most[0],)
     for blocks in bus.blocks:
         yield Owner("group", blocks.name), (blocks.array,)
-    for command, made in zip(device.commands, bus.commands, strict=True):
-        yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
+    for command, command_view in zip(device.commands, bus.commands, strict=True):
+        yield (
+            Owner("command", command.name),
+            (command_view.descriptor.name, *(name for name, _ in command_view.defines)),
+        )
     yield from names_of_exceptions(device, bus.exceptions)
-    yield from names_of(bus.layouts, (one.descriptor for one in bus.frames))
+    yield from names_of(bus.layouts, (frame.descriptor for frame in bus.frames))
     yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points answer vectors of whole exchanges."""
-    for one in bus.frames:
-        name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
-        if not one.text:
-            yield one.function, f"LIES({name}, {one.lies})"
-        if one.read:
-            yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
-        if one.write and one.text:
-            yield one.function, f"WRITE_TEXT({name}, {one.words}U)"
-        elif one.write:
-            yield one.function, f"{'UPDATE' if one.shares else 'WRITE'}({what})"
+    for frame in bus.frames:
+        name, what = frame.descriptor.name, f"{frame.descriptor.name}, {frame.kind}, {frame.raw_type}"
+        if not frame.text:
+            yield frame.function, f"LIES({name}, {frame.lies})"
+        if frame.read:
+            yield frame.function, f"READ_TEXT({name}, {frame.words}U)" if frame.text else f"READ({what})"
+        if frame.write and frame.text:
+            yield frame.function, f"WRITE_TEXT({name}, {frame.words}U)"
+        elif frame.write:
+            yield frame.function, f"{'UPDATE' if frame.shares else 'WRITE'}({what})"
 
 
 def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
@@ -225,7 +228,8 @@ def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
 
 def _blocks(group: str, blocks: tuple[Block, ...], labels: Mapping[str, str], scope: HeaderScope) -> BlocksView:
     rows = tuple(
-        (unsigned(one.function), hexadecimal(one.address), unsigned(one.count), _holds(one, labels)) for one in blocks
+        (unsigned(block.function), hexadecimal(block.address), unsigned(block.count), _holds(block, labels))
+        for block in blocks
     )
     return BlocksView(group, f"{scope.prefix}_{group}_blocks", rows)
 

@@ -35,7 +35,7 @@ def context(device: Device) -> dict[str, object]:
     return {
         "example_link": f"Framing::{framings_of(bus)[0].capitalize()}, {bus.units[0]}",
         "functions": array(functions),
-        "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
+        "framings": ", ".join(f"Framing::{framing.capitalize()}" for framing in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
         "profile": _profile(bus),
@@ -74,18 +74,19 @@ def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Group as constant and by name, and the lines of its array."""
     for group, blocks in device.blocks.items():
         items = [
-            f"Block::new({space(one.space).replace('runtime::', '')}, {one.function}, 0x{one.address:04X}, {one.count})"
-            for one in blocks
+            f"Block::new({space(block.space).replace('runtime::', '')}, "
+            f"{block.function}, 0x{block.address:04X}, {block.count})"
+            for block in blocks
         ]
         yield group.upper(), group, array(items)
 
 
 def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
-    for one in device.commands:
-        value = "None" if one.value is None else f"Some({one.value})"
-        doc = sentence(one.name).rstrip(".") + (": any value does" if one.value is None else "")
-        doc += f"; the memory stands {one.wears} writes" if one.wears is not None else ""
-        yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
+    for command in device.commands:
+        value = "None" if command.value is None else f"Some({command.value})"
+        doc = sentence(command.name).rstrip(".") + (": any value does" if command.value is None else "")
+        doc += f"; the memory stands {command.wears} writes" if command.wears is not None else ""
+        yield f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 
 IN_RUST = OfFamily(context, names=("Framing",))

@@ -87,7 +87,7 @@ class ModbusWire:
         request = parse_request(self.framing, sent)
         if isinstance(request, str):
             return
-        code = next((one.number for one in self.bus.exceptions), 2)
+        code = next((code.number for code in self.bus.exceptions), 2)
         pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
         bad = [_frame(self.framing, request, pdu) for pdu in pdus]
         bad += [good[:-1], good + b"\x00", bytes((good[0] ^ 1,)) + good[1:], good[:-1] + bytes((good[-1] ^ 1,))]
@@ -217,11 +217,11 @@ def replies(lines: Lines, bus: Bus) -> None:
                 request = _request(unit, function, count, transaction)
                 _reply(lines, framing, request, _frame(framing, request, good_answer(request)))
             request = _request(unit, function, min(3, most), transaction)
-            found = [_frame(framing, request, pdu) for pdu in _bad_answers(request, bus)]
-            found += _bad_frames(framing, request)
+            frames = [_frame(framing, request, pdu) for pdu in _bad_answers(request, bus)]
+            frames += _bad_frames(framing, request)
             if function == functions[0]:
-                found += _single_bit_errors(_frame(framing, request, good_answer(request)))
-            for data in dict.fromkeys(found):
+                frames += _single_bit_errors(_frame(framing, request, good_answer(request)))
+            for data in dict.fromkeys(frames):
                 _reply(lines, framing, request, data)
 
 
@@ -250,7 +250,7 @@ def _bad_answers(request: Request, bus: Bus) -> Iterator[bytes]:
     """PDUs in a sound frame that are no good answer: exceptions, other functions, other lengths, other echoes."""
     good = good_answer(request)
     refused = request.function | 0x80
-    for code in dict.fromkeys((*(one.number for one in bus.exceptions), 0, 2, 255)):
+    for code in dict.fromkeys((*(code.number for code in bus.exceptions), 0, 2, 255)):
         yield bytes((refused, code))
     yield bytes((refused, 1, 0))
     yield from (bytes((refused ^ 1, 1)), bytes((request.function ^ 1,)) + good[1:], b"\x2b" + good[1:])
@@ -307,32 +307,32 @@ def printed(lines: Lines, device: Device) -> None:
     """The manual's frames: requests are built as they should read, replies are parsed, and misprints are refused."""
     profile = profile_of(device.bus)
     requests: dict[str, Request] = {}
-    for one in device.frames:
-        if one.direction == "request":
-            request = parse_request(one.framing, one.corrected)
+    for example in device.frames:
+        if example.direction == "request":
+            request = parse_request(example.framing, example.corrected)
             if isinstance(request, str):
                 continue
-            requests[one.name] = request
-            status, data = build(profile, one.framing, request)
-            _ask(lines, one.framing, request)
-            lines.add("printed_build", one.name, status, data)
+            requests[example.name] = request
+            status, data = build(profile, example.framing, request)
+            _ask(lines, example.framing, request)
+            lines.add("printed_build", example.name, status, data)
             echoes = request.function in (0x05, 0x06, 0x08)
-            answers: Iterable[bytes] = (one.printed,) if echoes and not one.valid else ()
+            answers: Iterable[bytes] = (example.printed,) if echoes and not example.valid else ()
         else:
-            asked = requests.get(one.answers or "")
+            asked = requests.get(example.answers or "")
             if asked is None:
                 continue
-            request, answers = asked, dict.fromkeys((one.printed, one.corrected))
+            request, answers = asked, dict.fromkeys((example.printed, example.corrected))
         for data in answers:
-            reply = parse_reply(one.framing, request, data)
-            _ask(lines, one.framing, request)
-            lines.add("printed_reply", one.name, data, *_answer(reply))
+            reply = parse_reply(example.framing, request, data)
+            _ask(lines, example.framing, request)
+            lines.add("printed_reply", example.name, data, *_answer(reply))
 
 
 def blocks(lines: Lines, device: Device) -> None:
     """The batched reads of each group."""
-    for group, found in device.blocks.items():
-        for index, block in enumerate(found):
+    for group, blocks_of_group in device.blocks.items():
+        for index, block in enumerate(blocks_of_group):
             lines.add("block", group, index, block.space, block.function, block.address, block.count)
 
 

@@ -108,8 +108,10 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     points = [point for point in device.points if point.generated and point.places and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
     layouts = Layouts(scope)
-    frames = [_frame(one, views[one.item], frozenset(tasks), layouts) for one in points if one.space == "parameter"]
-    telegrams = {one.name: one for one in device.telegrams}
+    frames = [
+        _frame(point, views[point.item], frozenset(tasks), layouts) for point in points if point.space == "parameter"
+    ]
+    telegrams = {telegram.name: telegram for telegram in device.telegrams}
     words = tuple(
         _word(point, views[point.item], telegrams[point.telegram or ""], layouts, scope)
         for point in points
@@ -122,7 +124,11 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         pkw=of_bus(bus).pkw,
         pzd=of_bus(bus).pzd,
         tasks=tuple(
-            (tasks[code.number], hexadecimal(sum(1 << one for one in set(code.answers))), c_comment(code.title["en"]))
+            (
+                tasks[code.number],
+                hexadecimal(sum(1 << answer for answer in set(code.answers))),
+                c_comment(code.title["en"]),
+            )
             for code in bus.functions
         ),
         codes=tuple(
@@ -131,12 +137,12 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
             if codes
         ),
         layouts=layouts.descriptors,
-        frames=tuple(one for one in frames if one is not None),
+        frames=tuple(frame for frame in frames if frame is not None),
         words=words,
         aliases=aliases_of(
             (
-                *(one for frame in frames if frame is not None for one in frame.descriptors),
-                *(one.descriptor for one in words),
+                *(descriptor for frame in frames if frame is not None for descriptor in frame.descriptors),
+                *(word.descriptor for word in words),
             ),
             device,
             scope,
@@ -150,11 +156,11 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
     yield own, [codes.function for codes in bus.codes]
     lists = dict(zip(_KINDS, _lists(device.bus), strict=True))
-    for made in bus.codes:
-        for code, (name, _, _, _) in zip(lists[made.kind], made.entries, strict=True):
-            yield Owner(_KINDS[made.kind], code.name), (name,)
-    frames = (one for frame in bus.frames for one in frame.descriptors)
-    yield from names_of(bus.layouts, (*frames, *(one.descriptor for one in bus.words)))
+    for codes_view in bus.codes:
+        for code, (name, _, _, _) in zip(lists[codes_view.kind], codes_view.entries, strict=True):
+            yield Owner(_KINDS[codes_view.kind], code.name), (name,)
+    frames = (descriptor for frame in bus.frames for descriptor in frame.descriptors)
+    yield from names_of(bus.layouts, (*frames, *(word.descriptor for word in bus.words)))
     yield from old_names_of(bus.aliases)
 
 
@@ -168,7 +174,7 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
 
 def _cases(frame: FrameView) -> Iterator[str]:
     name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
-    yield from (f"LIES({one.name}, {frame.lies})" for one in frame.descriptors)
+    yield from (f"LIES({descriptor.name}, {frame.lies})" for descriptor in frame.descriptors)
     if frame.read:
         yield f"READ({name}, {what})"
     for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):

@@ -22,7 +22,7 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     yield "Unit numbers", span(bus.units)
     if bus.broadcast is not None:
         yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
-    lengths = (f"variable ({VARIABLE})" if one == VARIABLE else str(one) for one in own.pkw)
+    lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in own.pkw)
     yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
     yield "Words of process data (PZD)", span(own.pzd)
 

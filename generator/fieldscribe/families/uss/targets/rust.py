@@ -29,7 +29,7 @@ def context(device: Device) -> dict[str, object]:
         "exception_names": code_names(bus.exceptions),
         "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
         "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
+        "tasks": array([f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions]),
         "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),

@@ -54,11 +54,11 @@ class UssWire:
     def __init__(self, device: Device) -> None:
         self.bus = device.bus
         self.unit = device.bus.units[0]
-        pkw = next((one for one in (VARIABLE, 4, 3) if one in of_bus(device.bus).pkw), 0)
+        pkw = next((length for length in (VARIABLE, 4, 3) if length in of_bus(device.bus).pkw), 0)
         self.link = Link(
             pkw, min(of_bus(device.bus).pzd[1], *(most for _, most in of_bus(device.bus).variant_pzd), 255)
         )
-        self.directions = {one.name: one.direction for one in device.telegrams}
+        self.directions = {telegram.name: telegram.direction for telegram in device.telegrams}
         self.tasks = {code.number: code.answers for code in device.bus.functions}
 
     def opens(self, lines: Lines) -> None:
@@ -105,11 +105,11 @@ class UssWire:
             number = number << 16 | word
         quiet = (0,) * self.link.pzd
         place = point.places[0] if asks else writing_place(point)
-        given = (0, 0) if asks else (len(words), number)
-        request = Request(self.unit, task, place.addresses[0], point.index or 0, *given, quiet)
+        carried = (0, 0) if asks else (len(words), number)
+        request = Request(self.unit, task, place.addresses[0], point.index or 0, *carried, quiet)
         status, data = build(self.bus, self.link, request)
         answers = self.tasks.get(task, ())
-        double = [one for one in answers if (one in DOUBLE_RESPONSES) == (len(words) == 2)]
+        double = [answer for answer in answers if (answer in DOUBLE_RESPONSES) == (len(words) == 2)]
         if status != "ok" or not double or (len(words) == 2 and self.link.pkw == 3):
             return None
         head = parameter_words(double[0], request.parameter, request.index)
@@ -177,12 +177,12 @@ class _Dialogue:
 
     def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
         """What bytes say as the answer to a request."""
-        found = parse(self.bus, self.link, request, data)
+        reply = parse(self.bus, self.link, request, data)
         kind, lead = _kind("reply", frame)
         self._ask(request)
-        parts: dict[str, tuple[object, ...]] = {"ok": (found.response, found.width, found.value, 0, found.words)}
-        parts["refused"] = (found.response, 0, 0, found.error)
-        self.lines.add(kind, *lead, data, found.status, *parts.get(found.status, ()))
+        parts: dict[str, tuple[object, ...]] = {"ok": (reply.response, reply.width, reply.value, 0, reply.words)}
+        parts["refused"] = (reply.response, 0, 0, reply.error)
+        self.lines.add(kind, *lead, data, reply.status, *parts.get(reply.status, ()))
 
     def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
         """A telegram to all units."""
@@ -300,34 +300,34 @@ def _printed(lines: Lines, device: Device) -> None:
     """The manual's examples, each in a whole telegram: parameter parts, process data, masks for all units."""
     asked: dict[str, tuple[_Dialogue, Request]] = {}
     bus, unit = device.bus, device.bus.units[0]
-    for one in device.frames:
-        words = _frame_words(one)
-        if one.framing == "pkw" and one.direction == "request":
-            dialogue = _Dialogue(lines, bus, Link(of_frame(one).pkw or VARIABLE, of_bus(bus).pzd[0]))
+    for frame in device.frames:
+        words = _frame_words(frame)
+        if frame.framing == "pkw" and frame.direction == "request":
+            dialogue = _Dialogue(lines, bus, Link(of_frame(frame).pkw or VARIABLE, of_bus(bus).pzd[0]))
             request = replace(_request_of(unit, words, dialogue.link), words=dialogue.words)
-            asked[one.name] = (dialogue, request)
-            dialogue.built(request, one.name)
-        elif one.framing == "pkw" and one.answers in asked:
-            dialogue, request = asked[one.answers]
-            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), one.name)
-        elif one.framing == "pzd":
-            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), one, words)
-        elif one.framing == "broadcast":
+            asked[frame.name] = (dialogue, request)
+            dialogue.built(request, frame.name)
+        elif frame.framing == "pkw" and frame.answers in asked:
+            dialogue, request = asked[frame.answers]
+            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), frame.name)
+        elif frame.framing == "pzd":
+            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), frame, words)
+        elif frame.framing == "broadcast":
             _Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
 
 
-def _printed_words(dialogue: _Dialogue, one: Frame, words: tuple[int, ...]) -> None:
+def _printed_words(dialogue: _Dialogue, frame: Frame, words: tuple[int, ...]) -> None:
     """Words of process data alone: sent without a task, or come without an answer."""
     request = Request(dialogue.bus.units[0], 0, words=words)
-    if one.direction == "request":
-        dialogue.built(request, one.name)
+    if frame.direction == "request":
+        dialogue.built(request, frame.name)
     else:
         empty = (0,) * (3 if dialogue.link.pkw == VARIABLE else dialogue.link.pkw)
-        dialogue.answered(request, telegram(request.unit, (*empty, *words)), one.name)
+        dialogue.answered(request, telegram(request.unit, (*empty, *words)), frame.name)
 
 
-def _frame_words(one: Frame) -> tuple[int, ...]:
-    data = one.corrected
+def _frame_words(frame: Frame) -> tuple[int, ...]:
+    data = frame.corrected
     return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data) - 1, 2))
 
 
