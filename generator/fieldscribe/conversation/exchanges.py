@@ -46,7 +46,7 @@ def find_exchanges(device: Device, what: str) -> Iterator[Found]:
 def _identifier(text: str) -> int | None:
     """An identifier, hexadecimal as on every tool: `321`, `0x321`, `321h`."""
     digits = text.lower().removeprefix("0x").removesuffix("h")
-    plain = 0 < len(digits) <= 8 and all(one in "0123456789abcdef" for one in digits)
+    plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
     return int(digits, 16) if plain else None
 
 
@@ -56,9 +56,11 @@ def _code(device: Device, codes: Codes, code: Code) -> tuple[str, list[tuple[str
         rows.append(("At most", f"{code.most} in one request"))
     if code.broadcast is not None:
         rows.append(("Broadcast", "yes" if code.broadcast else "no"))
-    other = next((one for one in family(device.family).codes if one.section == codes.belongs_to), None)
+    other = next(
+        (other_codes for other_codes in family(device.family).codes if other_codes.section == codes.belongs_to), None
+    )
     if other is not None:
-        known = {one.number: one.name for one in device.bus.codes(other.section)}
+        known = {other_code.number: other_code.name for other_code in device.bus.codes(other.section)}
         answers, refusals = (_named(numbers, known) for numbers in (code.answers, code.refusals))
         asks = codes.section == "functions"  # that nothing answers a request is worth a row
         rows += [(f"{other.kind.capitalize()}s", answers or ("none" if asks else "")), ("Refused by", refusals)]
@@ -80,7 +82,7 @@ def _message(device: Device, message: Message) -> tuple[str, list[tuple[str, str
         ("Answers", message.answers or ""),
     ]
     rows += [(f"Byte {place}", _role(role.kind, role.number)) for place, role in enumerate(message.roles)]
-    telegrams = [one.name for one in device.telegrams if one.message == message.name]
+    telegrams = [telegram.name for telegram in device.telegrams if telegram.message == message.name]
     rows.append(("Telegram", ", ".join(telegrams)))
     return f"message {message.name}: {wording.title_text(message.title)}", rows
 

@@ -48,12 +48,12 @@ class Explanation:
 
 def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
     """All facts of a point; `as_documented` shows what the manual alone would say where an erratum says otherwise."""
-    errata = [one for one in device.errata if one.id in point.errata]
+    errata = [erratum for erratum in device.errata if erratum.id in point.errata]
     rows = [row for row in _all_rows(device, point, bool(errata) and as_documented) if row[1]]
     if as_documented:
         rows = _documented(rows, errata)
     else:
-        rows += [("Erratum", _erratum_text(one)) for one in errata]
+        rows += [("Erratum", _erratum_text(erratum)) for erratum in errata]
     rows += _last_rows(device, point)
     head = f"{point.code} {point.item}" if point.code else point.item
     heading = line(f"{head}: {wording.title_text(point.title)}")
@@ -71,7 +71,7 @@ def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[
 
 
 def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
-    group = next((one for one in device.groups if one.name == point.group), None)
+    group = next((group for group in device.groups if group.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
     yield "Variant", point.variant or ""
     where = "not printed in the manual" if point.address is None else _where(device, point)
@@ -110,7 +110,7 @@ def _type_text(point: Point) -> str:
 
 
 def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
-    by_name = {name: one for one in device.points for name in (one.item, one.name)}
+    by_name = {name: other for other in device.points for name in (other.item, other.name)}
     unit = point.unit
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
     yield "Scale", wording.scale_text(point, by_name)
@@ -122,7 +122,8 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Default", wording.default_text(point)
     yield "Steps", wording.steps_text(point)
     yield "Fixed bits", wording.fixed_text(point)
-    scale, limits = point.scale_arguments, [one for one in point.limit_arguments if one not in point.scale_arguments]
+    scale = point.scale_arguments
+    limits = [argument for argument in point.limit_arguments if argument not in scale]
     yield "Scale needs", _needs(scale)
     yield "Limits need", _needs(limits)
 
@@ -149,7 +150,7 @@ def _names_rows(point: Point) -> Iterator[Row]:
 def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Kept", wording.keeps_text(device, point)
     yield "Write only when", ", ".join(point.conditions)
-    yield "Exists when", wording.condition_text(point.when, {one.name: one for one in device.points})
+    yield "Exists when", wording.condition_text(point.when, {other.name: other for other in device.points})
     yield "Since", point.since or ""
     yield "Until", point.until or ""
     yield "Changes", point.changes or ""
@@ -170,7 +171,9 @@ def _last_rows(device: Device, point: Point) -> Iterator[Row]:
 
 
 def _source_text(device: Device, source: Source) -> str:
-    document = next((one.title for one in device.documents if one.id == source.document), source.document)
+    document = next(
+        (document.title for document in device.documents if document.id == source.document), source.document
+    )
     parts = [document, source.section or "", f"page {source.page}" if source.page else ""]
     parts.append("" if source.line is None else f"line {source.line} of its text")
     return ", ".join(part for part in parts if part)

@@ -25,7 +25,7 @@ class Hearing:
 
     device: Device
     directory: Directory
-    given: dict[str, int | Fraction]
+    by_person: dict[str, int | Fraction]
     known: dict[str, int | Fraction] = field(default_factory=dict)
     words: dict[int, int] = field(default_factory=dict)
     waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
@@ -33,8 +33,8 @@ class Hearing:
 
     @property
     def settings(self) -> Settings:
-        """What rules take: what was given, else what was heard."""
-        return ChainMap(self.given, self.known)
+        """The numbers for rules: what the person gave, else what was heard."""
+        return ChainMap(self.by_person, self.known)
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep what the device said of points."""

@@ -32,7 +32,7 @@ def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
         by_name.setdefault(point.name, []).append(point)
     result: list[Point] = []
     for first, *others in by_name.values():
-        alike = all(same_meaning(one, first) and (not limits or one.allowed == first.allowed) for one in others)
+        alike = all(same_meaning(other, first) and (not limits or other.allowed == first.allowed) for other in others)
         result += [replace(first, variant=None)] if others and alike else [first, *others]
     return result
 

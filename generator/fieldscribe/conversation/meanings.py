@@ -48,7 +48,7 @@ def _named(point: Point, raw: int) -> str | None:
         remark = ", no value" if special.no_value else ""
         return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
     if point.enum is not None:
-        entry = next((one for one in point.enum.entries if one.raw == raw), None)
+        entry = next((entry for entry in point.enum.entries if entry.raw == raw), None)
         named = "" if entry is None else wording.entry_meaning(entry)
         return line(named) or f"{raw}, a number without a name in the manual"
     if point.flags:
@@ -97,8 +97,8 @@ def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings)
         codec.check(point, raw, settings)
     except CodecError as error:
         if error.status == "missing":
-            given = " ".join(f"--with {name}=VALUE" for name in error.missing)
-            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {given}"
+            switches = " ".join(f"--with {name}=VALUE" for name in error.missing)
+            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {switches}"
     return ""
 
 
@@ -185,7 +185,7 @@ def _is_true(flag: Flag, raw: int) -> bool:
 
 def _flag_text(flag: Flag, raw: int) -> str:
     number = raw >> flag.low & ((1 << flag.width) - 1)
-    entry = next((one for one in flag.values if one.raw == number), None)
+    entry = next((entry for entry in flag.values if entry.raw == number), None)
     if flag.width > 1:
         return f"{flag.name} = {entry.name if entry else number}"
     if entry is not None and entry.title["en"].casefold().replace(" ", "_") != flag.name:

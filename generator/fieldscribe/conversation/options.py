@@ -20,15 +20,15 @@ def asks_for_frames(options: Options) -> bool:
     return options != Options(index=options.index)
 
 
-def framings(one: Family) -> tuple[str, ...]:
+def framings(bus_family: Family) -> tuple[str, ...]:
     """How frames of a family may be wrapped, where that is a choice."""
-    return one.framings if len(one.framings) > 1 else ()
+    return bus_family.framings if len(bus_family.framings) > 1 else ()
 
 
 def refuse_foreign(device: Device, options: Options) -> None:
     """Refuse what only devices of other families have a use for. Raises UnclearError."""
     for name in _said(options):
-        takers = [one.name for one in families() if _takes(one, name)]
+        takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
         if device.family not in takers:
             flag = f"--{name.replace('_', '-')}"
             message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
@@ -40,11 +40,13 @@ def refuse_foreign(device: Device, options: Options) -> None:
 
 
 def _said(options: Options) -> Iterator[str]:
-    yield from (one.name for one in fields(options) if one.name != "own" and getattr(options, one.name) is not None)
+    yield from (
+        option.name for option in fields(options) if option.name != "own" and getattr(options, option.name) is not None
+    )
     yield from options.own
 
 
-def _takes(one: Family, name: str) -> bool:
+def _takes(bus_family: Family, name: str) -> bool:
     """Whether a family has a use for an option."""
-    shared = {"framing": bool(framings(one)), "index": bool(one.indexed), "unit": True, "request": True}
-    return shared.get(name, False) or any(option.name == name for option in one.options)
+    shared = {"framing": bool(framings(bus_family)), "index": bool(bus_family.indexed), "unit": True, "request": True}
+    return shared.get(name, False) or any(option.name == name for option in bus_family.options)

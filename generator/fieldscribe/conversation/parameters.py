@@ -33,8 +33,8 @@ def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
         yield from (named_item(point, (_SPACE, element.parameter, point.words)) for point in points)
     elif not points:
         text = element_text(element.parameter, element.index, alone=True)
-        told = f" ({carried})" if element.width or not element.asked else ""
-        yield Item(*base, f"{text}: no point is described here{told}")
+        carried_text = f" ({carried})" if element.width or not element.asked else ""
+        yield Item(*base, f"{text}: no point is described here{carried_text}")
     elif not element.asked and (element.width == 0 or element.counts):
         said = f"{element.value} elements" if element.counts else carried
         yield from (named_item(point, base, said) for point in points)

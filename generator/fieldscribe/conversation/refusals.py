@@ -106,13 +106,13 @@ def _short(device: Device, name: str) -> str:
 
 
 def _outside(device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings) -> RefusedError:
-    if point.enum is not None and all(isinstance(one.low, int) for one in point.allowed.intervals):
-        known = ", ".join(f"{one.raw} {one.name}" for one in point.enum.entries[:_MOST_NAMES])
+    if point.enum is not None and all(isinstance(interval.low, int) for interval in point.allowed.intervals):
+        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.enum.entries[:_MOST_NAMES])
         status = "unknown_value" if point.enum.closed else "out_of_range"
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         return _refused(point, status, f"does not take {raw}", line(f"it has {known}{beyond}"), joint=" ")
     if point.digits is not None and codec.strange_digits(point, raw):
-        known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
+        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.digits.enum.entries[:_MOST_NAMES])
         hint = line(f"each digit is one of {known}")
         return _refused(point, "unknown_value", f"does not take {raw}", hint, joint=" ")
     if with_fixed(point, raw) != raw:
@@ -130,8 +130,8 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
 def _range_now(point: Point, settings: Settings) -> str:
     """The range with the limits of other points put in, where all of them are known."""
     try:
-        spans = [one for one in codec.windows(point, settings) if not one.missing]
-        parts = [_span(point, one.low, one.high, settings) for one in spans if one.low <= one.high]
+        spans = [window for window in codec.windows(point, settings) if not window.missing]
+        parts = [_span(point, window.low, window.high, settings) for window in spans if window.low <= window.high]
     except CodecError:
         return ""
     if len(spans) < len(point.allowed.intervals):

@@ -90,9 +90,9 @@ def _unknown(device: Device, span: Span, words: dict[int, int], addresses: Seque
     yield Item(span.space, low, len(addresses), text, findings=(closed,) if closed else ())
 
 
-def _command(command: Command, span: Span, given: int | None) -> Item:
-    wrong = command.value is not None and given is not None and given != command.value
-    odd = f"it takes {command.value}, here is {given}" if wrong else ""
+def _command(command: Command, span: Span, raw: int | None) -> Item:
+    wrong = command.value is not None and raw is not None and raw != command.value
+    odd = f"it takes {command.value}, here is {raw}" if wrong else ""
     text = f"command {command.name}: {title_text(command.title)}" + (f"; {odd}" if odd else "")
     text += f"; the memory stands {command.wears} writes" if command.wears else ""
-    return Item(span.space, command.address, 1, line(text), raw=given, findings=(odd,) if odd else ())
+    return Item(span.space, command.address, 1, line(text), raw=raw, findings=(odd,) if odd else ())

@@ -23,8 +23,9 @@ def text_of(pattern: int, words: int) -> str:
 def shown(text: str) -> str:
     """A text from the line between quotes; what is no letter is escaped, and blanks that would run together."""
     pairs = zip(f'"{text}', text, strict=False)
-    plain = [one.isprintable() and one not in '"\\' and before + one != "  " for before, one in pairs]
-    return '"' + "".join(one if fine else f"\\x{ord(one):02X}" for one, fine in zip(text, plain, strict=True)) + '"'
+    plain = [char.isprintable() and char not in '"\\' and before + char != "  " for before, char in pairs]
+    escaped = (char if fine else f"\\x{ord(char):02X}" for char, fine in zip(text, plain, strict=True))
+    return f'"{"".join(escaped)}"'
 
 
 def pattern_of_text(point: Point, typed: str) -> int:
@@ -33,7 +34,7 @@ def pattern_of_text(point: Point, typed: str) -> int:
     if layout is None:
         raise RefusedError("out_of_range", f"{label(point)} is no text")
     spans = _SENT.get(layout.encoding, _SENT["ascii"])
-    strange = next((one for one in typed if not any(low <= ord(one) <= high for low, high in spans)), None)
+    strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
     if strange is not None:
         said = line(strange) or f"U+{ord(strange):04X}"
         message = f"{label(point)} cannot hold `{said}`: its characters are {layout.encoding}"

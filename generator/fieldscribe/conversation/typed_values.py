@@ -123,15 +123,15 @@ def _number(point: Point, text: str) -> Fraction:
     try:
         return parse_number(text)
     except NumberError:
-        found = _MEASURE.fullmatch(text)
-        if found is None:
+        measure = _MEASURE.fullmatch(text)
+        if measure is None:
             raise
-    number = parse_number(found[1])
-    factor = _factor(point, found[2].strip())
+    number = parse_number(measure[1])
+    factor = _factor(point, measure[2].strip())
     if factor is None:
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
         raise UnclearError(
-            f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone"
+            f"{label(point)} {has}, not in `{quoted(measure[2])}`", "give the number in that unit, or alone"
         )
     return number * factor
 
@@ -173,7 +173,7 @@ def _named(point: Point, text: str) -> int | None:
     for name, raw in _names(point):
         if " ".join(name.casefold().split()) == wanted:
             return raw
-    band = next((one for one in point.specials if one.name == wanted), None)
+    band = next((special for special in point.specials if special.name == wanted), None)
     if band is not None:
         numbers = wording.special_numbers(band, point.width)
         raise UnclearError(f"`{band.name}` is all of {numbers}", f"say which one: {point.name}.raw, and the raw number")
@@ -189,7 +189,7 @@ def _digits(point: Point, text: str) -> int | None:
         raise UnclearError(f"{label(point)} has {point.digits.count} digits, here are {len(parts)}", "")
     raw = 0
     for part in parts:
-        named = (one.raw for one in point.digits.enum.entries if part.casefold() in (one.name, one.quantity))
+        named = (entry.raw for entry in point.digits.enum.entries if part.casefold() in (entry.name, entry.quantity))
         digit = next(named, None)
         digit = _whole(part) if digit is None else digit
         if not 0 <= digit <= 9:
@@ -223,10 +223,10 @@ def _flags(point: Point, text: str) -> int | None:
 
 
 def _flag(point: Point, part: str) -> tuple[Flag, int]:
-    name, equals, value = (one.strip() for one in part.partition("="))
-    flag = next((one for one in point.flags if one.name == name), None)
+    name, equals, value = (side.strip() for side in part.partition("="))
+    flag = next((flag for flag in point.flags if flag.name == name), None)
     if flag is None:
-        names = [one.name for one in point.flags]
+        names = [flag.name for flag in point.flags]
         hint = did_you_mean(get_close_matches(name, names, 3)) or f"it has {', '.join(names)}"
         raise UnclearError(f"{label(point)} has no flag `{quoted(name)}`", hint)
     if not equals:

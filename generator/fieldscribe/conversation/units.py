@@ -31,10 +31,10 @@ def _rows(device: Device, unit: Unit) -> list[tuple[str, str]]:
     known = shipped().get(unit.symbol)
     declared = known is None or known.unit != unit
     names = list(dict.fromkeys(point.name for point in device.points if point.unit == unit))
-    more = f" and {len(names) - _MOST_POINTS} more" if len(names) > _MOST_POINTS else ""
+    rest = f" and {len(names) - _MOST_POINTS} more" if len(names) > _MOST_POINTS else ""
     return [
         ("Quantity", unit.quantity),
         ("Means", f"{known.factor} {known.base}" if known is not None and known.prefix and not declared else ""),
         ("Declared", "by the description" if declared else "no need: it comes with fieldscribe"),
-        ("Points", ", ".join(names[:_MOST_POINTS]) + more if names else "none"),
+        ("Points", ", ".join(names[:_MOST_POINTS]) + rest if names else "none"),
     ]
