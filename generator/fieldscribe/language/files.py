@@ -68,17 +68,17 @@ def _is_part(header: Map, file: Path, report: Report) -> bool:
 
 
 def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
-    found: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for index, name in enumerate(header.get("parts", ())):
         span = header["parts"].span(index)
         path = device_file.parent / name
-        if name in found:
+        if name in paths:
             first = (header["parts"].span(list(header["parts"]).index(name)), "first listed here")
             report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them", [first])
         elif name == device_file.name:
             report.error("missing-part", f"`{name}` cannot be a part of itself", span, "take it off the list")
         elif not os.path.lexists(path):
-            others = tuple(sorted(one.name for one in device_file.parent.glob("*.y*ml") if one != device_file))
+            others = tuple(sorted(path.name for path in device_file.parent.glob("*.y*ml") if path != device_file))
             near = nearest(name, others)
             hint = f"did you mean `{near}`?" if near else "create it or take it off the list"
             report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, hint)
@@ -86,8 +86,8 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
             hint = "parts stand beside device.yaml: copy the file, or link the whole folder"
             report.error("part-outside", f"`{name}` is a link that leads out of the folder", span, hint)
         else:
-            found[name] = path
-    return list(found.values())
+            paths[name] = path
+    return list(paths.values())
 
 
 def _leads_beside(link: Path, device_file: Path) -> bool:

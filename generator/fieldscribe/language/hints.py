@@ -89,7 +89,7 @@ def _number_hint(value: str, fractions: bool) -> str:
 
 def _example(example: Any) -> str:
     if isinstance(example, dict):
-        return "{" + ", ".join(f"{key}: {_example(one)}" for key, one in example.items()) + "}"
+        return "{" + ", ".join(f"{key}: {_example(item)}" for key, item in example.items()) + "}"
     if isinstance(example, list):
         return "[" + ", ".join(map(_example, example)) + "]"
     return {True: "true", False: "false"}.get(example, str(example)) if isinstance(example, bool) else str(example)
@@ -146,6 +146,6 @@ def nearest(word: str, known: tuple[str, ...], likeness: float = 0.6) -> str | N
 
     if len(word) > _LONGEST_COMPARED:
         return None
-    by_folded = {one.lower(): one for one in reversed(known[:_MOST_COMPARED])}
+    by_folded = {candidate.lower(): candidate for candidate in reversed(known[:_MOST_COMPARED])}
     near = difflib.get_close_matches(word.lower(), by_folded, 1, likeness)
     return by_folded[near[0]] if near else None

@@ -30,14 +30,16 @@ def json_schema() -> dict[str, Any]:
         "if": {"required": ["device"]},
         "then": device,
         "else": part,
-        "definitions": definitions.made,
+        "definitions": definitions.by_name,
     }
 
 
 def schema_text() -> str:
     """The same as a file: a line for each key, so that a change shows in a diff."""
     schema = json_schema()
-    definitions = ",\n".join(f"  {_dumped(name)}: {_lines(made)}" for name, made in schema.pop("definitions").items())
+    definitions = ",\n".join(
+        f"  {_dumped(name)}: {_lines(definition)}" for name, definition in schema.pop("definitions").items()
+    )
     head = ",\n".join(f" {_dumped(word)}: {_dumped(value)}" for word, value in schema.items())
     return f'{{\n{head},\n "definitions": {{\n{definitions}\n }}\n}}\n'
 
@@ -46,7 +48,7 @@ def _lines(definition: dict[str, Any]) -> str:
     """A definition: on one line, or its keys each on a line of their own."""
     if "properties" not in definition:
         return _dumped(definition)
-    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(one)}" for key, one in definition["properties"].items())
+    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(schema)}" for key, schema in definition["properties"].items())
     around = _dumped({**definition, "properties": {}})
     return around.replace('"properties": {}', f'"properties": {{\n{keys}\n   }}', 1)
 
@@ -59,7 +61,7 @@ class _Definitions:
     """The definitions that the schema needs: places with a name, and what stands at one key in several places."""
 
     def __init__(self) -> None:
-        self.made: dict[str, Any] = {}
+        self.by_name: dict[str, Any] = {}
 
     def key(self, key: Key) -> dict[str, Any]:
         """What stands at a key: written out, or a reference."""
@@ -76,9 +78,9 @@ class _Definitions:
         return self._named(place.name, shape)
 
     def _named(self, name: str, shape: Shape) -> dict[str, Any]:
-        if name not in self.made:
-            self.made[name] = {}  # what comes first stands first
-            self.made[name] = self._written(shape)
+        if name not in self.by_name:
+            self.by_name[name] = {}  # what comes first stands first
+            self.by_name[name] = self._written(shape)
         return {"$ref": _REFERENCE + name}
 
     def _written(self, shape: Shape) -> dict[str, Any]:
@@ -112,15 +114,15 @@ class _Definitions:
             return _said(maxLength=kind.longest, enum=list(kind.choices)) | form
         if isinstance(kind, Whole):
             bounds = {"minimum": kind.least, "maximum": kind.greatest}
-            return _said(enum=list(kind.choices)) | {word: one for word, one in bounds.items() if one is not None}
+            return _said(enum=list(kind.choices)) | {word: bound for word, bound in bounds.items() if bound is not None}
         return {}
 
     def _mapping(self, place: Place) -> dict[str, Any]:
         keys = keys_of(place)
-        more = {form.pattern: self.shape(shape) for form, shape in place.more.items() if form is not forms.ANY}
-        other = place.more.get(forms.ANY)
+        by_pattern = {form.pattern: self.shape(shape) for form, shape in place.by_form.items() if form is not forms.ANY}
+        other = place.by_form.get(forms.ANY)
         return {
-            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=more),
+            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=by_pattern),
             "additionalProperties": False if other is None else self.shape(other),
             **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
         }

@@ -40,8 +40,8 @@ class Map(dict[str, Any]):
 
     def span(self, key: str | None = None) -> Span:
         """Where the value of `key` stands, or the whole mapping."""
-        found = None if key is None else self.places.get(key)
-        line, column = self.at if found is None else found[2:]
+        place = None if key is None else self.places.get(key)
+        line, column = self.at if place is None else place[2:]
         return Span(self.file.name, line, column)
 
     def key_span(self, key: str) -> Span:
@@ -82,7 +82,7 @@ def share(value: Value) -> None:
     """Mark all that an alias repeats: it must have the shape of each place, and what one drops stays in the others."""
     waiting = [value]
     while waiting:
-        one = waiting.pop()
-        if isinstance(one, Map | Seq) and one.uses is None:
-            one.uses = {}
-            waiting.extend(one.values() if isinstance(one, Map) else one)
+        node = waiting.pop()
+        if isinstance(node, Map | Seq) and node.uses is None:
+            node.uses = {}
+            waiting.extend(node.values() if isinstance(node, Map) else node)

@@ -47,9 +47,9 @@ def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         if notation is not None and isinstance(value, str) and notation(value):
             value = holder[at] = parse_integer(value)
-        found = checks.get(type(value))
-        if found is not None:
-            return found(value, holder, at, report)
+        type_check = checks.get(type(value))
+        if type_check is not None:
+            return type_check(value, holder, at, report)
         report.error(
             "wrong-type",
             f"{shown(value)} stands where {wanted} belongs",
@@ -120,7 +120,7 @@ def array(item: Check, least: int) -> Check:
         if len(value) < least:
             report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
             return False
-        broken = [index for index, one in enumerate(value) if not item(one, value, index, report)]
+        broken = [index for index, element in enumerate(value) if not item(element, value, index, report)]
         for index in reversed(broken):
             _lose(value[index], value.file.lost)
             del value[index], value.item_at[index]
@@ -143,10 +143,10 @@ class ObjectCheck:
         self.properties = {name: check_of(key.shape) for name, key in keys_of(place).items()}
         self.patterns = [
             (form, compiled_pattern(form.pattern), check_of(shape))
-            for form, shape in place.more.items()
+            for form, shape in place.by_form.items()
             if form is not forms.ANY
         ]
-        other = place.more.get(forms.ANY)
+        other = place.by_form.get(forms.ANY)
         self.additional = None if other is None else check_of(other)
         self.required, self.needs, self.least = required(place), needs(place), place.least
         self.ready = True
@@ -160,15 +160,15 @@ class ObjectCheck:
         if not self.ready:
             self._open()
         broken = []
-        for key, one in value.items():
-            found = self.properties.get(key) or self._pattern(key)
-            if found is None:
+        for key, entry in value.items():
+            entry_check = self.properties.get(key) or self._pattern(key)
+            if entry_check is None:
                 known = [form for form, _, _ in self.patterns]
                 named = forms.NUMBER in known or forms.BITS in known
-                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, known, one)
+                hint = (reversed_hint(key, entry) if named else None) or key_hint(key, self.properties, known, entry)
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
-            elif not found(one, value, key, report):
+            elif not entry_check(entry, value, key, report):
                 broken.append(key)
             if report.full:
                 return False
@@ -178,9 +178,9 @@ class ObjectCheck:
         return complete and not any(key in broken for key in self.required) and len(value) >= self.least
 
     def _pattern(self, key: str) -> Check | None:
-        for _, pattern, found in self.patterns:
+        for _, pattern, pattern_check in self.patterns:
             if pattern.search(key):
-                return found
+                return pattern_check
         return self.additional
 
     def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
@@ -224,10 +224,10 @@ def _lose(value: Any, lost: set[str]) -> None:
     waiting: list[Iterable[Any]] = [(value,)]
     seen: set[int] = set()
     while waiting:
-        for one in waiting.pop():
-            if not isinstance(one, Map | Seq) or id(one) in seen:
+        for node in waiting.pop():
+            if not isinstance(node, Map | Seq) or id(node) in seen:
                 continue
-            seen.add(id(one))
-            waiting.append(one.values() if isinstance(one, Map) else one)
-            if isinstance(one, Map):
-                lost.update(one, (one[key] for key in _NAMING if isinstance(one.get(key), str)))
+            seen.add(id(node))
+            waiting.append(node.values() if isinstance(node, Map) else node)
+            if isinstance(node, Map):
+                lost.update(node, (node[key] for key in _NAMING if isinstance(node.get(key), str)))

@@ -42,19 +42,19 @@ class Known:
 def shipped() -> Mapping[str, Known]:
     """All units that need no declaration, by symbol; each unit is followed by itself with its prefixes."""
     table = _table()
-    found: dict[str, Known] = {}
-    for symbol, one in table["units"].items():
-        for known in _with_prefixes(symbol, one, table["prefixes"]):
-            if known.unit.symbol in found:
+    units: dict[str, Known] = {}
+    for symbol, entry in table["units"].items():
+        for known in _with_prefixes(symbol, entry, table["prefixes"]):
+            if known.unit.symbol in units:
                 raise ValueError(f"units.yaml: `{known.unit.symbol}` has two meanings")
-            found[known.unit.symbol] = known
-    return found
+            units[known.unit.symbol] = known
+    return units
 
 
 def shipped_unit(symbol: str) -> Unit | None:
     """The shipped unit of that symbol; micro may be written with either of its characters."""
-    found = shipped().get(symbol.translate(_SAME))
-    return None if found is None else found.unit
+    known = shipped().get(symbol.translate(_SAME))
+    return None if known is None else known.unit
 
 
 def factor_between(typed: str, unit: Unit) -> Fraction | None:
@@ -76,10 +76,10 @@ def unit_hint(typed: str, declared: Iterable[str]) -> str:
     meant = _meant(typed, declared)
     if not meant:
         return f"declare it under `units`: `units: {{{_as_key(typed)}: {{name: …, quantity: …}}}}`; {LISTED}"
-    return f"write {' or '.join(_told(symbol, alone=len(meant) == 1) for symbol in meant)}"
+    return f"write {' or '.join(_symbol_with_name(symbol, alone=len(meant) == 1) for symbol in meant)}"
 
 
-def _told(symbol: str, *, alone: bool) -> str:
+def _symbol_with_name(symbol: str, *, alone: bool) -> str:
     """A symbol; where there is a choice, with its name."""
     known = shipped().get(symbol)
     return f"`{symbol}`" if alone or known is None else f"`{symbol}` ({known.unit.name})"
@@ -93,16 +93,16 @@ def _as_key(typed: str) -> str:
 def _meant(typed: str, declared: Iterable[str]) -> list[str]:
     """The symbols that the text spells in another way; those that only differ in the prefix come along, last."""
     folded = _folded(typed)
-    found = [symbol for symbol in declared if _folded(symbol) == folded]
+    symbols = [symbol for symbol in declared if _folded(symbol) == folded]
     spelled = [known for known in shipped().values() if folded in _spelled(known)]
     near = [known for known in spelled if _same_prefix(typed, known) and not _other_letter(typed, known)]
     if not near:
-        return found
+        return symbols
     exact = [known for known in near if _with_micro(typed) in (known.unit.symbol, *known.spellings)]
     if exact:
         return [known.unit.symbol for known in exact]
     far = [known for known in spelled if known not in near and not _other_letter(typed, known)]
-    return list(dict.fromkeys((*found, *(known.unit.symbol for known in (*near, *far)))))
+    return list(dict.fromkeys((*symbols, *(known.unit.symbol for known in (*near, *far)))))
 
 
 def _same_prefix(typed: str, known: Known) -> bool:
@@ -129,7 +129,7 @@ def _named(known: Known) -> frozenset[str]:
 
 @cache
 def _spelled(known: Known) -> frozenset[str]:
-    return _named(known) | {_folded(one) for one in (known.unit.symbol, *known.spellings)}
+    return _named(known) | {_folded(spelling) for spelling in (known.unit.symbol, *known.spellings)}
 
 
 def _folded(text: str) -> str:
@@ -143,12 +143,12 @@ def _with_micro(text: str) -> str:
     return f"µ{text[1:]}" if text[:1] == "u" else text
 
 
-def _with_prefixes(symbol: str, one: Mapping[str, Any], prefixes: Mapping[str, Any]) -> Iterator[Known]:
-    also = tuple(one.get("also", ()))
-    yield Known(Unit(symbol, one["name"], one["quantity"]), symbol, Fraction(1), "", also)
-    for prefix in one.get("prefixes", "").split():
+def _with_prefixes(symbol: str, entry: Mapping[str, Any], prefixes: Mapping[str, Any]) -> Iterator[Known]:
+    also = tuple(entry.get("also", ()))
+    yield Known(Unit(symbol, entry["name"], entry["quantity"]), symbol, Fraction(1), "", also)
+    for prefix in entry.get("prefixes", "").split():
         said = prefixes[prefix]
-        unit = Unit(prefix + symbol, said["name"] + one["name"], one["quantity"])
+        unit = Unit(prefix + symbol, said["name"] + entry["name"], entry["quantity"])
         spellings = tuple(prefix + other for other in also)
         yield Known(unit, symbol, Fraction(10) ** int(said["power"]), prefix, spellings)
 

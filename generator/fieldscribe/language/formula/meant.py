@@ -36,8 +36,8 @@ def scale_meant(text: str) -> str | None:
         return None
     plain = _plain(text)
     for pattern, ours in (*_REWRITTEN, (r"(.*=.*)", r"\1")):
-        found = re.fullmatch(pattern, plain)
-        line = None if found is None else _readable(found.expand(ours))
+        match = re.fullmatch(pattern, plain)
+        line = None if match is None else _readable(match.expand(ours))
         if line is not None:
             return line
     return None

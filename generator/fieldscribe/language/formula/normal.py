@@ -58,7 +58,7 @@ def invert(rule: Linear) -> Linear:
         points = " and ".join(f"`{point}`" for point in dict.fromkeys(factor.point for factor in rule.factors))
         message = f"the inverse has an offset that depends on {points}"
         raise FormulaError(message, 0, "a rule with run-time factors has an offset only where it is written raw = ...")
-    factors = tuple(replace(one, power=-one.power) for one in rule.factors)
+    factors = tuple(replace(factor, power=-factor.power) for factor in rule.factors)
     return Linear(1 / rule.ratio, -rule.offset / rule.ratio, factors)
 
 

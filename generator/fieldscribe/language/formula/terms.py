@@ -105,8 +105,8 @@ def _closed(term: Term, column: int) -> Term:
     """The term with its offset drawn into a factor; a term without offset as it is."""
     if term.offset == 0:
         return term
-    (symbol, power), *more = term.product.items()
-    if more or symbol.ten_to or power != 1:
+    (symbol, power), *others = term.product.items()
+    if others or symbol.ten_to or power != 1:
         raise FormulaError("a sum of points and numbers is a factor only if it has one point", column, SHAPE)
     common = lcm(term.coefficient.denominator, term.offset.denominator)
     slope, intercept = int(term.coefficient * common), int(term.offset * common)

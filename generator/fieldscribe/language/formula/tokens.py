@@ -82,7 +82,7 @@ def tokens(text: str, column0: int = 0) -> list[Token]:
 def _tokens(text: str) -> list[Token]:
     if len(text) > LONGEST:
         raise FormulaError(f"a formula has at most {LONGEST} characters", LONGEST, "split it")
-    found: list[Token] = []
+    tokens: list[Token] = []
     offset = 0
     while True:
         match = _TOKEN.match(text, offset)
@@ -90,11 +90,11 @@ def _tokens(text: str) -> list[Token]:
             _refuse(text, offset)
         kind = match.lastgroup
         if kind == "end":
-            found.append(Token("end", "", "", len(text.rstrip(" \t"))))
-            return found
-        found.append(_token(match))
-        if found[-1].text == "," and _COMMA.match(text, max(0, match.end() - 2)):
-            _refuse_comma(found, text, match.end())
+            tokens.append(Token("end", "", "", len(text.rstrip(" \t"))))
+            return tokens
+        tokens.append(_token(match))
+        if tokens[-1].text == "," and _COMMA.match(text, max(0, match.end() - 2)):
+            _refuse_comma(tokens, text, match.end())
         offset = match.end()
 
 
@@ -121,9 +121,9 @@ def _refuse(text: str, offset: int) -> NoReturn:
     raise FormulaError(f"{what} is not part of a formula", column, _STRANGE.get(char, ""))
 
 
-def _refuse_comma(found: list[Token], text: str, end: int) -> None:
+def _refuse_comma(tokens: list[Token], text: str, end: int) -> None:
     """Refuse `0,5`, which could be a decimal or a list; behind a code or a hexadecimal number there is no doubt."""
-    before = found[-2]
+    before = tokens[-2]
     if before.kind == "number" and before.text.isdigit():
         after = re.match(r"[0-9]+", text[end:])
         digits = after[0] if after else ""

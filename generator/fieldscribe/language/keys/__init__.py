@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from fieldscribe.kinds import Key
 
 
-def keys_of_family(one: Family) -> tuple[Key, ...]:
+def keys_of_family(bus_family: Family) -> tuple[Key, ...]:
     """The keys that only this family has."""
-    part = one.part("keys")
+    part = bus_family.part("keys")
     return () if part is None else tuple(part.KEYS)
 
 
@@ -32,7 +32,7 @@ TABLE: tuple[Key, ...] = (
     *within.KEYS,
     *bus.KEYS,
     *frames.KEYS,
-    *(key for one in families() for key in keys_of_family(one)),
+    *(key for bus_family in families() for key in keys_of_family(bus_family)),
 )
 """All keys, in the order of each table of KEYS.md; those that only one family has are the last."""
 
@@ -56,11 +56,11 @@ def required(place: Place) -> tuple[str, ...]:
 def needs(place: Place) -> dict[str, list[str]]:
     """The keys of a place that need others beside them."""
     known = keys_of(place)
-    found = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
+    needed_by = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
     if place.may_be is not None:
         first, *others = required(place.may_be)
-        found |= {name: [first, *found[name]] for name in keys_of(place.may_be)} | {first: others}
-    return {name: needed for name, needed in found.items() if needed}
+        needed_by |= {name: [first, *needed_by[name]] for name in keys_of(place.may_be)} | {first: others}
+    return {name: needed for name, needed in needed_by.items() if needed}
 
 
 def inherited(place: Place) -> tuple[str, ...]:

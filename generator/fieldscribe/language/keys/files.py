@@ -16,7 +16,7 @@ _PROPERTY = Shape(
     [3],
     *(Text(200), NUMBER),
 )
-_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], more={forms.ANY: _PROPERTY})
+_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY})
 
 HEADS = (
     Key("fieldscribe", DEVICE, "The version of the language.", [1], Whole(choices=(1,)), required=True),
