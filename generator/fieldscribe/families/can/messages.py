@@ -27,7 +27,7 @@ _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
 
 def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
-    """All messages in the order of the text; one that cannot be laid out is a finding and left out."""
+    """All messages in the order of the description; one with a wrong layout is reported and left out."""
     result: dict[str, Message] = {}
     seen: dict[str, Span] = {}
     for raw in scope.listed("messages"):
@@ -129,7 +129,7 @@ def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """Some bytes of a layout: what stands there, and how many bytes it takes."""
+    """One entry of a layout: its text, and how many bytes it covers."""
 
     scope: Scope
     text: str
@@ -167,7 +167,7 @@ class _Part:
         return [Role("constant", byte) for byte in number.to_bytes(self.count, "big")]
 
     def _xor(self, text: str) -> list[Role] | None:
-        """A checksum: the exclusive or of pieces of as many bytes."""
+        """The roles of a checksum: each of its bytes is the exclusive or of every `count`-th byte of an interval."""
         interval = _BYTES.fullmatch(text.strip())
         if interval is None:
             self._refuse(f"`xor {shown(text)}` names no bytes", _HOW)
@@ -185,7 +185,7 @@ class _Part:
 
 
 def _sums_fit(scope: Scope, raw: Map, role_of: dict[int, Role]) -> bool:
-    """Whether no checksum is made of a checksum, and each role stands there at most once."""
+    """Whether no checksum covers another checksum, and no role stands in two places."""
     sums = sum(1 << byte for byte, role in role_of.items() if role.kind == "xor")
     if any(role.kind == "xor" and role.number & sums for role in role_of.values()):
         message = "a checksum cannot be made of a checksum"
@@ -201,7 +201,7 @@ def _sums_fit(scope: Scope, raw: Map, role_of: dict[int, Role]) -> bool:
 
 
 def _answers(scope: Scope, messages: dict[str, Message]) -> None:
-    """A response names a request that there is, and only responses answer."""
+    """Report responses that name no existing request, and `answers` at other messages."""
     for raw in scope.listed("messages"):
         name, answers = str(raw["name"]), raw.get("answers")
         if name not in messages:

@@ -47,7 +47,7 @@ class Pasted:
 
 
 def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
-    """The frames that arguments mean, one a line. Raises UnclearError."""
+    """The frames in the arguments, one on each line. Raises UnclearError."""
     known = None if can_id is None else read_identifier(can_id)
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
     return [_frame(line, known) for line in lines if line or len(lines) == 1]
@@ -62,7 +62,7 @@ def read_identifier(text: str) -> int:
 
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
-    """The arguments, with pieces of one line put together where somebody forgot the quotes."""
+    """The arguments; pieces of one line are joined again where somebody forgot the quotes."""
     if any("#" in text for text in texts):
         words = list(texts)
         while words:

@@ -1,4 +1,4 @@
-"""What messages are called, and what is odd about a frame: sentences for people."""
+"""Sentences about CAN frames for people: which message one is, and what is unusual about it."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def identifiers_text(device: Device) -> str:
 
 
 def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
-    """Why a frame is none of the messages that travel on its identifier."""
+    """Why a frame is none of the messages with its identifier."""
     known = []
     for message in messages:
         at = next((place for place, role in enumerate(message.roles) if role.kind == "constant"), None)

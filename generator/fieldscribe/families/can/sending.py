@@ -57,7 +57,7 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-    """The frames that write a raw number; a bit group into the word that is there. Raises RefusedError."""
+    """The frames that write a raw number; a bit group is put into the word of `--with-word`. Raises RefusedError."""
     del settings  # a message carries one parameter alone
     there: str | None = options.own.get("with_word")
     if point.bits is None:

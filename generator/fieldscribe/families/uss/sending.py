@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-    """The telegram that writes a raw number, or the words of its part. Raises RefusedError, UnclearError."""
+    """The telegram that writes a raw number, or only its words. Raises RefusedError, UnclearError."""
     framing = options.framing or "uss"
     if framing == "broadcast":
         raise UnclearError("a broadcast is not built here", "take uss, pkw or pzd")
@@ -48,7 +48,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 def process_words(
     device: Device, link: Link, settings: Settings, own: dict[int, int] | None = None
 ) -> tuple[tuple[int, ...], list[str]]:
-    """The words of process data that a telegram takes along, from what is known; all others 0, and what that means."""
+    """The process data of a telegram: known values, all other words 0; and notes on what these 0 mean."""
     words = dict(own or {})
     notes: list[str] = []
     telegrams = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}

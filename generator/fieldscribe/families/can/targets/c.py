@@ -64,7 +64,7 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one point is asked and told with, or heard by, and which vectors that answers."""
+    """The frames that read, write or receive one point, and the vectors that they are tested with."""
 
     descriptor: Descriptor
     function: str
@@ -80,7 +80,7 @@ class FrameView:
 
 @dataclass(frozen=True, slots=True)
 class GroupView:
-    """The parameters that a group reads, each word once."""
+    """The addresses that reading a group takes, each word once."""
 
     title: str
     array: str
@@ -90,7 +90,7 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class BusView:
-    """The CAN header of a device; the four messages are names of arrays, or empty."""
+    """The CAN header of a device; the four message fields are names of arrays, or empty."""
 
     guard: str
     units: tuple[int, int]
@@ -118,7 +118,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     cyclic = {
         telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
     }
-    reading, writing = _dialogue(device, writes=False), _dialogue(device, writes=True)
+    reading, writing = _request_and_answer(device, writes=False), _request_and_answer(device, writes=True)
     layouts = Layouts(scope)
     asked = (reading[0] is not None, writing[0] is not None)
     parameters = [
@@ -156,7 +156,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for message in bus.messages:
@@ -171,7 +171,7 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How points of telegrams, and parameters, answer conformance vectors."""
+    """The code by which points of telegrams and parameters run the conformance vectors."""
     for each in (*bus.parameters, *bus.cyclic):
         if not each.text:
             yield each.function, f"LIES({each.descriptor.name}, {each.lies})"
@@ -226,8 +226,8 @@ def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> Teleg
     )  # fmt: skip
 
 
-def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
-    """The message that reads (or writes) one parameter, and the one that answers it."""
+def _request_and_answer(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
+    """The request that reads or writes a parameter, and its answer; None for what the device lacks."""
     for request in device.messages:
         kinds = {role.kind for role in request.roles}
         if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
@@ -248,7 +248,7 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
 
 
 def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[bool, bool]) -> FrameView | None:
-    """The frames of a point whose every word travels in a message of its own; None where no message does."""
+    """The frames of a parameter, one for each word; None where the device has no message for it."""
     read, write = (asked[0] and point.readable), (asked[1] and point.writable)
     if not read and not write:
         return None
@@ -260,7 +260,7 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[boo
 
 
 def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
-    """Where a point is heard in its telegram."""
+    """Where a point stands in its telegram."""
     if point.text is not None:
         return _frame(point, view, "h", [f"{{{view.function}_addresses, {point.words}U}}"])
     where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
@@ -268,7 +268,7 @@ def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
 
 
 def _frame(point: Point, view: PointView, ways: str, parts: list[str]) -> FrameView:
-    """The frames in which a point is read (`r`), written (`w`), updated (`u`) or heard (`h`)."""
+    """The frames of a point; the letters are r (read), w (write), u (update) and h (receive)."""
     value, text = f"{{{', '.join(parts)}}}", point.text is not None
     return FrameView(
         descriptor=Descriptor(

@@ -1,4 +1,4 @@
-"""What a crate of a CAN device says of its bus: messages, telegrams, which points are in them."""
+"""CAN in generated Rust: messages, telegrams, and the points that they carry."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class MessageView:
 
 @dataclass(frozen=True, slots=True)
 class TelegramView:
-    """A telegram: final name, the lines that say its name, its sizes, the constant of its message."""
+    """A telegram: its final name, the lines of its name, its sizes, and the constant of its message."""
 
     doc: str
     name: str
@@ -46,7 +46,7 @@ class TelegramView:
 
 
 def context(device: Device) -> dict[str, object]:
-    """What the template of the family's items sees."""
+    """The names that the family's template uses."""
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
@@ -56,7 +56,7 @@ def context(device: Device) -> dict[str, object]:
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "identifier_bits": identifier_bits(bus),
         "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
-        "dialogues": tuple(_dialogues(device.messages)),
+        "dialogues": tuple(_request_and_answer_constants(device.messages)),
         "messages": tuple(map(_message, device.messages)),
         "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
@@ -78,7 +78,7 @@ def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 
 def _received(subject: CratePoint, scope: CrateScope) -> str | None:
-    """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
+    """The telegram whose frames carry a point; None where its words cannot be matched to each other."""
     point = subject.point
     _, message = scope.telegrams.get(point.telegram or "", (None, None))
     if not point.readable or message is None or not message.words:
@@ -95,8 +95,8 @@ def identifiers(device: Device) -> Iterator[Names]:
         yield Names("Rust, module `telegrams`", Owner("telegram", telegram.name), (type_name(telegram.name),))
 
 
-def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
-    """The constants of the messages that read and write a parameter: names and answers, empty if there are none."""
+def _request_and_answer_constants(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
+    """The constants of the messages that read and write a parameter, and of their answers; empty without one."""
     requests = [message for message in messages if message.direction == "request" and _carries(message, "address")]
     for name, writes in (("READ", False), ("WRITE", True)):
         request = next((message for message in requests if _carries(message, "raw") is writes), None)
@@ -141,14 +141,14 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
 
 
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
-    """The points that come in frames of a telegram."""
+    """The table of points that come in frames of a telegram."""
     heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
         yield Table("can_telegram", "can_telegram", tuple(row_of(subject, ("(frames)",)) for subject in heard))
 
 
 def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
-    """The first telegram with a point that needs no other, and how its points are told."""
+    """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
     come = {subject.point.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
@@ -167,7 +167,7 @@ def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
 
 
 def tables_of_frames(device: Device) -> Iterator[Table]:
-    """The telegrams that come in frames."""
+    """The table of telegrams that come in frames."""
     carriers = {message.name for message in device.messages if message.words}
     heard = [telegram for telegram in device.telegrams if telegram.message in carriers]
     if heard:

@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
-"""The functions that the frames know, with the protocol's own limits."""
+"""The functions that the runtime supports, with the limits of the protocol."""
 
 _BROADCAST = (5, 6, 15, 16)
-"""The functions that may be sent to all units, unless the manual says otherwise."""
+"""The functions that may be broadcast unless the manual says otherwise."""
 
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 
@@ -47,7 +47,7 @@ NAMED_CODES: tuple[str, ...] = ()
 
 @dataclass(frozen=True, slots=True)
 class BlocksView:
-    """The reads that bring a group's points."""
+    """The reads that fetch the points of a group."""
 
     name: str
     array: str
@@ -57,7 +57,7 @@ class BlocksView:
 
 @dataclass(frozen=True, slots=True)
 class CommandView:
-    """A named constant write."""
+    """A command: a write of a constant, with a name."""
 
     descriptor: Descriptor
     comment: str
@@ -66,7 +66,7 @@ class CommandView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one point is asked and told with, and which vectors that answers."""
+    """The requests that read and write one point, and the vectors that they are tested with."""
 
     descriptor: Descriptor
     function: str
@@ -143,7 +143,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     if bus.blocks:
@@ -161,7 +161,7 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How points answer vectors of whole exchanges."""
+    """The code by which points run the vectors of whole exchanges."""
     for frame in bus.frames:
         name, what = frame.descriptor.name, f"{frame.descriptor.name}, {frame.kind}, {frame.raw_type}"
         if not frame.text:
@@ -175,7 +175,7 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
 
 
 def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
-    """None for a point that no function of the device reaches, or that needs its word read first to be written."""
+    """The requests of a point; None if no function of the device reaches it or its word must be read before a write."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
     target = point.write_place or place
@@ -214,7 +214,7 @@ def _text(point: Point, view: PointView) -> str:
 
 
 def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
-    """The function that writes a point: the manual's, else the one for a single item, else the one for several."""
+    """The function that writes a point: that of the manual, else the one for one item, else that for several."""
     if place.function in (5, 6, 15, 16) and place is not point.places[0]:
         return place.function
     if place.space == "coil":

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """What the device takes from the bus."""
+    """The profile: the requests that the device accepts."""
     scope.used.add("Profile")
     bus = device.bus
     taken = profile_of(bus)
@@ -57,7 +57,7 @@ def _blocks(device: Device, scope: PackageScope) -> Node | None:
 
 
 IN_PYTHON = PythonFamily(
-    module=RUNTIME,  # the names of Modbus are those of the runtime itself
+    module=RUNTIME,  # the Modbus names come from the runtime itself
     exports=frozenset({"Block", "Profile"}),
     blocking=Flavour("Device", "Transport"),
     awaiting=Flavour("AsyncDevice", "AsyncTransport"),

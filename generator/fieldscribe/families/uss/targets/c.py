@@ -33,11 +33,11 @@ if TYPE_CHECKING:
 _READ = (1, 6)
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
-"""The tasks that write a value of one or two words, of a parameter or (True) of an element of one."""
+"""The tasks that write, by the words of the value and whether it is an element of an array."""
 
 _TITLES = ("Tasks", "Responses", "Errors")
 _KINDS = {"task": "function", "response": "response", "error": "exception"}
-"""What the numbers of the protocol are called in the header, and what they are in the description."""
+"""The names of the lists of codes: in the header, and in the description."""
 
 
 NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
@@ -45,7 +45,7 @@ NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
 
 @dataclass(frozen=True, slots=True)
 class CodesView:
-    """Numbers of the protocol with names: enumerators with comments, and the function that tells the name."""
+    """A list of codes: enumerators with comments, and the function that returns the name of a code."""
 
     title: str
     kind: str
@@ -55,7 +55,7 @@ class CodesView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one parameter is asked and told with, and which vectors that answers; `eeprom` is what keeps a value."""
+    """The tasks that read and write one parameter, and their vectors; `eeprom` is the task that keeps a value."""
 
     descriptors: tuple[Descriptor, ...]
     function: str
@@ -151,7 +151,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = Owner("target", "what the header of frames needs")
     yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
     yield own, [codes.function for codes in bus.codes]
@@ -165,7 +165,7 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How parameters, and words of process data, answer vectors of whole exchanges."""
+    """The code by which parameters and process data run the vectors of whole exchanges."""
     for frame in bus.frames:
         yield from ((frame.function, case) for case in _cases(frame))
     for word in bus.words:
@@ -210,7 +210,7 @@ def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: HeaderScope) -
 
 
 def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
-    """None for a point that no task of the device reaches."""
+    """The tasks of a point; None if no task of the device reaches it."""
     width = 2 if point.info.bits == 32 else 1
     if point.info.bits > 32:
         return None
@@ -240,7 +240,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
 
 
 def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[int, str]]) -> Descriptor:
-    """The tasks of a parameter: how the number lies in the words of its value, and what reads and writes it."""
+    """The descriptor of a parameter: how its value lies in words, and the tasks that read and write it."""
     width = 2 if point.info.bits == 32 else 1
     places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"

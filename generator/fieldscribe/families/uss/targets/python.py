@@ -19,7 +19,7 @@ _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """What the device takes from the line."""
+    """The profile: the tasks and telegrams that the device accepts."""
     scope.used.add("Profile")
     bus = device.bus
     arguments: list[Node] = [
@@ -45,7 +45,7 @@ def _profile(device: Device, scope: PackageScope) -> Node:
 
 
 def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
-    """How many words of process data variants take that take fewer than the whole product."""
+    """The process data lengths of variants that take fewer words than the whole product."""
     low, high = of_bus(device.bus).pzd
     most_of = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
     return {(axis, value): (low, most) for (axis, value), most in most_of.items()}
@@ -56,7 +56,7 @@ def _numbers(head: str, numbers: Iterable[int]) -> Group:
 
 
 def _maker(point: Point) -> str:
-    """Parameters can be written so that they survive power-off, where the description leaves that to the caller."""
+    """Lets the caller choose whether a written parameter survives power-off, where the description does not."""
     usual = usual_maker(point)
     stored = point.telegram is None and point.keeps in (None, "choice")
     return _STORED.get(usual, usual) if stored else usual

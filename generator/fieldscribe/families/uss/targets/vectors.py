@@ -37,7 +37,7 @@ KINDS = {
     "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
     "words:ints?",
 }
-"""Telegrams."""
+"""The kinds of vectors for telegrams."""
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
@@ -45,11 +45,11 @@ _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
-"""The tasks that change a parameter of so many words, or an element of an array."""
+"""The tasks that write a parameter into the EEPROM, by its words and whether it is an array."""
 
 
 class UssWire:
-    """Exchanges over the link that carries the most that every variant takes."""
+    """Exchanges over the longest link that every variant accepts."""
 
     def __init__(self, device: Device) -> None:
         self.bus = device.bus
@@ -67,7 +67,7 @@ class UssWire:
         lines.set("link", self.link.pkw, self.link.pzd)
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
-        """A parameter by its task; a word of process data with the answer to no task."""
+        """A parameter by its task; a word of process data from an answer without a task."""
         if point.text is not None or len(words) > 2:
             return None
         if point.telegram is None:
@@ -77,7 +77,7 @@ class UssWire:
         return self._process((0,) * self.link.pzd, self._placed(point, words))
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """A parameter by its task for RAM or EEPROM; a word of process data with no task."""
+        """A parameter by its task for RAM or EEPROM; a word of process data in a telegram without a task."""
         if point.text is not None or len(words) > 2:
             return None
         if point.telegram is None:
@@ -119,7 +119,7 @@ class UssWire:
         return [(data, telegram(self.unit, (*part, *quiet)))]
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """A refusal, a wrong check byte, another unit, and a telegram that is cut."""
+        """The exchange with a refusal, a wrong check byte, another unit, and a cut telegram."""
         del writes
         [(sent, good)] = script
         if point.telegram is not None:
@@ -136,12 +136,12 @@ class UssWire:
 
 
 def wires(device: Device) -> list[UssWire]:
-    """Points travel in one way."""
+    """The one way in which points travel."""
     return [UssWire(device)]
 
 
 def frames(lines: Lines, device: Device) -> None:
-    """Everything about the telegrams of a USS device."""
+    """All vectors for the telegrams of a USS device."""
     codes(lines, "constant", "task", device.bus.functions)
     codes(lines, "constant", "response", of_bus(device.bus).responses)
     codes(lines, "code", "error", device.bus.exceptions)
@@ -155,7 +155,7 @@ def frames(lines: Lines, device: Device) -> None:
 
 
 class _Dialogue:
-    """Telegrams over a link that is set in one way."""
+    """Writes vectors for telegrams over one link."""
 
     def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
         self.lines, self.bus, self.link = lines, bus, link
@@ -176,7 +176,7 @@ class _Dialogue:
         self.lines.add(kind, *lead, *build(self.bus, self.link, request))
 
     def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
-        """What bytes say as the answer to a request."""
+        """The result of reading bytes as the answer to a request."""
         reply = parse(self.bus, self.link, request, data)
         kind, lead = _kind("reply", frame)
         self._ask(request)
@@ -190,7 +190,7 @@ class _Dialogue:
         self.lines.add("uss_broadcast", mask, words, *broadcast(self.bus, self.link, mask, words))
 
     def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
-        """That of an answer, with recognisable values; of variable length as long as it must be."""
+        """The parameter part of an answer, with recognisable values; a variable one only as long as needed."""
         if self.link.pkw == 0:
             return ()
         number, index = parameter_words(response, request.parameter, request.index)
@@ -203,7 +203,7 @@ def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
 
 
 def _links(bus: Bus) -> Iterator[Link]:
-    """Every length of the parameter part with two words of process data, and the ends of these."""
+    """Links to test: every length of the parameter part, and the least and most words of process data."""
     least, most = of_bus(bus).pzd
     usual = min(max(2, least), most)
     for pkw in of_bus(bus).pkw:
@@ -317,7 +317,7 @@ def _printed(lines: Lines, device: Device) -> None:
 
 
 def _printed_words(dialogue: _Dialogue, frame: Frame, words: tuple[int, ...]) -> None:
-    """Words of process data alone: sent without a task, or come without an answer."""
+    """An example with process data only: sent without a task, or received without an answer."""
     request = Request(dialogue.bus.units[0], 0, words=words)
     if frame.direction == "request":
         dialogue.built(request, frame.name)
@@ -332,7 +332,7 @@ def _frame_words(frame: Frame) -> tuple[int, ...]:
 
 
 def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
-    """The request that the words of a parameter part are."""
+    """The request in the words of a parameter part."""
     number, pages = words[0], words[1]
     page = sum((pages >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
     task, parameter = number >> 12, (number & 0x07FF) + 2000 * page
@@ -343,7 +343,7 @@ def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
 
 
 def limits(lines: Lines, bus: Bus) -> None:
-    """What answers tasks, and how long the parts may be."""
+    """The responses to each task, and the lengths of the parts."""
     own = of_bus(bus)
     for index, code in enumerate(bus.functions):
         lines.add("function", index, code.number, None, None, sum(1 << answer for answer in set(code.answers)))
