@@ -1,4 +1,4 @@
-"""What can be explained of frames: messages and their identifiers, functions, tasks, responses, errors."""
+"""Explains what stands in frames: messages and their identifiers, functions, tasks, responses, errors."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
     from fieldscribe.families.contract import Codes
     from fieldscribe.model import Code, Device, Message
 
-Found = tuple[str, str, list[tuple[str, str]]]
-"""As what the question was read, a heading, and rows."""
+Answer = tuple[str, str, list[tuple[str, str]]]
+"""How the question was understood, a heading, and rows."""
 
 _WORDS = {"address": "address", "raw": "value", "word": "word"}
 
 
-def find_exchanges(device: Device, what: str) -> Iterator[Found]:
-    """Everything about frames that a name or a number with its kind (`task:1`, `can:321`) means."""
+def find_exchanges(device: Device, what: str) -> Iterator[Answer]:
+    """Every meaning that a name, or a number with its kind (`task:1`, `can:321`), has in frames."""
     prefix, colon, rest = what.partition(":")
     forced = prefix.strip().lower() if colon else ""
     asked = (rest if colon else what).strip()
@@ -44,7 +44,7 @@ def find_exchanges(device: Device, what: str) -> Iterator[Found]:
 
 
 def _identifier(text: str) -> int | None:
-    """An identifier, hexadecimal as on every tool: `321`, `0x321`, `321h`."""
+    """An identifier, hexadecimal as in every CAN tool: `321`, `0x321`, `321h`."""
     digits = text.lower().removeprefix("0x").removesuffix("h")
     plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
     return int(digits, 16) if plain else None
@@ -62,7 +62,7 @@ def _code(device: Device, codes: Codes, code: Code) -> tuple[str, list[tuple[str
     if other is not None:
         known = {other_code.number: other_code.name for other_code in device.bus.codes(other.section)}
         answers, refusals = (_named(numbers, known) for numbers in (code.answers, code.refusals))
-        asks = codes.section == "functions"  # that nothing answers a request is worth a row
+        asks = codes.section == "functions"  # a request without an answer gets a row, too
         rows += [(f"{other.kind.capitalize()}s", answers or ("none" if asks else "")), ("Refused by", refusals)]
     return f"{codes.kind} {code.number} {code.name}: {wording.title_text(code.title)}", rows
 

@@ -26,7 +26,7 @@ _ROWS = {
     "range_in_units": "Range",
     "default_in_units": "Default",
 }
-"""Which row a printed fact stands in, where that is not called as its key."""
+"""The row that shows a printed fact, where its label differs from its key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +47,11 @@ class Explanation:
 
 
 def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
-    """All facts of a point; `as_documented` shows what the manual alone would say where an erratum says otherwise."""
+    """All facts of a point; with `as_documented` as the manual prints them, without its errata."""
     errata = [erratum for erratum in device.errata if erratum.id in point.errata]
     rows = [row for row in _all_rows(device, point, bool(errata) and as_documented) if row[1]]
     if as_documented:
-        rows = _documented(rows, errata)
+        rows = _with_printed_facts(rows, errata)
     else:
         rows += [("Erratum", _erratum_text(erratum)) for erratum in errata]
     rows += _last_rows(device, point)
@@ -74,7 +74,7 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     group = next((group for group in device.groups if group.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
     yield "Variant", point.variant or ""
-    where = "not printed in the manual" if point.address is None else _where(device, point)
+    where = "not printed in the manual" if point.address is None else _address_text(device, point)
     yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
@@ -87,7 +87,7 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Access", wording.access_text(point.access)
 
 
-def _where(device: Device, point: Point) -> str:
+def _address_text(device: Device, point: Point) -> str:
     """The address, with the index or the telegram beside it."""
     address = point.address or 0
     if point.telegram is not None:
@@ -184,8 +184,8 @@ def _erratum_text(erratum: Erratum) -> str:
     return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}."
 
 
-def _documented(rows: list[Row], errata: list[Erratum]) -> list[Row]:
-    """The rows with each printed fact in the place of the taken one; what is in words or has no row follows."""
+def _with_printed_facts(rows: list[Row], errata: list[Erratum]) -> list[Row]:
+    """The rows with the printed facts of errata in place of the corrected ones; facts without a row follow."""
     shown, further = list(rows), []
     for erratum in errata:
         facts = [(_ROWS.get(key, key.replace("_", " ").capitalize()), said) for key, said in erratum.facts]

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _LONGEST = 64
 _NOT_ALONE = frozenset({"mux", "word"})
-"""Numberings whose numbers name many points: they are read only when asked for."""
+"""Numberings that are only searched when a prefix asks for them, for their numbers fit many points."""
 
 _NEAR = 5
 
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A point that was found: as what the question was read, and which word of the point it names (empty for all)."""
+    """A point that was found, how the question was understood, and which word it names (empty for all)."""
 
     reading: str
     point: Point
@@ -57,7 +57,7 @@ def find(device: Device, what: str) -> list[Match]:
 
 
 def near(device: Device, what: str) -> list[str]:
-    """Names and codes that resemble `what`; for a number, the points around that address. For when nothing matches."""
+    """For a question without a match: similar names and codes, or for a number the points next to it."""
     from difflib import get_close_matches
 
     asked = _split(device, what.strip())[1][:_LONGEST].lower()
@@ -70,7 +70,7 @@ def near(device: Device, what: str) -> list[str]:
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:
-    """The forced reading, if any, and what is left."""
+    """The prefix, if any, and the text after it."""
     prefix, colon, rest = what.partition(":")
     prefix = prefix.strip().lower()
     known = {"wire", "code", "name", *(key.lower() for key in _numberings(device))}
@@ -117,7 +117,7 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
 
 
 def _by_reference(device: Device, key: str, asked: str, number: int | None) -> Iterator[Match]:
-    """Points whose printed number, or that of one of their words (counted on from the lowest), is the one asked for."""
+    """Points whose printed number is this one; each further word of a point has the next number."""
     per_frame = _words_per_frame(device)
     for point in device.points:
         printed = point.references.get(key)
@@ -133,7 +133,7 @@ def _by_reference(device: Device, key: str, asked: str, number: int | None) -> I
 
 
 def _words_per_frame(device: Device) -> dict[str, int]:
-    """How many words of each telegram one of its several frames brings."""
+    """For each telegram in several frames, how many words one frame carries."""
     parts = [message for message in device.messages if any(role.kind == "multiplexer" for role in message.roles)]
     words = {message.name: message.words for message in parts}
     return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}
@@ -149,7 +149,7 @@ def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterato
 
 
 def _neighbours(device: Device, number: int) -> list[Point]:
-    """The next point below and the next above an address."""
+    """The nearest points below and above an address."""
     placed = [(point.address, point) for point in device.points if point.address is not None]
     below = max((entry for entry in placed if entry[0] < number), key=lambda entry: entry[0], default=None)
     above = min((entry for entry in placed if entry[0] > number), key=lambda entry: entry[0], default=None)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What a raw number says: words, the exact value if it is a quantity, and what is missing or odd."""
+    """The meaning of a raw number: text, the exact value of a quantity, and what is missing or unusual."""
 
     text: str
     value: str | None = None
@@ -34,7 +34,7 @@ class Meaning:
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
-    """The meaning of a raw number; never fails: what cannot be said is said."""
+    """The meaning of a raw number; never fails: if it is unknown, the text says so."""
     if point.text is not None:
         return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
     named = _named(point, raw)
@@ -42,7 +42,7 @@ def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Me
 
 
 def _named(point: Point, raw: int) -> str | None:
-    """The words of a raw number that is no quantity."""
+    """The text of a raw number that is no quantity; None if it is one."""
     special = point.special(raw)
     if special is not None:
         remark = ", no value" if special.no_value else ""
@@ -59,7 +59,7 @@ def _named(point: Point, raw: int) -> str | None:
 
 
 def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings) -> Iterator[str]:
-    """What became of a value that the point cannot hold exactly."""
+    """Remarks on how a value was rounded that the point cannot hold exactly."""
     if point.info.floating:
         return
     got = codec.decode(point, raw, settings)
@@ -77,7 +77,7 @@ def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings
 
 
 def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Why the device will not take a raw number that a frame writes; empty if it may."""
+    """Why the device refuses a raw number that a frame writes; empty if it accepts it."""
     if not point.writable:
         return f"it is {wording.access_text(point.access)}"
     try:
@@ -90,7 +90,7 @@ def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> 
 
 
 def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """That a written number could not be held against limits which other points set; empty if it was."""
+    """The remark that a written number was not checked, for its limits depend on unknown points; else empty."""
     if not point.writable:
         return ""
     try:

@@ -1,4 +1,4 @@
-"""What a person says of the link and of single frames, and which families have a use for it."""
+"""The options for links and frames, and which families use them."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
 
 def asks_for_frames(options: Options) -> bool:
-    """Whether something was said that only a whole frame has a use for."""
+    """Whether any option was given that only concerns whole frames."""
     return options != Options(index=options.index)
 
 
 def framings(bus_family: Family) -> tuple[str, ...]:
-    """How frames of a family may be wrapped, where that is a choice."""
+    """The framings of a family, if there is a choice."""
     return bus_family.framings if len(bus_family.framings) > 1 else ()
 
 
 def refuse_foreign(device: Device, options: Options) -> None:
-    """Refuse what only devices of other families have a use for. Raises UnclearError."""
+    """Refuse options that only other families use. Raises UnclearError."""
     for name in _said(options):
         takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
         if device.family not in takers:
@@ -47,6 +47,6 @@ def _said(options: Options) -> Iterator[str]:
 
 
 def _takes(bus_family: Family, name: str) -> bool:
-    """Whether a family has a use for an option."""
+    """Whether a family uses an option."""
     shared = {"framing": bool(framings(bus_family)), "index": bool(bus_family.indexed), "unit": True, "request": True}
     return shared.get(name, False) or any(option.name == name for option in bus_family.options)

@@ -1,4 +1,4 @@
-"""What a person types as a value: a number with or without its unit, a name, on or off, flags."""
+"""Reads the values that a person types: a number with or without its unit, a name, on or off, flags."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
 
 @dataclass(frozen=True, slots=True)
 class Typed:
-    """What was typed: a quantity to be encoded, or (`value` is None) directly a raw number."""
+    """A typed value: a quantity to encode, or a raw number if `value` is None."""
 
     value: Fraction | None
     raw: int
 
 
 def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
-    """What the text means for the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
+    """The value that the text gives the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
     if as_raw and point.text is None:
         return Typed(None, _whole(text))
     if point.text is not None:
@@ -79,7 +79,7 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
 
 
 def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
-    """What rules take of points, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    """The settings for rules, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
     settings: dict[str, int | Fraction] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
@@ -93,7 +93,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]
 
 
 def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
-    """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
+    """The raw number that another point holds. Only its bits limit it: it may hold what must not be written."""
     if point.text is not None:
         raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
     typed = read_value(point, text, as_raw=as_raw)
@@ -137,7 +137,7 @@ def _number(point: Point, text: str) -> Fraction:
 
 
 def _factor(point: Point, typed: str) -> Fraction | None:
-    """How many of the point's unit one of what was typed is. Case may differ, but not of a prefix: mW is not MW."""
+    """The factor from the typed unit to the point's unit. Case may differ, but not in a prefix: mW is not MW."""
     symbol = point.unit.symbol
     if not symbol:
         return None
@@ -146,7 +146,7 @@ def _factor(point: Point, typed: str) -> Fraction | None:
 
 
 def _is_unit(point: Point, typed: str) -> bool:
-    """Whether the text spells the point's unit in another way."""
+    """Whether the text is another spelling of the point's unit."""
     symbol = point.unit.symbol
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
@@ -159,7 +159,7 @@ def _is_unit(point: Point, typed: str) -> bool:
 
 
 def _names(point: Point) -> Iterator[tuple[str, int]]:
-    """Everything that names a raw number of the point, the plain names first."""
+    """All names for raw numbers of the point, the plain names first."""
     entries = point.enum.entries if point.enum else ()
     yield from ((special.name, special.low) for special in point.specials if special.low == special.high)
     yield from ((entry.name, entry.raw) for entry in entries)

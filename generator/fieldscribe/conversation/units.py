@@ -9,14 +9,14 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Unit
 
-Found = tuple[str, str, list[tuple[str, str]]]
-"""As what the question was read, a heading, and rows."""
+Answer = tuple[str, str, list[tuple[str, str]]]
+"""How the question was understood, a heading, and rows."""
 
 _MOST_POINTS = 20
 
 
-def find_units(device: Device, asked: str) -> Iterator[Found]:
-    """The unit of that symbol, as the device means it; a shipped one also if no point has it."""
+def find_units(device: Device, asked: str) -> Iterator[Answer]:
+    """The unit with this symbol, as the device uses it; also a shipped unit that no point has."""
     from fieldscribe.language.units import shipped_unit
 
     own = {point.unit.symbol: point.unit for point in device.points if point.unit.symbol}
