@@ -1,4 +1,4 @@
-"""All documents of a description, held against the table of keys: those of device.yaml, then those of its parts."""
+"""Reads and checks all documents of a description: those of device.yaml, then those of its parts."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Files:
 
 
 def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) -> Files | None:
-    """What the files say; None when device.yaml says too little to go on. Findings go to the report.
+    """All files of a description; None if device.yaml lacks too much to continue. Findings go to the report.
 
     Nothing else of the folder is read: whatever an editor or a stranger leaves there.
     """
@@ -51,13 +51,13 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
 
 
 def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | None]:
-    """What a file holds, one at least: None for what could not be read."""
+    """The documents of a file, at least one; None stands for a document that could not be read."""
     source = read_source(path, report, inputs)
     return [None] if source is None else load(source, report)
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:
-    """Whether a file has no key of a device, but those of a part: one finding in place of one for each key."""
+    """Whether a file given as device.yaml is a part; this is one finding in place of one for each key."""
     if any(key in header for key in ("device", "family", "vendor", "model")) or not _PART_KEYS & set(header):
         return False
     whole = file.parent / "device.yaml"
@@ -91,6 +91,6 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
 
 
 def _leads_beside(link: Path, device_file: Path) -> bool:
-    """Whether a link ends in the folder of the description, or of what its device.yaml is a link to itself."""
+    """Whether a link ends in the folder of the description, or in the folder that device.yaml itself links to."""
     folder = os.path.dirname(os.path.realpath(link))
     return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))

@@ -35,7 +35,7 @@ def json_schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """The same as a file: a line for each key, so that a change shows in a diff."""
+    """The schema as text, with one line for each key, so that a diff shows what changed."""
     schema = json_schema()
     definitions = ",\n".join(
         f"  {_dumped(name)}: {_lines(definition)}" for name, definition in schema.pop("definitions").items()
@@ -45,7 +45,7 @@ def schema_text() -> str:
 
 
 def _lines(definition: dict[str, Any]) -> str:
-    """A definition: on one line, or its keys each on a line of their own."""
+    """A definition on one line; if it has keys, with one line for each of them."""
     if "properties" not in definition:
         return _dumped(definition)
     keys = ",\n".join(f"    {_dumped(key)}: {_dumped(schema)}" for key, schema in definition["properties"].items())
@@ -58,20 +58,20 @@ def _dumped(value: Any) -> str:
 
 
 class _Definitions:
-    """The definitions that the schema needs: places with a name, and what stands at one key in several places."""
+    """The shared definitions of the schema: named places, and the values of keys that stand in several places."""
 
     def __init__(self) -> None:
         self.by_name: dict[str, Any] = {}
 
     def key(self, key: Key) -> dict[str, Any]:
-        """What stands at a key: written out, or a reference."""
+        """The schema of the value of a key, or a reference to it."""
         place = _place(key.shape)
         if len(key.places) == 1 or (place is not None and place.name):
             return self.shape(key.shape)
         return self._named(f"at_{key.name}", key.shape)
 
     def shape(self, shape: Shape) -> dict[str, Any]:
-        """What may stand in a spot: written out, or a reference where that is a place with a name."""
+        """The schema of a shape, or a reference to it if the shape is a named place."""
         place = _place(shape)
         if place is None or not place.name:
             return self._written(shape)
@@ -79,7 +79,7 @@ class _Definitions:
 
     def _named(self, name: str, shape: Shape) -> dict[str, Any]:
         if name not in self.by_name:
-            self.by_name[name] = {}  # what comes first stands first
+            self.by_name[name] = {}  # reserves the position before inner definitions are added
             self.by_name[name] = self._written(shape)
         return {"$ref": _REFERENCE + name}
 
@@ -129,7 +129,7 @@ class _Definitions:
 
 
 def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
-    """What is said of a whole number, which YAML may take for text: 1028h."""
+    """The schema of a whole number; YAML takes notations such as 1028h for text."""
     if "enum" not in said:
         return said | {"pattern": forms.WHOLE.pattern}
     choices = said.pop("enum")
@@ -140,10 +140,10 @@ _TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", 
 
 
 def _said(**words: Any) -> dict[str, Any]:
-    """The words that say something."""
+    """The keywords whose values are not empty."""
     return {word: value for word, value in words.items() if value}
 
 
 def _place(shape: Shape) -> Place | None:
-    """The mapping that the shape is about, if it is one's own."""
+    """The place whose own shape this is; None for any other shape."""
     return next((kind for kind in shape.kinds if isinstance(kind, Place) and kind.shape is shape), None)

@@ -32,10 +32,10 @@ def keys_markdown() -> str:
 
 
 def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
-    """The keys of a mapping; of mappings without a table of their own also what is inside."""
+    """The rows for the keys of a place, and for the keys inside of places without their own table."""
     for name, key in keys_of(place).items():
         if place not in key.places:
-            continue  # of a table of its own
+            continue  # the key of a place with its own table
         needed = " **Required.**" if place in key.required else ""
         yield f"`{prefix}{name}`", _type(key.shape), _meaning(key.shape) + needed, _example(key.shape)
         if len(key.places) <= _FEW or not _leads_to_a_table(key.shape):

@@ -1,4 +1,4 @@
-"""What people write from other tools and languages, and what that is here: for the hints of findings."""
+"""Hints for values that people write as in other tools and languages."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
 
 
 def value_hint(key: Any, value: Any) -> str | None:
-    """What to write under that key instead of the value, as a whole line; None if nothing is known."""
+    """The hint what to write under this key instead of the value; None if there is no guess."""
     if not isinstance(key, str):
         return None
     making = _MAKERS.get(key)
@@ -31,13 +31,13 @@ def value_hint(key: Any, value: Any) -> str | None:
 
 
 def space_hint(space: str, known: Collection[str]) -> str | None:
-    """The space of the family that somebody calls otherwise; None if none is known."""
+    """The hint for a space under a name of other tools; None if there is no guess."""
     word = WORDS["space"].get(space.strip().lower()[:_LONGEST])
     return f"write `space: {word}`" if word in known else None
 
 
 def reversed_hint(key: str, value: Any) -> str | None:
-    """What to write for `off: 0` where numbers have names; None if the value is no number."""
+    """The hint for `off: 0` where the number belongs first; None if the value is no number."""
     if isinstance(value, int) and not isinstance(value, bool) and len(key) <= _LONGEST:
         return f"the number stands first: `{value}: {key.lower().replace(' ', '_')}`"
     return None
@@ -58,7 +58,7 @@ def _word_hint(key: str, value: Any) -> str | None:
 
 
 def _type(_: str, value: Any) -> str | None:
-    """A type that differs in case or form alone, or one of a width that no type has."""
+    """A type in another spelling, or of a width that does not exist."""
     if not isinstance(value, str):
         return None
     word = value.strip().lower()
@@ -71,7 +71,7 @@ def _type(_: str, value: Any) -> str | None:
 
 
 def interval_meant(text: str) -> str | None:
-    """`0-100`, `0 to 100`, `[0:100]` as it is written here; None if it is nothing like that."""
+    """`0-100`, `0 to 100`, `[0:100]` in our notation; None if it is no interval."""
     ends = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
     return f"{ends[1]}..{ends[2]}" if ends is not None and _numbers(ends[1], ends[2]) else None
 
@@ -107,7 +107,7 @@ def _bits(key: str, value: Any) -> str | None:
 
 
 def bits_meant(text: str) -> str | None:
-    """`15:8`, `b3`, `bit 3` as they are written here; None if it is nothing like that, or already so."""
+    """`15:8`, `b3`, `bit 3` in our notation; None if it is something else, or right already."""
     match = re.fullmatch(r"[^\W\d]{0,5}[ .]?([0-9]{1,2})(?:(?:-|:|,|/| to )([0-9]{1,2}))?", text.strip())
     if match is None or text.strip().isdecimal():
         return None
@@ -116,7 +116,7 @@ def bits_meant(text: str) -> str | None:
 
 
 def _rule(_: str, value: Any) -> str | None:
-    """The same in a case of a scale."""
+    """A rule in a case of a scale, written like a scale elsewhere."""
     hint = _scale("", value)
     return None if hint is None else hint.replace("`scale: ", "`rule: ")
 
@@ -132,7 +132,7 @@ def _scale(_: str, value: Any) -> str | None:
 
 
 def factor_hint(number: int | Decimal) -> str:
-    """The line that a bare factor stands for: both, where it may multiply or divide."""
+    """The scale that a bare factor stands for; both scales if it may multiply or divide."""
     from fieldscribe.language.formula.lint import exact_scale
 
     if number == 0:
@@ -165,7 +165,7 @@ def _steps(_: str, value: Any) -> str | None:
 
 
 def _decimals(_: str, value: Any) -> str | None:
-    """A resolution where a count of digits belongs."""
+    """A resolution such as 0.1 where a number of decimals belongs."""
     if not isinstance(value, Decimal):
         return None
     digits = max(0, -int(value.normalize().as_tuple().exponent))
@@ -194,7 +194,7 @@ def _at(_: str, value: Any) -> str | None:
 
 
 def _unit(_: str, value: Any) -> str | None:
-    """A number, or several symbols."""
+    """A number, or several symbols, in place of a unit."""
     if isinstance(value, int | Decimal):
         return "a unit is a symbol such as `Hz`: `fieldscribe units` lists them; a factor belongs to `scale`"
     alone = isinstance(value, Seq) and len(value) == 1 and isinstance(value[0], str)
@@ -212,7 +212,7 @@ def _when(_: str, value: Any) -> str | None:
 
 
 def _printed(_: str, value: Any) -> str | None:
-    """A number of which nobody says in which numbering."""
+    """A printed number without its numbering."""
     plain = isinstance(value, int | str) and not isinstance(value, bool) and len(str(value)) < _LONGEST
     return f"say which number it is: `printed: {{wire: {value}}}`, or a name of `numbering`" if plain else None
 
@@ -240,7 +240,7 @@ def _digits(key: str, value: Any) -> str | None:
 
 
 def _special(key: str, value: Any) -> str | None:
-    """Codes without names."""
+    """Special codes without names."""
     codes = value if isinstance(value, Seq) else [value]
     if 0 < len(codes) <= 8 and all(isinstance(code, int | str) and re.fullmatch(_CODE, str(code)) for code in codes):
         named = ("name_of_it", *(f"name_of_it_{number}" for number in range(2, 9)))
@@ -249,7 +249,7 @@ def _special(key: str, value: Any) -> str | None:
 
 
 def _functions(key: str, value: Any) -> str | None:
-    """Numbers without names."""
+    """Numbers of functions without names."""
     if isinstance(value, Seq) and 0 < len(value) <= 16 and all(isinstance(number, int | str) for number in value):
         return f"each number has a name: write `{key}: {{{', '.join(f'{number}: name_of_it' for number in value)}}}`"
     return None
@@ -286,19 +286,19 @@ def _bytes(key: str, value: Any) -> str | None:
 
 
 def _words(_: str, value: Any) -> str | None:
-    """Their count, where their order belongs."""
+    """A number of words where their order belongs."""
     return f"a count of words is `length: {value}`" if type(value) is int else None
 
 
 def _keeps(_: str, value: Any) -> str | None:
-    """A command's name."""
+    """The name of a command."""
     if not isinstance(value, str) or value.lower() in WORDS["keeps"] or not re.fullmatch("[a-z][a-z0-9_]*", value):
         return None
     return f"write no, yes or choice; the command that keeps what is written is named as `keep_with: {value}`"
 
 
 def _group(_: str, value: Any) -> str | None:
-    """Its keys under it."""
+    """The keys of a group under `group`."""
     name = value.get("name") if isinstance(value, Map) else None
     return f"write `group: {name}` and its other keys below, at the top" if isinstance(name, str) else None
 
@@ -338,4 +338,4 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "keeps": _keeps,
     "words": _words,
 }
-"""What makes the hint, by key; words alone stand in the table above."""
+"""The function that makes the hint, by key; hints for single words come from `WORDS`."""

@@ -1,4 +1,4 @@
-"""YAML values that remember where they stand, and which of their facts were dropped because they were wrong."""
+"""YAML values that remember their place in the file, and which of their keys were dropped as wrong."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Map(dict[str, Any]):
         self.uses: dict[object, tuple[Map, bool]] | None = None
 
     def copied(self) -> Map:
-        """The same mapping once more, of which keys can be dropped; its values are the same ones."""
+        """A copy from which keys can be dropped; the values are shared with the original."""
         copy = Map(self.file, self.at)
         copy.update(self)
         copy.places = self.places
@@ -63,7 +63,7 @@ class Seq(list[Any]):
         self.uses: dict[object, tuple[Seq, bool]] | None = None
 
     def copied(self) -> Seq:
-        """The same sequence once more, of which items can be dropped."""
+        """A copy from which items can be dropped; they are shared with the original."""
         copy = Seq(self.file, self.at)
         copy.extend(self)
         copy.item_at = list(self.item_at)
@@ -79,7 +79,7 @@ Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 
 
 def share(value: Value) -> None:
-    """Mark all that an alias repeats: it must have the shape of each place, and what one drops stays in the others."""
+    """Mark a value that an alias repeats, and all inside it: each place checks and drops for itself."""
     waiting = [value]
     while waiting:
         node = waiting.pop()

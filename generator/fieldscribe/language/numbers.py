@@ -22,7 +22,7 @@ LONGEST = 64
 MOST_EXPONENT = 400
 """The largest power of ten that may be written."""
 
-_QUOTED = 40  # characters of a wrong text that a message repeats
+_QUOTED = 40  # how many characters of a wrong text a message repeats
 _HEX = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH])")
 _BINARY = re.compile(r"([+-]?)0b([01]+)")
 _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
@@ -73,13 +73,13 @@ def is_whole_number(text: str) -> bool:
 
 
 def shown(text: str) -> str:
-    """A text from a description as messages quote it: clean, on one line, short."""
+    """A text from a description for messages: clean, short, and on one line."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
 
 
 def _decimal(text: str, match: re.Match[str]) -> Fraction:
-    """The number of a decimal match, with its fraction and exponent."""
+    """The number of a decimal, from its digits, fraction and exponent."""
     whole, fraction, mark, exponent = match.groups()
     if fraction is None and mark is None:
         return Fraction(int(whole))
@@ -165,7 +165,7 @@ _REFUSED: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], str]], ...
 
 
 def _diagnosis(text: str) -> NumberError:
-    """Why a text is no number: the first known mistake that fits."""
+    """The error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
         if match := pattern.fullmatch(text):
             return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(match)))

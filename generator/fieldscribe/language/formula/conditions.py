@@ -79,7 +79,7 @@ def parse_condition(text: str) -> Condition:
 
 
 def read_condition(text: str) -> Condition:
-    """The same, without a guess at what else could be meant."""
+    """A condition; errors carry no guess at what was meant. Raises FormulaError."""
     parser = Parser(text)
     condition = _any(parser)
     parser.finish(_NO_ARITHMETIC)
@@ -206,7 +206,7 @@ def _constant(parser: Parser) -> Constant:
 
 
 def wrong_number(text: str, column: int) -> FormulaError:
-    """What is wrong with a word that begins with a digit, where no name of that kind can stand."""
+    """The error for a word that begins with a digit, where it can be no name."""
     try:
         number(Token("number", text, "", column))
     except FormulaError as error:
@@ -215,12 +215,12 @@ def wrong_number(text: str, column: int) -> FormulaError:
 
 
 def clauses_of(condition: Condition) -> tuple[tuple[Comparison, ...], ...]:
-    """The condition as any of clauses, each of comparisons that hold together. Raises FormulaError for too many."""
+    """The condition as an `or` of clauses; each clause is an `and` of comparisons. Raises FormulaError for too many."""
     return _clauses(condition, turned=False)
 
 
 def _clauses(condition: Condition, *, turned: bool) -> tuple[tuple[Comparison, ...], ...]:
-    """The clauses of the condition, or of its opposite."""
+    """The clauses of the condition, or of its opposite if `turned`."""
     match condition:
         case Comparison():
             return _turned(condition) if turned else ((condition,),)
@@ -244,7 +244,7 @@ def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comp
 
 
 def _turned(comparison: Comparison) -> tuple[tuple[Comparison, ...], ...]:
-    """The opposite of a comparison: of `in` that none of its constants is equal."""
+    """The opposite of a comparison; the opposite of `in` is that no constant is equal."""
     if comparison.op == "in":
         return (tuple(replace(comparison, op="!=", constants=(each,)) for each in comparison.constants),)
     return ((replace(comparison, op=_OPPOSITES[comparison.op]),),)

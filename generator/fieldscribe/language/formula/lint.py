@@ -1,4 +1,4 @@
-"""A warning for numbers that someone cut off, with the fraction that was meant."""
+"""Warns about decimals that were cut off, and finds the fraction that was meant."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LONGEST_TEXT = 2000
 
 
 class CutOff(NamedTuple):
-    """A decimal in a formula that is almost, but not quite, a simple fraction; `line` is the formula with that."""
+    """A decimal that is almost a simple fraction; `line` is the formula with the fraction in its place."""
 
     typed: str
     exact: str
@@ -35,7 +35,7 @@ class CutOff(NamedTuple):
 def cut_off(text: str) -> CutOff | None:
     """The first decimal of a formula that is almost n / 2^k * 10^m, or a repeating fraction such as 2 / 3.
 
-    Almost is within half a unit of the last digit typed; fewer than five digits could be anything.
+    "Almost" is within half a unit of the last digit; decimals with fewer than five digits are left alone.
     """
     if "." not in text:
         return None
@@ -100,7 +100,7 @@ def _binary() -> tuple[list[Fraction], list[str]]:
 
 @cache
 def _repeating() -> tuple[list[Fraction], list[str]]:
-    """The same for fractions whose decimals never end."""
+    """Fractions whose decimals never end, in ascending order, each with its writing."""
     fractions, _ = _table(list(_THIRDS))
     kept = [fraction for fraction in fractions if fraction.denominator % 3 == 0]
     return kept, [f"{fraction.numerator} / {fraction.denominator}" for fraction in kept]

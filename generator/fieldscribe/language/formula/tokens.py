@@ -1,4 +1,4 @@
-"""A formula's text cut into tokens, each with its column.
+"""Splits the text of a formula into tokens, each with its column.
 
 A word that begins with a digit is a number (`12h` is 18) or an error. One that begins with a letter is a name (`b082`,
 `F004`, `A020`), but for hexadecimal in capitals with a small h (`FFFFh`). `ffh` is a name; as a number it is `0ffh`.
@@ -57,7 +57,7 @@ _STRANGE = {
 
 
 class Token(NamedTuple):
-    """A piece of text; `part` is what follows a name behind a point, else empty."""
+    """A piece of text; `part` is the word after the point in `NAME.part`, else empty."""
 
     kind: Literal["number", "name", "sign", "end"]
     text: str
@@ -99,7 +99,7 @@ def _tokens(text: str) -> list[Token]:
 
 
 def number(token: Token) -> Fraction:
-    """The number that a token of that kind means. Raises FormulaError."""
+    """The number of a number token. Raises FormulaError."""
     try:
         return parse_number(token.text)
     except NumberError as error:
@@ -122,7 +122,7 @@ def _refuse(text: str, offset: int) -> NoReturn:
 
 
 def _refuse_comma(tokens: list[Token], text: str, end: int) -> None:
-    """Refuse `0,5`, which could be a decimal or a list; behind a code or a hexadecimal number there is no doubt."""
+    """Refuse `0,5`, which could be a decimal or a list; after a code or a hexadecimal number it is a list."""
     before = tokens[-2]
     if before.kind == "number" and before.text.isdigit():
         after = re.match(r"[0-9]+", text[end:])

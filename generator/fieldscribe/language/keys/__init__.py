@@ -1,4 +1,4 @@
-"""The one table of keys: JSON Schema, KEYS.md and the front end's own shapes follow, and lists of keys are asked of it.
+"""The one table of keys; JSON Schema, KEYS.md, the checks of files and all lists of keys come from it.
 
 A new key is one `Key` in one of the modules here, or in the part `keys` of a family that alone has it. What it is
 written in stands in `fieldscribe/kinds.py`.
@@ -43,7 +43,7 @@ for _key in TABLE:
 
 
 def keys_of(place: Place) -> dict[str, Key]:
-    """The keys that stand in a place, by name."""
+    """The keys that may stand in a place, by name."""
     own_keys = _AT.get(place, {})
     return own_keys if place.may_be is None else keys_of(place.may_be) | own_keys
 
@@ -64,12 +64,12 @@ def needs(place: Place) -> dict[str, list[str]]:
 
 
 def inherited(place: Place) -> tuple[str, ...]:
-    """The keys that a place says for the points below it."""
+    """The keys of a place that apply to all points below it."""
     return tuple(name for name, key in keys_of(place).items() if place in key.inherited)
 
 
 def facts_of(place: Place, *subjects: str) -> tuple[str, ...]:
-    """The keys of a place that are about these: WHOLE_NUMBERS, NUMBERS, TEXTS."""
+    """The keys of a place whose values are facts of one sort: WHOLE_NUMBERS, NUMBERS or TEXTS."""
     return tuple(name for name, key in keys_of(place).items() if key.of in subjects)
 
 

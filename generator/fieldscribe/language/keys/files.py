@@ -95,7 +95,7 @@ HEADS = (
     ),
     Key("source", (GROUP, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
 )
-"""What stands first: the device, the group."""
+"""The keys at the top of a file: those of the device and of groups."""
 
 SECTIONS = (
     Key(
@@ -220,4 +220,4 @@ SECTIONS = (
         Items(places.LOOKED_THROUGH.shape),
     ),
 )
-"""What a file declares."""
+"""The sections in which a file declares things."""

@@ -268,12 +268,12 @@ ERRATUM = Place(
 
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
-"""The point once more: only what differs."""
+"""The places that repeat a point and only say what differs."""
 POINTS = (POINT, *REPEATED)
 FACTS = (FORMAT, *POINTS)
-"""Where it is said what a point means."""
+"""The places whose keys say what a point means."""
 CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
-"""What has a place in the manual beside points."""
+"""The places, other than points, that cite the manual."""
 
 PLACES = (
     *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, DISPLAY, RECORD, CASE),
