@@ -44,7 +44,7 @@ def find_exchanges(device: Device, what: str) -> Iterator[Answer]:
 
 
 def _identifier(text: str) -> int | None:
-    """An identifier, hexadecimal as in every CAN tool: `321`, `0x321`, `321h`."""
+    """An identifier, hexadecimal as in the tools for the bus: `321`, `0x321`, `321h`."""
     digits = text.lower().removeprefix("0x").removesuffix("h")
     plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
     return int(digits, 16) if plain else None
