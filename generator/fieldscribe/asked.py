@@ -1,4 +1,4 @@
-"""What a person asks of frames, and what cannot be done of it, with a hint."""
+"""What a person asks for when frames are read or built, and the errors that say what cannot be done and why."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """None is what nobody said; `own` are options by name that only some families have, as far as they were said."""
+    """Options for frames, None where they were not given; `own` holds by name those that only some families have."""
 
     framing: str | None = None
     unit: int | None = None
@@ -24,7 +24,7 @@ class Options:
 
 
 class UnclearError(Exception):
-    """Something that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
+    """What was asked for does not exist in the device, or more than once; `hint` says what to do (may be empty)."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)

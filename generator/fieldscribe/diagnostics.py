@@ -1,4 +1,4 @@
-"""Findings about a description: data only; report.py words them for people and machines."""
+"""Findings about a description, as data; report.py makes text and JSON of them."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Report:
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), tuple(related)))
 
     def warning(self, rule: str, message: str, span: Span, hint: str | None = None) -> None:
-        """Add a warning: worth a look, but it compiles."""
+        """Add a warning: worth a look, but it does not stop the compilation."""
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), (), "warning"))
 
     def extend(self, other: Report) -> None:
@@ -59,30 +59,33 @@ class Report:
         self._findings.update(other._findings)
 
     def also(self, span: Span, text: str) -> Report:
-        """The same findings, each with another place that matters, unless it stands there itself."""
+        """The same findings, each with a further place that matters, unless that is its own place."""
         result = Report()
-        for one in self._findings:
-            result._add(one if one.span[:3] == span[:3] else replace(one, related=(*one.related, (span, text))))
+        for finding in self._findings:
+            elsewhere = finding.span[:3] != span[:3]
+            result._add(replace(finding, related=(*finding.related, (span, text))) if elsewhere else finding)
         return result
 
     @property
     def findings(self) -> tuple[Diagnostic, ...]:
         """All findings by file and place, errors before warnings of the same place."""
-        return tuple(sorted(self._findings, key=lambda one: (one.span, one.severity, one.rule, one.message)))
+        return tuple(
+            sorted(self._findings, key=lambda finding: (finding.span, finding.severity, finding.rule, finding.message))
+        )
 
     @property
     def has_errors(self) -> bool:
-        """Whether anything found forbids to compile."""
-        return any(one.severity == "error" for one in self._findings)
+        """Whether one of the findings is an error, so that nothing may be compiled."""
+        return any(finding.severity == "error" for finding in self._findings)
 
     @property
     def full(self) -> bool:
-        """Whether so much was found that nothing more is taken: checks may stop."""
+        """Whether there are so many findings that no more are kept, so that checks may stop."""
         return len(self._findings) >= MOST_FINDINGS
 
-    def _add(self, one: Diagnostic) -> None:
+    def _add(self, finding: Diagnostic) -> None:
         if not self.full:
-            self._findings.setdefault(one)
+            self._findings.setdefault(finding)
 
 
 def _clean(text: str) -> str:

@@ -1,7 +1,7 @@
-"""When points exist: conditions as structure, and what follows from them over the values that can occur.
+"""When points exist: conditions as structure, and whether values that can occur make them true.
 
-Conditions compare single numbers and names with constants, so a few samples decide everything about them: each constant
-with its neighbours, and the ends of what can occur. Between those no comparison changes.
+Conditions compare single numbers and names with constants. A few samples are enough to tell whether one can be true:
+each constant, the numbers next to it, and the ends of what can occur. Between these no comparison changes its result.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ class Comparison:
     test: str
     than: tuple[int, ...] | tuple[str, ...]
 
-    def holds(self, one: int | str) -> bool:
+    def holds(self, value: int | str) -> bool:
         """Whether it is true of a number, or of a name."""
         if self.test == "!=":
-            return one != self.than[0]
-        found = _TESTS.get(self.test)
-        if found is None:
-            return one in self.than
-        return isinstance(one, int) and found(one, int(self.than[0]))
+            return value != self.than[0]
+        compare = _TESTS.get(self.test)
+        if compare is None:
+            return value in self.than
+        return isinstance(value, int) and compare(value, int(self.than[0]))
 
 
 Clause = tuple[Comparison, ...]
@@ -58,63 +58,63 @@ class Condition:
     @property
     def names(self) -> tuple[str, ...]:
         """The axes and points that it compares, in a fixed order."""
-        return tuple(dict.fromkeys(one.of for clause in self.clauses for one in clause))
+        return tuple(dict.fromkeys(comparison.of for clause in self.clauses for comparison in clause))
 
     def holds(self, values: Mapping[str, int | str]) -> bool:
         """Whether it is true of these values by name."""
-        return any(all(one.holds(values[one.of]) for one in clause) for clause in self.clauses)
+        return any(all(comparison.holds(values[comparison.of]) for comparison in clause) for clause in self.clauses)
 
 
 Domain = tuple[str, ...] | tuple[tuple[int, int], ...]
 """What can occur: names, or closed intervals of raw numbers."""
 
 ANY: Domain = ((-_LARGEST, _LARGEST),)
-"""What is known of a number that nobody bounds."""
+"""The domain of a number of which nothing is known."""
 
 
 def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -> bool:
-    """Whether all the comparisons can be true at once."""
+    """Whether all comparisons of a clause can be true at once."""
     together: dict[str, list[Comparison]] = {}
-    for one in clause:
-        together.setdefault(one.of, []).append(one)
+    for comparison in clause:
+        together.setdefault(comparison.of, []).append(comparison)
     return all(
-        any(all(one.holds(sample) for one in mine) for sample in _samples(mine, domain_of(name)))
-        for name, mine in together.items()
+        any(all(comparison.holds(sample) for comparison in group) for sample in _samples(group, domain_of(name)))
+        for name, group in together.items()
     )
 
 
 def absent(condition: Condition | None, left: Mapping[str, tuple[str, ...]]) -> bool:
-    """Whether a condition cannot be true any more with these values `left` of each axis of variants."""
+    """Whether a condition can no longer be true when only the values `left` remain of each variant axis."""
     if condition is None:
         return False
     return not any(possible(clause, lambda name: left.get(name, ANY)) for clause in condition.clauses)
 
 
 def _samples(comparisons: list[Comparison], domain: Domain) -> Iterator[int | str]:
-    """Enough of the domain to decide the comparisons."""
-    bounds = [one for one in domain if not isinstance(one, str)]
+    """Samples of the domain that are enough to decide the comparisons."""
+    bounds = [part for part in domain if not isinstance(part, str)]
     if not bounds:
-        yield from (one for one in domain if isinstance(one, str))
+        yield from (part for part in domain if isinstance(part, str))
         return
-    numbers = [int(one) for comparison in comparisons for one in comparison.than]
+    numbers = [int(constant) for comparison in comparisons for constant in comparison.than]
     for low, high in bounds:
         yield low
         yield high
-        yield from (near for one in numbers for near in (one - 1, one, one + 1) if low <= near <= high)
+        yield from (near for number in numbers for near in (number - 1, number, number + 1) if low <= near <= high)
 
 
 def version_of(text: str) -> tuple[str, tuple[int, ...], str] | None:
-    """`firmware 2.1.0` as what it counts, its numbers and the letter behind; None for a text without a version."""
-    found = _VERSION.fullmatch(" ".join(text.lower().split()))
-    if found is None:
+    """`firmware 2.1b` as its words, its numbers and the letter at its end; None for a text without a version."""
+    match = _VERSION.fullmatch(" ".join(text.lower().split()))
+    if match is None:
         return None
-    numbers = [int(part) for part in found[2].split(".")]
+    numbers = [int(part) for part in match[2].split(".")]
     while len(numbers) > 1 and numbers[-1] == 0:
         numbers.pop()
-    return found[1].strip(), tuple(numbers), found[3]
+    return match[1].strip(), tuple(numbers), match[3]
 
 
 def ends_before(until: str | None, since: str | None) -> bool:
-    """Whether the last version of one thing comes before the first of another: of versions that count the same."""
+    """Whether a last version comes before a first version; versions are compared only if their words are the same."""
     last, first = version_of(until or ""), version_of(since or "")
     return last is not None and first is not None and last[0] == first[0] and last[1:] < first[1:]

@@ -21,7 +21,7 @@ _LONGEST = 64
 
 
 class HexError(ValueError):
-    """A text that is no row of bytes."""
+    """The text does not stand for bytes."""
 
 
 def parse_hex(text: str) -> bytes:
@@ -36,8 +36,8 @@ def number_of(text: str) -> int | None:
     """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
     if len(text) > _LONGEST or not text.isascii():
         return None
-    if found := _HEX.fullmatch(text):
-        return int(found[1] or found[2] or found[3], 16)
+    if match := _HEX.fullmatch(text):
+        return int(match[1] or match[2] or match[3], 16)
     return int(text) if _DECIMAL.fullmatch(text) else None
 
 
@@ -50,13 +50,14 @@ def typed_bytes(text: str, what: str, example: str) -> bytes:
 
 
 def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
-    """The frames that arguments are; when each is a single byte or word, somebody forgot the quotes."""
+    """The frames that arguments mean; arguments of a byte or word each are one frame whose quotes were forgotten."""
     if len(words) > 2 and len({len(word.strip()) for word in words} - set(sizes)) == 0:
         return [" ".join(words)]
     return list(words)
 
 
 def _piece(piece: str, place: int) -> bytes:
+    """The bytes of one piece between blanks or commas, which is the `place`-th. Raises HexError."""
     digits = piece.removeprefix("0x")
     if digits != piece and len(digits) == 1:
         digits = "0" + digits

@@ -1,4 +1,4 @@
-"""The words in which the table of keys is written: where a key stands, what may stand at it, and what that means.
+"""The classes of which the table of keys is made: where a key stands, which values it takes, and what they mean.
 
 Plain classes, compared by identity: making them dataclasses would take longer than making the whole table.
 """
@@ -47,7 +47,7 @@ class Whole:
 
 
 class Plain:
-    """What has no bounds of its own: any number, true or false, nothing."""
+    """A kind without bounds: any number, true or false, or nothing."""
 
     __slots__ = ("word",)
 
@@ -68,14 +68,14 @@ class Items:
 
 
 class Place:
-    """A mapping: the keys of the table that say they stand here, and keys of some forms (`more`).
+    """A mapping: the keys of the table that say they stand here, and keys of some forms (`by_form`).
 
     A place with a `name` is a definition of the schema, one with a `heading` a table of KEYS.md. `before` and `after`
     are what may stand there in its stead. The keys of `may_be` stand here, too: with
     all that it requires, or none.
     """
 
-    __slots__ = ("heading", "least", "may_be", "more", "name", "required", "shape")
+    __slots__ = ("by_form", "heading", "least", "may_be", "name", "required", "shape")
 
     def __init__(  # noqa: PLR0913  # the words of an entry, by name where they are used
         self,
@@ -86,19 +86,19 @@ class Place:
         *,
         before: tuple[Kind, ...] = (),
         after: tuple[Kind, ...] = (),
-        more: Mapping[Form, Shape] | None = None,
+        by_form: Mapping[Form, Shape] | None = None,
         least: int = 0,
         required: tuple[str, ...] = (),
         may_be: Place | None = None,
     ) -> None:
         self.name, self.heading, self.may_be = name, heading, may_be
-        self.more, self.least, self.required = more or {}, least, required
+        self.by_form, self.least, self.required = by_form or {}, least, required
         self.shape = Shape(meaning, examples, *before, self, *after)
 
 
 def by(form: Form, shape: Shape, least: int = 0, required: tuple[str, ...] = ()) -> Place:
     """A mapping from keys of a form to values of one shape."""
-    return Place("", "", "", (), more={form: shape}, least=least, required=required)
+    return Place("", "", "", (), by_form={form: shape}, least=least, required=required)
 
 
 Kind: TypeAlias = Text | Whole | Plain | Items | Place

@@ -27,11 +27,11 @@ class TargetError(Exception):
 
 def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
     """The device.yaml files that the paths mean: such a file, its folder, or a folder of such folders."""
-    found: dict[Path, None] = {}
+    device_files: dict[Path, None] = {}
     for path in paths:
         if path.is_file():
             candidates = [path]
-        elif _may_be(path / DEVICE_FILE):
+        elif _may_exist(path / DEVICE_FILE):
             candidates = [path / DEVICE_FILE]
         else:
             candidates = device_files_below(path)
@@ -43,21 +43,21 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
             )
             hint = f"name a folder with {DEVICE_FILE}, or a folder of such folders"
             report.error("no-device", missing, Span(shown(path), 1, 1), hint)
-        found.update(dict.fromkeys(candidates))
-    return list(found)
+        device_files.update(dict.fromkeys(candidates))
+    return list(device_files)
 
 
 def device_files_below(folder: Path) -> list[Path]:
-    """What is called device.yaml in the folders of a folder; what cannot be read gets its finding later."""
+    """The device.yaml files one folder below; folders that cannot be read get their finding later."""
     try:
         names = sorted(os.listdir(folder))
     except OSError:
         return []
-    return [folder / name / DEVICE_FILE for name in names if _may_be(folder / name / DEVICE_FILE)]
+    return [folder / name / DEVICE_FILE for name in names if _may_exist(folder / name / DEVICE_FILE)]
 
 
-def _may_be(path: Path) -> bool:
-    """Whether something is there, or in a folder that does not let us look: that gets its finding when it is read."""
+def _may_exist(path: Path) -> bool:
+    """Whether something is there. Where we may not look, it may be: reading it then gives the finding."""
     try:
         os.lstat(path)
     except (FileNotFoundError, NotADirectoryError, ValueError):
@@ -70,7 +70,7 @@ def _may_be(path: Path) -> bool:
 def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
     """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong.
 
-    `inputs` takes note of the files, with what they held.
+    `inputs` remembers the files that were read, each with a checksum.
     """
     from fieldscribe.language.files import read_files
 
@@ -82,7 +82,7 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
-    """Whether no description before was of this device; a second one is a finding. `known` takes note of the first."""
+    """Whether the run has met no description of this device yet; a second one is a finding. `known` is what it met."""
     first = known.setdefault(device.id, device_file)
     if first == device_file:
         return True
@@ -111,20 +111,20 @@ def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, 
     plain: Device | None = None
     for name in targets:
         try:
-            made = target(name)
+            loaded = target(name)
             plain = plain or for_code(device)
-            for path, text in _of_target(made, device if made.FOR_PEOPLE else plain):
+            for path, text in _of_target(loaded, device if loaded.FOR_PEOPLE else plain):
                 yield name, path, text
         except Exception as error:
             raise TargetError(name) from error
 
 
-def _of_target(made: Target, device: Device) -> Iterator[tuple[str, str]]:
+def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
     from fieldscribe.render import render
     from fieldscribe.resources import templates_dir
 
-    yield from made.outputs(device, render)
-    for path, template in made.runtime(device):
+    yield from target.outputs(device, render)
+    for path, template in target.runtime(device):
         yield path, (templates_dir() / template).read_text("utf-8")
 
 
@@ -149,7 +149,7 @@ def _checked(files: Files, report: Report) -> Subject | None:
     messages = reading_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
     resolved, ranges, places = resolve_points(scope, drafts, index, telegrams)
-    points = {one.point.item: one.point for one in resolved}
+    points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, index, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
     subject = Subject(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)

@@ -1,6 +1,6 @@
 """The device as code may know it: names in place of titles, no notes, no places in the manual, no reasons for errata.
 
-What is for people changes often, and must not touch vendored code when it does; it reaches the documentation only.
+Titles and notes change often. They reach only the documentation, so that vendored code stays the same when they do.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
     enums = {id(enum): _enum(enum) for enum in device.enums}
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
-    interner = Interner()  # titles told some of them apart
+    interner = Interner()  # shapes that differed in titles only become one
     shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
     return replace(
         device,
@@ -34,19 +34,23 @@ def for_code(device: Device) -> Device:
             exceptions=_codes(device.bus.exceptions),
             own=device.bus.own and _own(device.bus.own),
         ),
-        groups=tuple(replace(group, title=_plain(group.name), note={}, source=_NOWHERE) for group in device.groups),
+        groups=tuple(replace(group, title=_title(group.name), note={}, source=_NOWHERE) for group in device.groups),
         points=tuple(_point(point, shapes[id(point.shape)]) for point in device.points),
         enums=tuple(enums.values()),
-        commands=tuple(replace(one, title=_plain(one.name), note={}, source=_NOWHERE) for one in device.commands),
-        frames=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.frames),
-        errata=tuple(replace(one, why="", where="", source=_NOWHERE) for one in device.errata),
-        messages=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.messages),
-        telegrams=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.telegrams),
+        commands=tuple(
+            replace(command, title=_title(command.name), note={}, source=_NOWHERE) for command in device.commands
+        ),
+        frames=tuple(replace(frame, title=_title(frame.name), source=_NOWHERE) for frame in device.frames),
+        errata=tuple(replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata),
+        messages=tuple(replace(message, title=_title(message.name), source=_NOWHERE) for message in device.messages),
+        telegrams=tuple(
+            replace(telegram, title=_title(telegram.name), source=_NOWHERE) for telegram in device.telegrams
+        ),
     )
 
 
 def digest(device: Device) -> str:
-    """A checksum of what code is made of: every field of all that code may know, but for the digest itself."""
+    """A checksum over all that code may know of the device, except the digest itself."""
     return with_digest(device)[0].digest
 
 
@@ -54,18 +58,18 @@ def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
     plain = replace(for_code(device), digest="")
     shown = [(point.item, point.display) for point in plain.points if point.display is not None]
-    text = f"{plain!r}{shown or ''}"  # what few devices say leaves the digests of the others alone
-    found = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-    return replace(device, digest=found), replace(plain, digest=found)
+    text = f"{plain!r}{shown or ''}"  # appended only if there is some, so that other digests stay
+    checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    return replace(device, digest=checksum), replace(plain, digest=checksum)
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
-    return tuple(replace(code, title=_plain(code.name)) for code in codes)
+    return tuple(replace(code, title=_title(code.name)) for code in codes)
 
 
 def _own(own: Own) -> Own:
-    """The facts of one family, whose codes have titles, too."""
-    held = {one.name: getattr(own, one.name) for one in fields(own)}
+    """The facts of one family, with names as the titles of their codes."""
+    held = {fact.name: getattr(own, fact.name) for fact in fields(own)}
     codes = {
         name: value
         for name, value in held.items()
@@ -78,11 +82,11 @@ def _point(point: Point, shape: Shape) -> Point:
     return replace(
         point,
         shape=shape,
-        title=_plain(point.item),
+        title=_title(point.item),
         note={},
         source=_NOWHERE,
         unit=replace(point.unit, name="", quantity=""),
-        since=None if point.since is None and point.until is None else "",  # that not every firmware has it
+        since=None if point.since is None and point.until is None else "",  # code only learns that there is one
         until=None,
         record=None,
         untyped=None if point.untyped is None else "",
@@ -101,22 +105,22 @@ def _shape(shape: Shape, enums: dict[int, Enum]) -> Shape:
 
 
 def _enum(enum: Enum) -> Enum:
-    return replace(enum, title=_plain(enum.name), entries=tuple(_entry(entry) for entry in enum.entries))
+    return replace(enum, title=_title(enum.name), entries=tuple(_entry(entry) for entry in enum.entries))
 
 
 def _entry(entry: Entry) -> Entry:
-    return replace(entry, title=_plain(entry.name))
+    return replace(entry, title=_title(entry.name))
 
 
 def _flag(flag: Flag) -> Flag:
-    return replace(flag, title=_plain(flag.name), values=tuple(_entry(entry) for entry in flag.values))
+    return replace(flag, title=_title(flag.name), values=tuple(_entry(entry) for entry in flag.values))
 
 
 def _special(special: Special) -> Special:
-    return replace(special, title=_plain(special.name))
+    return replace(special, title=_title(special.name))
 
 
 @lru_cache(maxsize=65536)
-def _plain(name: str) -> Titles:
+def _title(name: str) -> Titles:
     """`base_frequency` as `Base frequency`."""
     return {"en": name.replace("_", " ").capitalize()}

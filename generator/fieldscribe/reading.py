@@ -47,7 +47,7 @@ class Inputs:
     digests: dict[Path, str] = field(default_factory=dict)
 
     def note(self, path: Path, data: bytes) -> None:
-        """These bytes of that file are what is compiled."""
+        """Remember the checksum of the bytes that were read from this file."""
         from hashlib import sha256
 
         self.digests[path] = sha256(data).hexdigest()

@@ -19,10 +19,10 @@ Render = Callable[[str, Mapping[str, object]], str]
 
 @lru_cache(maxsize=1)
 def _environment(folder: Path) -> Environment:
-    """Templates are compiled once a run and kept nowhere: what is loaded as code comes from the package alone."""
+    """Templates are compiled once a run and never stored: all code that runs comes from the package."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=FileSystemLoader(folder),
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -31,9 +31,9 @@ def _environment(folder: Path) -> Environment:
         auto_reload=False,
         autoescape=False,  # noqa: S701 - no HTML: views hold finished text, encoded by text.py
     )
-    # views are objects, so the search for items behind attributes (a tenth of a large compile) has nothing to find
-    vars(made)["getattr"] = getattr
-    return made
+    # views are objects without items: to look for items behind attributes took a tenth of a large compile
+    vars(environment)["getattr"] = getattr
+    return environment
 
 
 def render(template: str, context: Mapping[str, object]) -> str:

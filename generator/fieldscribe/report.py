@@ -29,16 +29,16 @@ _HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 def as_lines(findings: Iterable[Diagnostic], read: ReadLines) -> Iterator[Line]:
     """The findings as text, each followed by an empty line."""
-    for one in findings:
-        yield [(one.severity, f"{one.severity}[{one.rule}]"), ("strong", f": {visible(one.message)}")]
-        margin = len(str(max(one.span.line, *(span.line for span, _ in one.related), 0)))
-        yield [("frame", " " * margin + "--> "), ("place", place_text(one.span))]
-        yield from _frame(one.span, margin, read, one.severity)
-        for span, message in one.related:
+    for finding in findings:
+        yield [(finding.severity, f"{finding.severity}[{finding.rule}]"), ("strong", f": {visible(finding.message)}")]
+        margin = len(str(max(finding.span.line, *(span.line for span, _ in finding.related), 0)))
+        yield [("frame", " " * margin + "--> "), ("place", place_text(finding.span))]
+        yield from _frame(finding.span, margin, read, finding.severity)
+        for span, message in finding.related:
             yield [("frame", " " * margin + "::: "), ("place", place_text(span)), ("", f": {visible(message)}")]
             yield from _frame(span, margin, read, "frame")
-        if one.hint:
-            yield [("frame", " " * margin + " = "), ("hint", f"hint: {visible(one.hint)}")]
+        if finding.hint:
+            yield [("frame", " " * margin + " = "), ("hint", f"hint: {visible(finding.hint)}")]
         yield []
 
 
@@ -46,24 +46,23 @@ def as_data(findings: Iterable[Diagnostic]) -> list[dict[str, object]]:
     """The findings for JSON."""
     return [
         {
-            "rule": one.rule,
-            "severity": one.severity,
-            "message": one.message,
-            **_place_data(one.span),
-            "hint": one.hint,
-            "related": [{"message": message, **_place_data(span)} for span, message in one.related],
+            "rule": finding.rule,
+            "severity": finding.severity,
+            "message": finding.message,
+            **_place_data(finding.span),
+            "hint": finding.hint,
+            "related": [{"message": message, **_place_data(span)} for span, message in finding.related],
         }
-        for one in findings
+        for finding in findings
     ]
 
 
 def summary(findings: Sequence[Diagnostic]) -> str:
     """One line: `3 errors in 2 files; 1 warning`; empty when there are none."""
-    wrong = [one for one in findings if one.severity == "error"]
-    rest = len(findings) - len(wrong)
-    parts = (
-        [f"{_count(len(wrong), 'error')} in {_count(len({one.span.file for one in wrong}), 'file')}"] if wrong else []
-    )
+    errors = [finding for finding in findings if finding.severity == "error"]
+    rest = len(findings) - len(errors)
+    files = {finding.span.file for finding in errors}
+    parts = [f"{_count(len(errors), 'error')} in {_count(len(files), 'file')}"] if errors else []
     return "; ".join(parts + ([_count(rest, "warning")] if rest else []))
 
 
@@ -91,22 +90,22 @@ def _shown(char: str) -> str:
 
 
 def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Line]:
-    """The line that is meant, cut around the place, with a mark below it."""
+    """The line of the file around the place of a finding, and a mark below it."""
     lines = read(span.file)
     if lines is None or not 1 <= span.line <= len(lines):
         return
-    whole = lines[span.line - 1]
-    if not whole.strip():
+    text = lines[span.line - 1]
+    if not text.strip():
         return
-    at = min(max(span.column - 1, 0), len(whole))
+    at = min(max(span.column - 1, 0), len(text))
     start = 0 if at <= BEFORE + 10 else at - BEFORE
-    end = len(whole) if len(whole) <= at + AFTER + 10 else at + AFTER
+    end = len(text) if len(text) <= at + AFTER + 10 else at + AFTER
     before, meant = (
-        visible(whole[start:at].lstrip() if start else whole[start:at]),
-        whole[at : min(at + span.width, end)],
+        visible(text[start:at].lstrip() if start else text[start:at]),
+        text[at : min(at + span.width, end)],
     )
     before = f"... {before}" if start else before
-    after = visible(whole[at + len(meant) : end]) + (" ..." if end < len(whole) else "")
+    after = visible(text[at + len(meant) : end]) + (" ..." if end < len(text) else "")
     number = f"{span.line:>{margin}}"
     yield [("frame", f"{number} | "), ("", f"{before}{visible(meant)}{after}".rstrip())]
     mark = "^" * max(1, columns(visible(meant)))

@@ -22,10 +22,10 @@ def descriptions_dir() -> Path:
 
 
 def runtime_files(folder: str) -> tuple[str, ...]:
-    """The files of a runtime below a folder of templates, in a fixed order; what tools leave behind is none."""
+    """The files of a runtime below a folder of templates, in a fixed order, without what tools leave behind."""
     root = templates_dir() / folder
-    found = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
-    return tuple(sorted(path.as_posix() for path in found if not _LEFT_BEHIND.intersection(path.parts)))
+    files = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
+    return tuple(sorted(path.as_posix() for path in files if not _LEFT_BEHIND.intersection(path.parts)))
 
 
 def _shipped(name: str) -> Path:

@@ -313,7 +313,7 @@ def test_a_mutant_of_the_compiler_is_judged_by_tests_that_enter_it(tmp_path: Pat
         ("import re", "import nothing_of_that_name"),
         ("import re", "import re "),
     ]
-    program = JUDGED.format(file="text", test=TESTS / "test_text.py", changes=changes)
+    program = JUDGED.format(file="text", test=TESTS / "wording/test_text.py", changes=changes)
     command = [sys.executable, "-c", program, str(tmp_path)]
     done = subprocess.run(command, cwd=TESTS, capture_output=True, text=True, check=True)
     assert done.stdout.split("\n") == [KILLED, LEFT_OUT, SURVIVED, ""]

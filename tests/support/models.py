@@ -303,6 +303,8 @@ def sample_device(points: tuple[Point, ...] | None = None) -> Device:
         *(titles("Write 50 Hz"), SOURCE, ("write_crc",)),
     )
     command = Command("enter", titles("Store parameters"), {}, "holding", 0x900, 6, None, 100000, "running", SOURCE)
+    named = plain_points() + dependent_points() if points is None else points
+    has_block = any(point.name == "acceleration_time" for point in named)
     return Device(
         id="sample_drive",
         version="1.2.0",
@@ -315,9 +317,9 @@ def sample_device(points: tuple[Point, ...] | None = None) -> Device:
         variants={"voltage_class": ("200V", "400V")},
         bus=sample_bus(),
         groups=(Group("main", titles("Main", "Haupt"), {}, SOURCE),),
-        points=plain_points() + dependent_points() if points is None else points,
+        points=named,
         enums=(FREQUENCY_SOURCE, FILTER_MODE, TEMPERATURE_MODE),
-        blocks={"main": (Block("holding", 3, 0x1013, 2, ("acceleration_time",)),)},
+        blocks={"main": (Block("holding", 3, 0x1013, 2, ("acceleration_time",)),)} if has_block else {},
         commands=(command,),
         frames=(frame,),
         errata=ERRATA,

@@ -1,4 +1,4 @@
-"""A typed value into a raw number. Raises RefusedError, UnclearError."""
+"""Turns a typed value into a raw number. Raises RefusedError, UnclearError."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Encoded:
-    """A raw number to write, what it means, and what became of the value on the way."""
+    """A raw number to write, what it means, and remarks on how the value was changed."""
 
     point: str
     code: str | None
@@ -43,7 +43,7 @@ class Encoded:
 
 
 def encode_point(device: Device, point: Point, value: str, settings: Settings, *, as_raw: bool = False) -> Encoded:
-    """The raw number that writes a typed value, or that raw number if it may be written."""
+    """The raw number of a typed value, or a typed raw number itself if it may be written."""
     _refuse_unwritable(device, point)
     typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)

@@ -1,4 +1,4 @@
-"""What can be explained of frames: messages and their identifiers, functions, tasks, responses, errors."""
+"""Explains what stands in frames: messages and their identifiers, functions, tasks, responses, errors."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
     from fieldscribe.families.contract import Codes
     from fieldscribe.model import Code, Device, Message
 
-Found = tuple[str, str, list[tuple[str, str]]]
-"""As what the question was read, a heading, and rows."""
+Answer = tuple[str, str, list[tuple[str, str]]]
+"""How the question was understood, a heading, and rows."""
 
 _WORDS = {"address": "address", "raw": "value", "word": "word"}
 
 
-def find_exchanges(device: Device, what: str) -> Iterator[Found]:
-    """Everything about frames that a name or a number with its kind (`task:1`, `can:321`) means."""
+def find_exchanges(device: Device, what: str) -> Iterator[Answer]:
+    """Every meaning that a name, or a number with its kind (`task:1`, `can:321`), has in frames."""
     prefix, colon, rest = what.partition(":")
     forced = prefix.strip().lower() if colon else ""
     asked = (rest if colon else what).strip()
@@ -44,9 +44,9 @@ def find_exchanges(device: Device, what: str) -> Iterator[Found]:
 
 
 def _identifier(text: str) -> int | None:
-    """An identifier, hexadecimal as on every tool: `321`, `0x321`, `321h`."""
+    """An identifier, hexadecimal as in the tools for the bus: `321`, `0x321`, `321h`."""
     digits = text.lower().removeprefix("0x").removesuffix("h")
-    plain = 0 < len(digits) <= 8 and all(one in "0123456789abcdef" for one in digits)
+    plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
     return int(digits, 16) if plain else None
 
 
@@ -56,11 +56,13 @@ def _code(device: Device, codes: Codes, code: Code) -> tuple[str, list[tuple[str
         rows.append(("At most", f"{code.most} in one request"))
     if code.broadcast is not None:
         rows.append(("Broadcast", "yes" if code.broadcast else "no"))
-    other = next((one for one in family(device.family).codes if one.section == codes.belongs_to), None)
+    other = next(
+        (other_codes for other_codes in family(device.family).codes if other_codes.section == codes.belongs_to), None
+    )
     if other is not None:
-        known = {one.number: one.name for one in device.bus.codes(other.section)}
+        known = {other_code.number: other_code.name for other_code in device.bus.codes(other.section)}
         answers, refusals = (_named(numbers, known) for numbers in (code.answers, code.refusals))
-        asks = codes.section == "functions"  # that nothing answers a request is worth a row
+        asks = codes.section == "functions"  # a request without an answer gets a row, too
         rows += [(f"{other.kind.capitalize()}s", answers or ("none" if asks else "")), ("Refused by", refusals)]
     return f"{codes.kind} {code.number} {code.name}: {wording.title_text(code.title)}", rows
 
@@ -80,7 +82,7 @@ def _message(device: Device, message: Message) -> tuple[str, list[tuple[str, str
         ("Answers", message.answers or ""),
     ]
     rows += [(f"Byte {place}", _role(role.kind, role.number)) for place, role in enumerate(message.roles)]
-    telegrams = [one.name for one in device.telegrams if one.message == message.name]
+    telegrams = [telegram.name for telegram in device.telegrams if telegram.message == message.name]
     rows.append(("Telegram", ", ".join(telegrams)))
     return f"message {message.name}: {wording.title_text(message.title)}", rows
 

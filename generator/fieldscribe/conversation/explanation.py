@@ -26,7 +26,7 @@ _ROWS = {
     "range_in_units": "Range",
     "default_in_units": "Default",
 }
-"""Which row a printed fact stands in, where that is not called as its key."""
+"""The row that shows a printed fact, where its label differs from its key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +47,13 @@ class Explanation:
 
 
 def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
-    """All facts of a point; `as_documented` shows what the manual alone would say where an erratum says otherwise."""
-    errata = [one for one in device.errata if one.id in point.errata]
+    """All facts of a point; with `as_documented` as the manual prints them, without its errata."""
+    errata = [erratum for erratum in device.errata if erratum.id in point.errata]
     rows = [row for row in _all_rows(device, point, bool(errata) and as_documented) if row[1]]
     if as_documented:
-        rows = _documented(rows, errata)
+        rows = _with_printed_facts(rows, errata)
     else:
-        rows += [("Erratum", _erratum_text(one)) for one in errata]
+        rows += [("Erratum", _erratum_text(erratum)) for erratum in errata]
     rows += _last_rows(device, point)
     head = f"{point.code} {point.item}" if point.code else point.item
     heading = line(f"{head}: {wording.title_text(point.title)}")
@@ -71,10 +71,10 @@ def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[
 
 
 def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
-    group = next((one for one in device.groups if one.name == point.group), None)
+    group = next((group for group in device.groups if group.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
     yield "Variant", point.variant or ""
-    where = "not printed in the manual" if point.address is None else _where(device, point)
+    where = "not printed in the manual" if point.address is None else _address_text(device, point)
     yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
@@ -87,7 +87,7 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Access", wording.access_text(point.access)
 
 
-def _where(device: Device, point: Point) -> str:
+def _address_text(device: Device, point: Point) -> str:
     """The address, with the index or the telegram beside it."""
     address = point.address or 0
     if point.telegram is not None:
@@ -110,7 +110,7 @@ def _type_text(point: Point) -> str:
 
 
 def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
-    by_name = {name: one for one in device.points for name in (one.item, one.name)}
+    by_name = {name: other for other in device.points for name in (other.item, other.name)}
     unit = point.unit
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
     yield "Scale", wording.scale_text(point, by_name)
@@ -122,7 +122,8 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Default", wording.default_text(point)
     yield "Steps", wording.steps_text(point)
     yield "Fixed bits", wording.fixed_text(point)
-    scale, limits = point.scale_arguments, [one for one in point.limit_arguments if one not in point.scale_arguments]
+    scale = point.scale_arguments
+    limits = [argument for argument in point.limit_arguments if argument not in scale]
     yield "Scale needs", _needs(scale)
     yield "Limits need", _needs(limits)
 
@@ -149,7 +150,7 @@ def _names_rows(point: Point) -> Iterator[Row]:
 def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Kept", wording.keeps_text(device, point)
     yield "Write only when", ", ".join(point.conditions)
-    yield "Exists when", wording.condition_text(point.when, {one.name: one for one in device.points})
+    yield "Exists when", wording.condition_text(point.when, {other.name: other for other in device.points})
     yield "Since", point.since or ""
     yield "Until", point.until or ""
     yield "Changes", point.changes or ""
@@ -170,7 +171,9 @@ def _last_rows(device: Device, point: Point) -> Iterator[Row]:
 
 
 def _source_text(device: Device, source: Source) -> str:
-    document = next((one.title for one in device.documents if one.id == source.document), source.document)
+    document = next(
+        (document.title for document in device.documents if document.id == source.document), source.document
+    )
     parts = [document, source.section or "", f"page {source.page}" if source.page else ""]
     parts.append("" if source.line is None else f"line {source.line} of its text")
     return ", ".join(part for part in parts if part)
@@ -181,8 +184,8 @@ def _erratum_text(erratum: Erratum) -> str:
     return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}."
 
 
-def _documented(rows: list[Row], errata: list[Erratum]) -> list[Row]:
-    """The rows with each printed fact in the place of the taken one; what is in words or has no row follows."""
+def _with_printed_facts(rows: list[Row], errata: list[Erratum]) -> list[Row]:
+    """The rows with the printed facts of errata in place of the corrected ones; facts without a row follow."""
     shown, further = list(rows), []
     for erratum in errata:
         facts = [(_ROWS.get(key, key.replace("_", " ").capitalize()), said) for key, said in erratum.facts]

@@ -1,4 +1,4 @@
-"""What is known while frames are heard: the device, where its points are, and what was said of them before."""
+"""What is known while frames are decoded: the device, where its points are, and their values so far."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Hearing:
-    """What was heard in one dialogue: numbers that rules take, words of parameters, and points that wait for others."""
+    """What one dialogue has told: numbers for rules, words of parameters, and points that wait for others."""
 
     device: Device
     directory: Directory
-    given: dict[str, int | Fraction]
+    by_person: dict[str, int | Fraction]
     known: dict[str, int | Fraction] = field(default_factory=dict)
     words: dict[int, int] = field(default_factory=dict)
     waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
@@ -33,15 +33,15 @@ class Hearing:
 
     @property
     def settings(self) -> Settings:
-        """What rules take: what was given, else what was heard."""
-        return ChainMap(self.given, self.known)
+        """The numbers for rules: what the person gave, else what was heard."""
+        return ChainMap(self.by_person, self.known)
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
-        """Keep what the device said of points."""
+        """Keep the values of points that the device reported."""
         self.known.update(self.directory.settings(raws))
 
     def forget(self, address: int) -> None:
-        """What the device works out of a parameter must be read again once that was written."""
+        """Forget the values that the device derives from a parameter, once the parameter was written."""
         written = {point.name for point in self.directory.at("parameter", address)}
         for point in self.device.points:
             if written & set(point.changes_with):
@@ -50,10 +50,10 @@ class Hearing:
                     self.words.pop(at, None)
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
-        """A point and what its raw number means."""
+        """A point with the meaning of its raw number."""
         return value_item(self.device, point, base, (raw, self.settings), written=written)
 
 
 def odd_item(point: Point, base: Base, said: str, odd: str) -> Item:
-    """A point of which a frame carries something that is no number of it, and why that is wrong."""
+    """A point for which a frame carries something else than its number, and why that is wrong."""
     return replace(named_item(point, base, f"{said}; {odd}"), findings=(odd,))

@@ -1,4 +1,4 @@
-"""Frames in words, one after the other: each is read by those before it, and keeps what the device said of points."""
+"""Decodes frames one after the other: each is read with what the frames before it have told."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
 
 
 def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
-    """What pasted frames say, in their order; any bytes are safe. Raises UnclearError for what is no frame."""
+    """The meaning of pasted frames, in order; any bytes are safe. Raises UnclearError for text that is no frame."""
     speech = speech_of(device, options)
     requests = [] if options.request is None else speech.frames([options.request])
     frames = speech.frames(texts)
@@ -42,13 +42,13 @@ def decode(device: Device, settings: Settings, texts: Sequence[str], options: Op
 
 
 def speech_of(device: Device, options: Options) -> Speech:
-    """How frames of the device are taken apart. Raises UnclearError."""
+    """The decoder for frames of the device. Raises UnclearError."""
     speech: Speech = part_of(device, "speech").speech_of(device, options)
     return speech
 
 
 class Listener:
-    """Hears one frame after the other."""
+    """Decodes one frame after the other."""
 
     def __init__(self, device: Device, settings: Settings, speech: Speech) -> None:
         self._device = device
@@ -59,7 +59,7 @@ class Listener:
         self._parties: dict[int | None, Hearing] = {}
 
     def hear(self, frame: Any, *, expecting: bool = False) -> Heard:
-        """What the next frame says; any bytes are safe."""
+        """The meaning of the next frame; any bytes are safe."""
         spoken = self._speech.hear(frame, self._course, self._directory, expecting=expecting)
         unheard = Hearing(self._device, self._directory, self._given)
         hearing = self._parties.setdefault(spoken.party, unheard)
@@ -68,7 +68,7 @@ class Listener:
         return replace(spoken.heard, items=items)
 
     def expect_reply_to(self, frame: Any) -> Heard:
-        """Take a frame as the request that the following frames answer."""
+        """Treat a frame as the request that the following frames answer."""
         return self.hear(frame, expecting=True)
 
 

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _LONGEST = 64
 _NOT_ALONE = frozenset({"mux", "word"})
-"""Numberings whose numbers name many points: they are read only when asked for."""
+"""Numberings that are only searched when a prefix asks for them, for their numbers fit many points."""
 
 _NEAR = 5
 
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A point that was found: as what the question was read, and which word of the point it names (empty for all)."""
+    """A point that was found, how the question was understood, and which word it names (empty for all)."""
 
     reading: str
     point: Point
@@ -45,19 +45,19 @@ def find(device: Device, what: str) -> list[Match]:
     element = _ELEMENT.fullmatch(asked[:_LONGEST])
     if element is not None:
         matches = find(device, f"{forced}:{element[1]}" if forced else element[1])
-        return [one for one in matches if one.point.index == int(element[2])]
-    found = [*_by_code(device, asked, forced), *_by_name(device, asked, forced)]
+        return [match for match in matches if match.point.index == int(element[2])]
+    matches_of_form = [*_by_code(device, asked, forced), *_by_name(device, asked, forced)]
     number = number_of(asked)
     if number is not None and forced in (None, "wire"):
-        found += _by_wire(device, number)
+        matches_of_form += _by_wire(device, number)
     for key in _numberings(device):
         if forced == key.lower() or (forced is None and key not in _NOT_ALONE):
-            found += _by_reference(device, key, asked, number)
-    return found
+            matches_of_form += _by_reference(device, key, asked, number)
+    return matches_of_form
 
 
 def near(device: Device, what: str) -> list[str]:
-    """Names and codes that resemble `what`; for a number, the points around that address. For when nothing matches."""
+    """For a question without a match: similar names and codes, or for a number the points next to it."""
     from difflib import get_close_matches
 
     asked = _split(device, what.strip())[1][:_LONGEST].lower()
@@ -66,11 +66,11 @@ def near(device: Device, what: str) -> list[str]:
         return [point.item for point in _neighbours(device, number)]
     known = {point.item: point.item for point in device.points}
     known |= {point.code.lower(): point.code for point in device.points if point.code}
-    return [known[one] for one in get_close_matches(asked, list(known), _NEAR)]
+    return [known[spelling] for spelling in get_close_matches(asked, list(known), _NEAR)]
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:
-    """The forced reading, if any, and what is left."""
+    """The prefix, if any, and the text after it."""
     prefix, colon, rest = what.partition(":")
     prefix = prefix.strip().lower()
     known = {"wire", "code", "name", *(key.lower() for key in _numberings(device))}
@@ -107,17 +107,17 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
         for place in point.places:
             if number in place.addresses:
                 purpose = "" if place is point.places[0] else f", to {place.purpose}"
-                told = f"{reading}, {place.space}{purpose}"
+                meaning = f"{reading}, {place.space}{purpose}"
                 if point.telegram is not None:
-                    told = f"word {number} of the telegram {line(point.telegram)}"
+                    meaning = f"word {number} of the telegram {line(point.telegram)}"
                 elif point.index is not None and place.space in family(device.family).indexed:
-                    told += f", index {point.index}"
-                yield Match(told, point, word_text(place.addresses, number, text=point.text is not None))
+                    meaning += f", index {point.index}"
+                yield Match(meaning, point, word_text(place.addresses, number, text=point.text is not None))
                 break
 
 
 def _by_reference(device: Device, key: str, asked: str, number: int | None) -> Iterator[Match]:
-    """Points whose printed number, or that of one of their words (counted on from the lowest), is the one asked for."""
+    """Points whose printed number is this one; each further word of a point has the next number."""
     per_frame = _words_per_frame(device)
     for point in device.points:
         printed = point.references.get(key)
@@ -133,8 +133,8 @@ def _by_reference(device: Device, key: str, asked: str, number: int | None) -> I
 
 
 def _words_per_frame(device: Device) -> dict[str, int]:
-    """How many words of each telegram one of its several frames brings."""
-    parts = [one for one in device.messages if any(role.kind == "multiplexer" for role in one.roles)]
+    """For each telegram in several frames, how many words one frame carries."""
+    parts = [message for message in device.messages if any(role.kind == "multiplexer" for role in message.roles)]
     words = {message.name: message.words for message in parts}
     return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}
 
@@ -149,8 +149,8 @@ def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterato
 
 
 def _neighbours(device: Device, number: int) -> list[Point]:
-    """The next point below and the next above an address."""
+    """The nearest points below and above an address."""
     placed = [(point.address, point) for point in device.points if point.address is not None]
-    below = max((one for one in placed if one[0] < number), key=lambda one: one[0], default=None)
-    above = min((one for one in placed if one[0] > number), key=lambda one: one[0], default=None)
-    return [one[1] for one in (below, above) if one is not None]
+    below = max((entry for entry in placed if entry[0] < number), key=lambda entry: entry[0], default=None)
+    above = min((entry for entry in placed if entry[0] > number), key=lambda entry: entry[0], default=None)
+    return [entry[1] for entry in (below, above) if entry is not None]

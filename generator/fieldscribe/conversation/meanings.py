@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What a raw number says: words, the exact value if it is a quantity, and what is missing or odd."""
+    """The meaning of a raw number: text, the exact value of a quantity, and what is missing or unusual."""
 
     text: str
     value: str | None = None
@@ -34,7 +34,7 @@ class Meaning:
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
-    """The meaning of a raw number; never fails: what cannot be said is said."""
+    """The meaning of a raw number; never fails: if it is unknown, the text says so."""
     if point.text is not None:
         return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
     named = _named(point, raw)
@@ -42,13 +42,13 @@ def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Me
 
 
 def _named(point: Point, raw: int) -> str | None:
-    """The words of a raw number that is no quantity."""
+    """The text of a raw number that is no quantity; None if it is one."""
     special = point.special(raw)
     if special is not None:
         remark = ", no value" if special.no_value else ""
         return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
     if point.enum is not None:
-        entry = next((one for one in point.enum.entries if one.raw == raw), None)
+        entry = next((entry for entry in point.enum.entries if entry.raw == raw), None)
         named = "" if entry is None else wording.entry_meaning(entry)
         return line(named) or f"{raw}, a number without a name in the manual"
     if point.flags:
@@ -59,7 +59,7 @@ def _named(point: Point, raw: int) -> str | None:
 
 
 def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings) -> Iterator[str]:
-    """What became of a value that the point cannot hold exactly."""
+    """Remarks on how a value was rounded that the point cannot hold exactly."""
     if point.info.floating:
         return
     got = codec.decode(point, raw, settings)
@@ -77,7 +77,7 @@ def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings
 
 
 def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Why the device will not take a raw number that a frame writes; empty if it may."""
+    """Why the device refuses a raw number that a frame writes; empty if it accepts it."""
     if not point.writable:
         return f"it is {wording.access_text(point.access)}"
     try:
@@ -90,15 +90,15 @@ def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> 
 
 
 def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """That a written number could not be held against limits which other points set; empty if it was."""
+    """The remark that a written number was not checked, for its limits depend on unknown points; else empty."""
     if not point.writable:
         return ""
     try:
         codec.check(point, raw, settings)
     except CodecError as error:
         if error.status == "missing":
-            given = " ".join(f"--with {name}=VALUE" for name in error.missing)
-            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {given}"
+            switches = " ".join(f"--with {name}=VALUE" for name in error.missing)
+            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {switches}"
     return ""
 
 
@@ -185,7 +185,7 @@ def _is_true(flag: Flag, raw: int) -> bool:
 
 def _flag_text(flag: Flag, raw: int) -> str:
     number = raw >> flag.low & ((1 << flag.width) - 1)
-    entry = next((one for one in flag.values if one.raw == number), None)
+    entry = next((entry for entry in flag.values if entry.raw == number), None)
     if flag.width > 1:
         return f"{flag.name} = {entry.name if entry else number}"
     if entry is not None and entry.title["en"].casefold().replace(" ", "_") != flag.name:

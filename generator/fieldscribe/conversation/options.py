@@ -1,4 +1,4 @@
-"""What a person says of the link and of single frames, and which families have a use for it."""
+"""The options for links and frames, and which families use them."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ if TYPE_CHECKING:
 
 
 def asks_for_frames(options: Options) -> bool:
-    """Whether something was said that only a whole frame has a use for."""
+    """Whether any option was given that only concerns whole frames."""
     return options != Options(index=options.index)
 
 
-def framings(one: Family) -> tuple[str, ...]:
-    """How frames of a family may be wrapped, where that is a choice."""
-    return one.framings if len(one.framings) > 1 else ()
+def framings(bus_family: Family) -> tuple[str, ...]:
+    """The framings of a family, if there is a choice."""
+    return bus_family.framings if len(bus_family.framings) > 1 else ()
 
 
 def refuse_foreign(device: Device, options: Options) -> None:
-    """Refuse what only devices of other families have a use for. Raises UnclearError."""
+    """Refuse options that only other families use. Raises UnclearError."""
     for name in _said(options):
-        takers = [one.name for one in families() if _takes(one, name)]
+        takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
         if device.family not in takers:
             flag = f"--{name.replace('_', '-')}"
             message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
@@ -40,11 +40,13 @@ def refuse_foreign(device: Device, options: Options) -> None:
 
 
 def _said(options: Options) -> Iterator[str]:
-    yield from (one.name for one in fields(options) if one.name != "own" and getattr(options, one.name) is not None)
+    yield from (
+        option.name for option in fields(options) if option.name != "own" and getattr(options, option.name) is not None
+    )
     yield from options.own
 
 
-def _takes(one: Family, name: str) -> bool:
-    """Whether a family has a use for an option."""
-    shared = {"framing": bool(framings(one)), "index": bool(one.indexed), "unit": True, "request": True}
-    return shared.get(name, False) or any(option.name == name for option in one.options)
+def _takes(bus_family: Family, name: str) -> bool:
+    """Whether a family uses an option."""
+    shared = {"framing": bool(framings(bus_family)), "index": bool(bus_family.indexed), "unit": True, "request": True}
+    return shared.get(name, False) or any(option.name == name for option in bus_family.options)

@@ -1,4 +1,4 @@
-"""What can be explained beside points: commands, errata, frames, and addresses that the manual closes."""
+"""Explains what is not a point: commands, errata, frames, and addresses that the manual closes."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Command, Device, Erratum, Source
 
-Told = tuple[list[str], Explanation]
-"""As what the question was read, and the answer."""
+Answer = tuple[list[str], Explanation]
+"""How the question was understood, and the answer."""
 
 
-def explain_others(device: Device, what: str) -> list[Told]:
-    """Everything but points that a name or a wire address means."""
+def explain_others(device: Device, what: str) -> list[Answer]:
+    """Every meaning of a name or a wire address that is not a point."""
     prefix, colon, rest = what.strip().partition(":")
     if colon and prefix.strip().lower() == "unit":
         return [([reading], _clean(heading, rows)) for reading, heading, rows in find_units(device, rest.strip())]
     return list(_others(device, what.strip()))
 
 
-def _others(device: Device, what: str) -> Iterator[Told]:
+def _others(device: Device, what: str) -> Iterator[Answer]:
     prefix, colon, rest = what.partition(":")
     forced = prefix.strip().lower() if colon else ""
     asked = rest.strip() if colon else what

@@ -1,4 +1,4 @@
-"""What frames say of parameters: of a whole element, or of one word of it."""
+"""What frames say about parameters: a whole element, or one word of it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SPACE = "parameter"
 
 
 def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
-    """What a frame says of one element of a parameter."""
+    """What a frame says about one element of a parameter."""
     points = hearing.directory.at(_SPACE, element.parameter, element.index)
     base = (_SPACE, element.parameter, max(1, element.width))
     carried = f"carries {words_text(element.words)}"
@@ -33,8 +33,8 @@ def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
         yield from (named_item(point, (_SPACE, element.parameter, point.words)) for point in points)
     elif not points:
         text = element_text(element.parameter, element.index, alone=True)
-        told = f" ({carried})" if element.width or not element.asked else ""
-        yield Item(*base, f"{text}: no point is described here{told}")
+        carried_text = f" ({carried})" if element.width or not element.asked else ""
+        yield Item(*base, f"{text}: no point is described here{carried_text}")
     elif not element.asked and (element.width == 0 or element.counts):
         said = f"{element.value} elements" if element.counts else carried
         yield from (named_item(point, base, said) for point in points)
@@ -57,14 +57,14 @@ def _element(hearing: Hearing, element: Element, point: Point, base: Base, carri
 
 
 def _width_finding(point: Point, element: Element) -> str:
-    """That a value has another number of words than the parameter."""
+    """The finding that a value has a different number of words than the parameter."""
     words = "a double word" if point.words == 2 else counted(point.words, "word")
     said = f"the parameter is {words}, the {'task' if element.asked else 'response'} carries {element.width}"
     return f"{said}; a device answers with a wrong data type" if element.asked else said
 
 
 def word_items(hearing: Hearing, word: Word) -> Iterator[Item]:
-    """What a frame says of one word of a parameter."""
+    """What a frame says about one word of a parameter."""
     if word.learned and word.raw is not None:
         hearing.words[word.address] = word.raw
     if word.stale:
@@ -105,7 +105,7 @@ def _word(hearing: Hearing, word: Word, point: Point) -> Item:
 
 
 def _fixed_finding(point: Point, word: int) -> str:
-    """That a written word has not the bits beside a bit group that are always written as a constant."""
+    """The finding that a written word lacks the constant bits that belong beside a bit group."""
     if point.bits is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
         return ""
     return f"the word breaks what is always written: {fixed_text(point)}"

@@ -25,27 +25,27 @@ _MOST_NAMES = 30
 
 
 def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str = ": ") -> RefusedError:
-    """The refusal of a point for a reason, which stands behind its name."""
+    """The refusal with the label of the point in front of the reason."""
     return RefusedError(status, line(f"{label(point)}{joint}{why}"), hint, why=line(why))
 
 
 Circumstances = tuple[CodecError, Settings]
-"""What failed, and with which raw numbers of other points."""
+"""The error, and the raw numbers of other points that led to it."""
 
 
 def refusal(device: Device, point: Point, value: Fraction | None, raw: int, why: Circumstances) -> RefusedError:
-    """A codec's failure in words; `value` is what was asked for, or None and `raw` is."""
+    """The error of the codec in words; `value` is what was asked for, or None if `raw` was."""
     error, settings = why
     if error.status in ("out_of_range", "unknown_value"):
-        return _outside(device, point, value, raw, settings)
+        return _out_of_range_refusal(device, point, value, raw, settings)
     if error.special is not None:
-        return _code(point, value, raw, error.special)
+        return _special_code_refusal(point, value, raw, error.special)
     message, hint = failure(device, point, error)
     return _refused(point, error.status, message, hint)
 
 
-def _code(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
-    """A special code where a quantity belongs, or one that is only read."""
+def _special_code_refusal(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
+    """The refusal of a special code: it was given as a quantity, or it can only be read."""
     title = f"`{special.name}` ({wording.title_text(special.title)})"
     if value is not None:
         code = wording.special_numbers(special, point.width)
@@ -61,7 +61,7 @@ def _code(point: Point, value: Fraction | None, raw: int, special: Special) -> R
 
 
 def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
-    """What a failure other than a wrong range means, and what to do about it (may be empty)."""
+    """The message for any other error, and a hint (or empty)."""
     blamed = names_text(device, error.missing)
     if error.status == "missing":
         hint = "give " + " ".join(f"--with {_short(device, name)}=VALUE" for name in error.missing)
@@ -77,18 +77,18 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
 
 
 def names_text(device: Device, names: Iterable[str]) -> str:
-    """Points as people know them: `A062 lower_frequency_limit and A004 maximum_frequency`."""
+    """The names that people know points by: `A062 lower_frequency_limit and A004 maximum_frequency`."""
     points = points_by_name(device)
     return " and ".join(_name(points[name]) if name in points else line(name) for name in names)
 
 
 def _name(point: Point) -> str:
-    """A point as rules know it: of all its variants."""
+    """The name that rules use for a point, common to all its variants."""
     return f"{line(point.code)} {point.name}" if point.code else point.name
 
 
 def amount(number: Fraction) -> str:
-    """A number for people: exact where it is short, else rounded and marked so."""
+    """A number for people: exact if that is short, else rounded and marked as rounded."""
     exactly = number_text(number)
     if "/" in exactly or (len(exactly) > _MOST_DIGITS + (exactly[0] == "-") and "." in exactly):
         return f"about {float(number):.9g}" if abs(number) < 10**300 else exactly
@@ -105,14 +105,16 @@ def _short(device: Device, name: str) -> str:
     return line(point.code) if point is not None and point.code else name
 
 
-def _outside(device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings) -> RefusedError:
-    if point.enum is not None and all(isinstance(one.low, int) for one in point.allowed.intervals):
-        known = ", ".join(f"{one.raw} {one.name}" for one in point.enum.entries[:_MOST_NAMES])
+def _out_of_range_refusal(
+    device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings
+) -> RefusedError:
+    if point.enum is not None and all(isinstance(interval.low, int) for interval in point.allowed.intervals):
+        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.enum.entries[:_MOST_NAMES])
         status = "unknown_value" if point.enum.closed else "out_of_range"
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         return _refused(point, status, f"does not take {raw}", line(f"it has {known}{beyond}"), joint=" ")
     if point.digits is not None and codec.strange_digits(point, raw):
-        known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
+        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.digits.enum.entries[:_MOST_NAMES])
         hint = line(f"each digit is one of {known}")
         return _refused(point, "unknown_value", f"does not take {raw}", hint, joint=" ")
     if with_fixed(point, raw) != raw:
@@ -128,10 +130,10 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
 
 
 def _range_now(point: Point, settings: Settings) -> str:
-    """The range with the limits of other points put in, where all of them are known."""
+    """The range with the limits from other points filled in, if all of them are known."""
     try:
-        spans = [one for one in codec.windows(point, settings) if not one.missing]
-        parts = [_span(point, one.low, one.high, settings) for one in spans if one.low <= one.high]
+        spans = [window for window in codec.windows(point, settings) if not window.missing]
+        parts = [_span(point, window.low, window.high, settings) for window in spans if window.low <= window.high]
     except CodecError:
         return ""
     if len(spans) < len(point.allowed.intervals):

@@ -1,4 +1,4 @@
-"""The requests that read and write a point, as far as the device's family knows any."""
+"""The requests that read and write a point, if the family of the device has any."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def part_of(device: Device, name: str) -> Any:
-    """What the device's family knows of frames. Raises UnclearError."""
+    """A part of the device's family, such as `sending`. Raises UnclearError."""
     part = family(device.family).part(name)
     if part is None:
         message = f"frames of the family {device.family} are not known here"

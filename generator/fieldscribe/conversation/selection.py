@@ -1,4 +1,4 @@
-"""What a person chose of a device: variants and one point. Raises UnclearError with a hint."""
+"""The choices of a person: variants of a device, and one point. Raises UnclearError with a hint."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     """The device with only the points of the chosen variants, each given as `axis=value`, and only their values.
 
-    Points that a condition excludes then stay: what is asked of them is refused with that condition, see `absence`.
+    Points that a condition then excludes are kept, so that a question about them can name the condition (`absence`).
     """
     wanted: dict[str, str] = {}
-    for axis, value in (_variant(device, one) for one in chosen):
+    for axis, value in (_variant(device, choice) for choice in chosen):
         if wanted.setdefault(axis, value) != value:
             raise UnclearError(
                 f"`{axis}` is said to be `{wanted[axis]}` and `{value}`", "choose one value of each axis"
@@ -45,13 +45,13 @@ def absence(device: Device, point: Point) -> str:
 
 
 def present(device: Device, points: Iterable[Point]) -> list[Point]:
-    """Those of the points that the chosen variants have or may have; all of them where that is none."""
-    found = list(points)
-    return [point for point in found if not absent(point.when, device.variants)] or found
+    """The points that the chosen variants have or may have; all points if there is none."""
+    candidates = list(points)
+    return [point for point in candidates if not absent(point.when, device.variants)] or candidates
 
 
 def choose_point(device: Device, asked: str, *, index: int | None = None, alike: bool = False) -> Point:
-    """The one point that a code, name or address means; with `alike` also one of variants that mean the same.
+    """The one point with this code, name or address; with `alike`, one of several variants with the same meaning.
 
     `index` chooses one element of an array.
     """
@@ -61,14 +61,15 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
         hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
         raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
     points = present(device, {match.point.item: match.point for match in matches}.values())
-    if len(points) == 1 or (alike and points and all(same_meaning(one, points[0]) for one in points)):
+    if len(points) == 1 or (alike and points and all(same_meaning(point, points[0]) for point in points)):
         return points[0]
     if not points:
         raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
     if len({point.name for point in points}) == 1:
         variants = [point.variant for point in points if point.variant]
         raise UnclearError(
-            f"`{quoted(asked)}` differs between variants", "give " + " or ".join(f"--variant {one}" for one in variants)
+            f"`{quoted(asked)}` differs between variants",
+            "give " + " or ".join(f"--variant {variant}" for variant in variants),
         )
     if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
         choices = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
@@ -80,13 +81,13 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:
-    """The points as rules and limits refer to them."""
+    """The points by the names that rules and limits use."""
     return {point.name: point for point in device.points}
 
 
-def same_meaning(one: Point, other: Point) -> bool:
-    """Whether points of one name differ in their place or limits only."""
-    facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (one, other)]
+def same_meaning(first: Point, second: Point) -> bool:
+    """Whether two points mean the same: they differ only in place or limits."""
+    facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (first, second)]
     return facts[0] == facts[1]
 
 

@@ -1,4 +1,4 @@
-"""What consecutive addresses say, in their order; neighbours that nobody knows are one item."""
+"""What a frame says about consecutive addresses, in order; neighbouring unknown addresses are one item."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _MOST_WORDS = 16
 
 
 def span_items(hearing: Hearing, span: Span) -> Iterator[Item]:
-    """What a span says; its points are settings of each other."""
+    """The items of a span; its points are settings for each other."""
     words = dict(zip(range(span.address, span.address + span.count), span.words or (), strict=False))
-    raws = list(_raws(hearing, span, words))
+    raws = list(_whole_points(hearing, span, words))
     inside = replace(hearing, known={**hearing.known, **dict(hearing.directory.settings(raws))})
     if span.learned:
         hearing.known.update(inside.known)
@@ -44,8 +44,8 @@ def span_items(hearing: Hearing, span: Span) -> Iterator[Item]:
     yield from _unknown(hearing.device, span, words, unknown)
 
 
-def _raws(hearing: Hearing, span: Span, words: dict[int, int]) -> Iterator[tuple[Point, int]]:
-    """All points that the span carries whole."""
+def _whole_points(hearing: Hearing, span: Span, words: dict[int, int]) -> Iterator[tuple[Point, int]]:
+    """The points that the span carries whole, with their raw numbers."""
     for address in words:
         for point, place in hearing.directory.places(span.space, address):
             if address == place.addresses[0] and all(at in words for at in place.addresses):
@@ -53,7 +53,7 @@ def _raws(hearing: Hearing, span: Span, words: dict[int, int]) -> Iterator[tuple
 
 
 def _items(hearing: Hearing, span: Span, words: dict[int, int], address: int) -> Iterator[Item]:
-    """The points whose first address in the span this is, and the command that it is written to."""
+    """The points whose first address in the span is this one, and the command with this address."""
     for point, place in hearing.directory.places(span.space, address):
         if address == min(at for at in place.addresses if at >= span.address):
             yield _point(hearing, span, words, point, place)
@@ -90,9 +90,9 @@ def _unknown(device: Device, span: Span, words: dict[int, int], addresses: Seque
     yield Item(span.space, low, len(addresses), text, findings=(closed,) if closed else ())
 
 
-def _command(command: Command, span: Span, given: int | None) -> Item:
-    wrong = command.value is not None and given is not None and given != command.value
-    odd = f"it takes {command.value}, here is {given}" if wrong else ""
+def _command(command: Command, span: Span, raw: int | None) -> Item:
+    wrong = command.value is not None and raw is not None and raw != command.value
+    odd = f"it takes {command.value}, here is {raw}" if wrong else ""
     text = f"command {command.name}: {title_text(command.title)}" + (f"; {odd}" if odd else "")
     text += f"; the memory stands {command.wears} writes" if command.wears else ""
-    return Item(span.space, command.address, 1, line(text), raw=given, findings=(odd,) if odd else ())
+    return Item(span.space, command.address, 1, line(text), raw=raw, findings=(odd,) if odd else ())

@@ -1,4 +1,4 @@
-"""What words of telegrams say: process data, masks over them, and telegrams that come in several frames."""
+"""Explains words of telegrams: process data, their masks, and telegrams that come in several frames."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.conversation.items import named_item, value_said
+from fieldscribe.conversation.items import named_item, value_with_raw
 from fieldscribe.families.answers import Item
 from fieldscribe.wording.buses import word_text, words_text
 
@@ -23,7 +23,7 @@ def _names(hearing: Hearing, direction: str) -> list[str]:
 
 
 def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
-    """What words of process data say."""
+    """The items of process data."""
     names, words = _names(hearing, data.direction), data.words
     for place, word in enumerate(words):
         points = [point for name in names for point in hearing.directory.at(name, place)]
@@ -34,7 +34,7 @@ def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
             raw = raw_of(point, words[place : place + point.words])
             if point.generated or point.scale is not None:
                 item = hearing.value(point, base, raw, written=data.direction == "request")
-                # a word of zeros is what a master sends that has nothing to say
+                # a master that has nothing to say sends words of zero
                 yield item if raw else replace(item, findings=())
             else:
                 yield named_item(point, base, f"carries {word:04X}h; {point.reason or 'its meaning is open'}")
@@ -43,7 +43,7 @@ def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
 
 
 def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
-    """Which words of process data count, and which bits of control words."""
+    """The items of masks: which words of process data are valid, and which bits of control words."""
     counts = [str(place) for place in range(1, 16) if masks.words[0] >> place & 1]
     which = " and ".join([", ".join(counts[:-1]), counts[-1]] if counts[1:] else counts)
     said = f"words {which} of process data count" if counts else "no word of process data counts"
@@ -53,7 +53,7 @@ def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
 
 
 def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item:
-    """Which bits of a control word count."""
+    """The item of one mask: which bits of a control word are valid."""
     names = _names(hearing, "request")
     point = next((point for name in names for point in hearing.directory.at(name, place)), None)
     about = point.code or point.name if point is not None else f"word {place + 1}"
@@ -69,7 +69,7 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
 
 
 def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
-    """What some words of a telegram say, and what they tell of words that came before."""
+    """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
     telegram = piece.telegram.name
     points = {point.item: point for at in piece.positions for point in hearing.directory.at(telegram, at)}
     heard = {item: piece.pieces.words(point.addresses) for item, point in points.items()}
@@ -85,15 +85,15 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
         if not hearing.directory.at(telegram, at):
             words = words_text(piece.pieces.words((at,))[1])
             yield Item(telegram, at, 1, f"word {at}: no point is described here ({words})")
-    yield from _resolved(hearing, telegram, points)
+    yield from _completed_points(hearing, telegram, points)
     hearing.waiting.update((point.item, (point, raws[point.item])) for point in lacking)
 
 
 def _point(hearing: Hearing, piece: Piece, point: Point, raw: int | None) -> Item:
-    """A point of the telegram, or as much of it as the frames so far tell."""
+    """A point of the telegram, as far as the frames so far tell it."""
     base = (piece.telegram.name, min(point.addresses), len(point.addresses))
     if raw is None:
-        return named_item(point, base, _partly(hearing, piece, point))
+        return named_item(point, base, _incomplete_text(hearing, piece, point))
     item = hearing.value(point, base, raw)
     if not item.missing:
         return item
@@ -104,12 +104,12 @@ def _point(hearing: Hearing, piece: Piece, point: Point, raw: int | None) -> Ite
     return replace(item, text=item.text + comes)
 
 
-def _partly(hearing: Hearing, piece: Piece, point: Point) -> str:
-    """What is known of a number whose words are in two frames and do not surely belong together."""
+def _incomplete_text(hearing: Hearing, piece: Piece, point: Point) -> str:
+    """What is known of a number whose words come in two frames and may not belong together."""
     parts = [piece.pieces.words((at,)) for at in point.addresses]
     if any(status != "ok" for status, _ in parts):
         return _waiting_text(point, [words for _, words in parts], piece.pieces.per_frame)
-    would = value_said(hearing.device, point, (raw_of(point, [words[0] for _, words in parts]), hearing.settings))
+    would = value_with_raw(hearing.device, point, (raw_of(point, [words[0] for _, words in parts]), hearing.settings))
     high = point.addresses[0] // piece.pieces.per_frame
     return (
         f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
@@ -118,15 +118,15 @@ def _partly(hearing: Hearing, piece: Piece, point: Point) -> str:
 
 
 def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) -> str:
-    """Which words of a number came, and with which multiplexer the others come."""
+    """Which words of a number have come, and which multiplexers carry the others."""
     places = list(zip(point.addresses, parts, strict=True))
     came = [f"only the {word_text(point.addresses, at)} = {words[0]:04X}h" for at, words in places if words]
     slots = dict.fromkeys(str(at // per_frame) for at, words in places if not words)
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _resolved(hearing: Hearing, telegram: str, now: dict[str, Point]) -> Iterator[Item]:
-    """Points of frames before that this frame gave their missing factors."""
+def _completed_points(hearing: Hearing, telegram: str, now: dict[str, Point]) -> Iterator[Item]:
+    """Points of earlier frames whose missing values came with this frame."""
     for name, (point, raw) in list(hearing.waiting.items()):
         item = hearing.value(point, (telegram, min(point.addresses), len(point.addresses)), raw)
         if name not in now and not item.missing:

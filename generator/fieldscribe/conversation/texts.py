@@ -1,4 +1,4 @@
-"""Texts in words: two characters a word, the first in the high byte of the first word, padded with spaces."""
+"""Texts of devices: two characters in each word, the first in the high byte, padded with spaces."""
 
 from __future__ import annotations
 
@@ -12,28 +12,29 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
 
 _SENT = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF))}
-"""The characters that may be written, by encoding."""
+"""The ranges of characters that may be written, by encoding."""
 
 
 def text_of(pattern: int, words: int) -> str:
-    """The characters of a text as an instrument shows them, without the padding; every byte is one."""
+    """The text as an instrument shows it, without padding; each byte is one character."""
     return pattern.to_bytes(2 * words, "big").rstrip(b" ").decode("latin-1")
 
 
 def shown(text: str) -> str:
-    """A text from the line between quotes; what is no letter is escaped, and blanks that would run together."""
+    """A received text in quotes; unprintable characters and repeated spaces are escaped."""
     pairs = zip(f'"{text}', text, strict=False)
-    plain = [one.isprintable() and one not in '"\\' and before + one != "  " for before, one in pairs]
-    return '"' + "".join(one if fine else f"\\x{ord(one):02X}" for one, fine in zip(text, plain, strict=True)) + '"'
+    plain = [char.isprintable() and char not in '"\\' and before + char != "  " for before, char in pairs]
+    escaped = (char if fine else f"\\x{ord(char):02X}" for char, fine in zip(text, plain, strict=True))
+    return f'"{"".join(escaped)}"'
 
 
 def pattern_of_text(point: Point, typed: str) -> int:
-    """The words of a typed text as one number, the first characters highest. Raises RefusedError."""
+    """The words of a typed text as one number, the first characters in the highest bits. Raises RefusedError."""
     layout = point.text
     if layout is None:
         raise RefusedError("out_of_range", f"{label(point)} is no text")
     spans = _SENT.get(layout.encoding, _SENT["ascii"])
-    strange = next((one for one in typed if not any(low <= ord(one) <= high for low, high in spans)), None)
+    strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
     if strange is not None:
         said = line(strange) or f"U+{ord(strange):04X}"
         message = f"{label(point)} cannot hold `{said}`: its characters are {layout.encoding}"

@@ -1,4 +1,4 @@
-"""What a person types as a value: a number with or without its unit, a name, on or off, flags."""
+"""Reads the values that a person types: a number with or without its unit, a name, on or off, flags."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
 
 @dataclass(frozen=True, slots=True)
 class Typed:
-    """What was typed: a quantity to be encoded, or (`value` is None) directly a raw number."""
+    """A typed value: a quantity to encode, or a raw number if `value` is None."""
 
     value: Fraction | None
     raw: int
 
 
 def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
-    """What the text means for the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
+    """The value that the text gives the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
     if as_raw and point.text is None:
         return Typed(None, _whole(text))
     if point.text is not None:
@@ -79,7 +79,7 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
 
 
 def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
-    """What rules take of points, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    """The settings for rules, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
     settings: dict[str, int | Fraction] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
@@ -93,7 +93,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]
 
 
 def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
-    """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
+    """The raw number that another point holds. Only its bits limit it: it may hold what must not be written."""
     if point.text is not None:
         raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
     typed = read_value(point, text, as_raw=as_raw)
@@ -123,21 +123,21 @@ def _number(point: Point, text: str) -> Fraction:
     try:
         return parse_number(text)
     except NumberError:
-        found = _MEASURE.fullmatch(text)
-        if found is None:
+        measure = _MEASURE.fullmatch(text)
+        if measure is None:
             raise
-    number = parse_number(found[1])
-    factor = _factor(point, found[2].strip())
+    number = parse_number(measure[1])
+    factor = _factor(point, measure[2].strip())
     if factor is None:
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
         raise UnclearError(
-            f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone"
+            f"{label(point)} {has}, not in `{quoted(measure[2])}`", "give the number in that unit, or alone"
         )
     return number * factor
 
 
 def _factor(point: Point, typed: str) -> Fraction | None:
-    """How many of the point's unit one of what was typed is. Case may differ, but not of a prefix: mW is not MW."""
+    """The factor from the typed unit to the point's unit. Case may differ, but not in a prefix: mW is not MW."""
     symbol = point.unit.symbol
     if not symbol:
         return None
@@ -146,7 +146,7 @@ def _factor(point: Point, typed: str) -> Fraction | None:
 
 
 def _is_unit(point: Point, typed: str) -> bool:
-    """Whether the text spells the point's unit in another way."""
+    """Whether the text is another spelling of the point's unit."""
     symbol = point.unit.symbol
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
@@ -159,7 +159,7 @@ def _is_unit(point: Point, typed: str) -> bool:
 
 
 def _names(point: Point) -> Iterator[tuple[str, int]]:
-    """Everything that names a raw number of the point, the plain names first."""
+    """All names for raw numbers of the point, the plain names first."""
     entries = point.enum.entries if point.enum else ()
     yield from ((special.name, special.low) for special in point.specials if special.low == special.high)
     yield from ((entry.name, entry.raw) for entry in entries)
@@ -173,7 +173,7 @@ def _named(point: Point, text: str) -> int | None:
     for name, raw in _names(point):
         if " ".join(name.casefold().split()) == wanted:
             return raw
-    band = next((one for one in point.specials if one.name == wanted), None)
+    band = next((special for special in point.specials if special.name == wanted), None)
     if band is not None:
         numbers = wording.special_numbers(band, point.width)
         raise UnclearError(f"`{band.name}` is all of {numbers}", f"say which one: {point.name}.raw, and the raw number")
@@ -189,7 +189,7 @@ def _digits(point: Point, text: str) -> int | None:
         raise UnclearError(f"{label(point)} has {point.digits.count} digits, here are {len(parts)}", "")
     raw = 0
     for part in parts:
-        named = (one.raw for one in point.digits.enum.entries if part.casefold() in (one.name, one.quantity))
+        named = (entry.raw for entry in point.digits.enum.entries if part.casefold() in (entry.name, entry.quantity))
         digit = next(named, None)
         digit = _whole(part) if digit is None else digit
         if not 0 <= digit <= 9:
@@ -223,10 +223,10 @@ def _flags(point: Point, text: str) -> int | None:
 
 
 def _flag(point: Point, part: str) -> tuple[Flag, int]:
-    name, equals, value = (one.strip() for one in part.partition("="))
-    flag = next((one for one in point.flags if one.name == name), None)
+    name, equals, value = (side.strip() for side in part.partition("="))
+    flag = next((flag for flag in point.flags if flag.name == name), None)
     if flag is None:
-        names = [one.name for one in point.flags]
+        names = [flag.name for flag in point.flags]
         hint = did_you_mean(get_close_matches(name, names, 3)) or f"it has {', '.join(names)}"
         raise UnclearError(f"{label(point)} has no flag `{quoted(name)}`", hint)
     if not equals:

@@ -9,14 +9,14 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Unit
 
-Found = tuple[str, str, list[tuple[str, str]]]
-"""As what the question was read, a heading, and rows."""
+Answer = tuple[str, str, list[tuple[str, str]]]
+"""How the question was understood, a heading, and rows."""
 
 _MOST_POINTS = 20
 
 
-def find_units(device: Device, asked: str) -> Iterator[Found]:
-    """The unit of that symbol, as the device means it; a shipped one also if no point has it."""
+def find_units(device: Device, asked: str) -> Iterator[Answer]:
+    """The unit with this symbol, as the device uses it; also a shipped unit that no point has."""
     from fieldscribe.language.units import shipped_unit
 
     own = {point.unit.symbol: point.unit for point in device.points if point.unit.symbol}
@@ -31,10 +31,10 @@ def _rows(device: Device, unit: Unit) -> list[tuple[str, str]]:
     known = shipped().get(unit.symbol)
     declared = known is None or known.unit != unit
     names = list(dict.fromkeys(point.name for point in device.points if point.unit == unit))
-    more = f" and {len(names) - _MOST_POINTS} more" if len(names) > _MOST_POINTS else ""
+    rest = f" and {len(names) - _MOST_POINTS} more" if len(names) > _MOST_POINTS else ""
     return [
         ("Quantity", unit.quantity),
         ("Means", f"{known.factor} {known.base}" if known is not None and known.prefix and not declared else ""),
         ("Declared", "by the description" if declared else "no need: it comes with fieldscribe"),
-        ("Points", ", ".join(names[:_MOST_POINTS]) + more if names else "none"),
+        ("Points", ", ".join(names[:_MOST_POINTS]) + rest if names else "none"),
     ]

@@ -1,6 +1,6 @@
-"""Bus families: addressing and framing rules that many devices share. A family is a folder, and a line below.
+"""Bus families: addressing and framing rules that many devices share. Each family is one folder and one line below.
 
-A folder offers its `FAMILY` (`contract.py` beside this says what that is). Nothing outside the folders names a family.
+The `facts.py` of a folder defines `FAMILY`, a `contract.Family`. No code outside the folders names a family.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ FAMILIES: dict[str, str] = {
     "can": "fieldscribe.families.can",
     "uss": "fieldscribe.families.uss",
 }
-"""All families by name, with the package that each one is."""
+"""The package of each family, by the name of the family."""
 
 
 def family(name: str) -> Family:

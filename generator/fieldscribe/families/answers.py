@@ -1,4 +1,4 @@
-"""What is answered to people: frames and what they say, and the frames that write a point."""
+"""The answers that people get: decoded frames, and the frames that write a point."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """What a frame says of one place: a point and what its raw number means, a part of it, a command, or nothing known.
+    """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `text` is complete in itself for people. `missing` names points without whose raw numbers there is no value;
-    `findings` are what the device will not take, or what the manual closes, and stand in `text` too.
+    `text` alone tells a person everything. `missing` names the points whose raw numbers are needed to work out the
+    value. `findings` say what the device refuses or which address the manual closes; `text` repeats them.
     """
 
     space: str
@@ -54,9 +54,11 @@ class Item:
 class Heard:
     """One frame in words.
 
-    Faults break the frame itself; findings are what a sound frame asks or says against the manual; notes are neither.
+    `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
+    are other remarks.
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
-    `details` are further facts of the family for JSON; `shown` is the frame as its users write it, if not as bytes.
+    `details` are further facts of the family for JSON. `shown` is the frame in the notation of its users, where that
+    is not plain bytes.
     """
 
     data: bytes
@@ -100,7 +102,7 @@ class Heard:
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """The frames that write a point, as their users write them, and what is odd about them."""
+    """The frames that write a point, in the notation of their users, and remarks about them."""
 
     frames: tuple[str, ...]
     notes: tuple[str, ...] = ()
@@ -108,9 +110,10 @@ class Sent:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """How a point is written, in words, and how frames show it with a raw number as an example.
+    """How a point is written: in words, and as example frames.
 
-    `shown` gives nothing where no frame can be built; `joint` stands between the words and the example.
+    `shown` turns a raw number into the example; its text is empty where no frame can be built. `joint` is the text
+    between the words and the example.
     """
 
     how: str
@@ -134,6 +137,6 @@ _WHY = {
 
 
 def refused(bus: Bus, point: Point, status: str, hint: str = "") -> RefusedError:
-    """That no frame can be built which writes a point, and why."""
+    """The error for a point that no frame can write, with the reason."""
     hint = hint or (units_text(bus) if status == "bad_unit" else "")
     return RefusedError(status, f"{label(point)}: {_WHY.get(status, status)}", hint)

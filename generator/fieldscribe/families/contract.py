@@ -1,4 +1,4 @@
-"""What a family says of itself: its spaces, its keys under `bus`, its framings, and the parts of its folder."""
+"""What a family declares about itself: its spaces, its keys under `bus`, its framings, and the parts of its folder."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _OF_ALL = frozenset({"units", "exceptions", "timing", "serial", "note", "source"
 
 @dataclass(frozen=True, slots=True)
 class BusKeys:
-    """The keys that a family needs under `bus`, those that it shares with some others, and how far its numbers go.
+    """The keys of a family under `bus` (`needed` ones, and those `shared` with some other families), and its limits.
 
-    `broadcast` is the one number that goes to all units, where the family has only one.
+    `codes` is the range of its numbered codes. `broadcast` is the unit number that addresses all units, if it is fixed.
     """
 
     needed: tuple[str, ...] = ()
@@ -28,7 +28,7 @@ class BusKeys:
     broadcast: int | None = None
 
     def __contains__(self, key: object) -> bool:
-        """Whether the family has a key that others have, too, or needs it."""
+        """Whether the family accepts this key under `bus`; the keys of its own part `keys` do not count."""
         return key in self.needed or key in self.shared or key in _OF_ALL
 
 
@@ -40,14 +40,14 @@ class Codes:
     key: str
     kind: str
     belongs_to: str | None = None
-    """The section with the codes that these name as theirs."""
+    """The section whose codes these codes refer to."""
     emitted: bool = True
-    """Whether generated code has names for them."""
+    """Whether generated code defines names for these codes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """An option of the command line that only this family has a use for; without a type it is a switch."""
+    """A command-line option that only this family uses; without a type it is a switch."""
 
     name: str
     help: str
@@ -64,35 +64,35 @@ class Option:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """The rules of a family, as far as every stage may ask for them; what takes code is a part of its folder.
+    """The facts of a family that every stage may read; whatever needs code is a module of its folder (a part).
 
-    The parts are modules: `keys` (those that it alone has), `reading` (its own facts, out of the text), `checks`,
-    `speech`, `sending` and `explaining` (frames taken apart, built, and shown), `export`, and `targets.<target>`; each
-    room says what it asks of its part.
+    The parts: `keys` (keys that only this family has), `reading` (reads the family's facts from the description),
+    `checks`, `speech` (decodes frames), `sending` (builds frames), `explaining` (shows example frames), `export`, and
+    `targets.<target>`. Whoever uses a part defines what it must offer.
     """
 
     name: str
     folder: str
-    """The package."""
+    """The name of the package."""
     spaces: Mapping[str, str]
     """What one address of a space holds: `bit` or `word`."""
     last_address: int
     bus: BusKeys
     framings: tuple[str, ...]
-    """How worked examples are wrapped, the usual way first."""
+    """The framings of worked examples, the usual one first."""
     codes: tuple[Codes, ...] = ()
     indexed: frozenset[str] = frozenset()
-    """The spaces where an address has an index beside it."""
+    """The spaces where an index travels with the address."""
     words: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
-    """The spaces whose numbers travel one by one, with the most words of one."""
+    """The spaces whose numbers travel one at a time, with the most words that a number may have."""
     frame_keys: tuple[str, ...] = ()
     """The keys of a worked example that only this family knows."""
     lays_out_messages: bool = False
     """Whether descriptions lay out the messages of the device byte by byte."""
     commands_in: str | None = None
-    """The space that commands are written to where they do not say another; None where there are no commands."""
+    """The space of commands that do not name one; None where the family has no commands."""
     chooses_memory: bool = False
-    """Whether a request says where the device keeps the value."""
+    """Whether a request chooses the memory that the device keeps the value in."""
     options: tuple[Option, ...] = ()
     exports: tuple[str, ...] = ()
     """Forms of export that only this family has."""

@@ -1,4 +1,4 @@
-"""The points of a device by where they are."""
+"""Finds the points of a device by their addresses."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Place, Point
 
 Where = tuple[str, int, int]
-"""(the space or the telegram, the address, the index that travels beside it or 0)."""
+"""The space or the telegram, the address, and the index that travels with it (0 without one)."""
 
 Found = tuple["Point", "Place"]
 
 
 class Directory:
-    """Which points stand where; `space_of` says in which space a place is reached, too."""
+    """Which points stand at an address; `space_of` names a second space through which a place can be reached."""
 
     def __init__(self, device: Device, space_of: Callable[[Place], str]) -> None:
         self._at: dict[Where, list[Found]] = {}
         indexed = family(device.family).indexed
-        # those last that the chosen variants do not have: in their places others may stand
+        # points that the chosen variants lack come last, so that present points win their places
         for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
             for place in point.places:
                 index = (point.index or 0) if place.space in indexed else 0
@@ -40,19 +40,19 @@ class Directory:
             self._places.setdefault(point.name, set()).add((point.addresses, point.index))
 
     def places(self, where: str, address: int, index: int = 0) -> list[Found]:
-        """The points of which that is a word, each with its place."""
+        """The points that have a word at this address, each with its place."""
         return self._at.get((where, address, index), [])
 
     def at(self, where: str, address: int, index: int = 0) -> list[Point]:
-        """The points of which that is a word."""
+        """The points that have a word at this address."""
         return list({point.item: point for point, _ in self.places(where, address, index)}.values())
 
     def starting_at(self, where: str, address: int) -> list[Found]:
-        """The points whose lowest address this is, each with its place."""
-        return [one for one in self.places(where, address) if min(one[1].addresses) == address]
+        """The points whose lowest address is this one, each with its place."""
+        return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
     def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
-        """What rules take of points with these raw numbers; not of variants that are in different places."""
+        """The settings that these raw numbers give to rules, without points whose variants stand in several places."""
         for point, raw in raws:
             if len(self._places[point.name]) == 1:
                 yield point.name, setting_of(point, raw)

@@ -1,4 +1,4 @@
-"""A frame taken apart, as each family offers it: what it is, what it carries, and how it follows those before it."""
+"""A decoded frame in the form that all families share: what it is, what it carries, and which request it answers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Consecutive addresses of a space, and the words or bits for them; None where they are only named."""
+    """Consecutive addresses of a space with their words or bits; `words` is None where the frame only names them."""
 
     space: str
     address: int
@@ -25,14 +25,14 @@ class Span:
     words: tuple[int, ...] | None = None
     written: bool = False
     learned: bool = False
-    """Whether the device said so, so that it holds for frames to come."""
+    """Whether the device itself reported the values, so that later frames may rely on them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One element of a parameter, with the words of its value; `value` is None where it is only named.
+    """One element of a parameter with its value; `value` is None where the frame only names the element.
 
-    `width` is how many words the value should have; `counts`: the value is the number of elements.
+    `width` is how many words the value should have. `counts`: the value is the number of elements.
     """
 
     parameter: int
@@ -47,9 +47,9 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """One word of a parameter, `raw` None where it is only named.
+    """One word of a parameter; `raw` is None where the frame only names it.
 
-    `learned`: the device said so; `stale`: what it works out of the parameter must be read again.
+    `learned`: the device itself reported it. `stale`: values that the device derives from the parameter are outdated.
     """
 
     address: int
@@ -61,7 +61,7 @@ class Word:
 
 @dataclass(frozen=True, slots=True)
 class ProcessData:
-    """The words of the telegram of one direction, from its first."""
+    """The process data of one direction, from the first word on."""
 
     direction: str
     words: tuple[int, ...]
@@ -69,20 +69,20 @@ class ProcessData:
 
 @dataclass(frozen=True, slots=True)
 class Masks:
-    """Which words of process data count, and which bits of its first and of its fourth word."""
+    """The masks of a broadcast: which words of process data are valid, and which bits of the control words."""
 
     words: tuple[int, ...]
 
 
 class Pieces(Protocol):
-    """The words of a telegram as they came, frame by frame."""
+    """The words received so far of a telegram that comes in several frames."""
 
     @property
     def per_frame(self) -> int:
-        """How many words one frame brings."""
+        """How many words one frame carries."""
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
-        """(ok, words), or why these are not known."""
+        """("ok", words); another status and no words while they are not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,11 +99,11 @@ Carried = Span | Element | Word | ProcessData | Masks | Piece | Item
 
 @dataclass(frozen=True, slots=True)
 class Spoken:
-    """One frame, without what it says of points: that follows from what it carries.
+    """One decoded frame, before its contents are matched with points.
 
-    `party` is whose dialogue it is, `exchange` which of several that are open at once. `asks` is the request that it
-    is, `silent` that nobody answers it, `answers` that it ends the open one; `binds` that the request which it is
-    stays open for all frames to come.
+    `party` is the unit that takes part, `exchange` tells exchanges apart that are open at the same time. `asks` is the
+    request, if the frame is one. `silent`: nobody answers it. `answers`: it closes the open request. `binds`: as an
+    expected request it stays open for all frames that follow.
     """
 
     heard: Heard
@@ -118,22 +118,22 @@ class Spoken:
 
 @dataclass(slots=True)
 class Course:
-    """Which requests are open, and with whom anything was spoken."""
+    """Which requests are open, and which units have been addressed."""
 
     fixed: bool = False
     _open: dict[tuple[int | None, str], Any] = field(default_factory=dict)
     _met: set[int | None] = field(default_factory=set)
 
     def asked(self, party: int | None = None, exchange: str = "") -> Any:
-        """The open request; None where there is none."""
+        """The open request; None without one."""
         return self._open.get((party, exchange))
 
     def met(self, party: int | None) -> bool:
-        """Whether a request to or from it was heard."""
+        """Whether this unit has been sent a request."""
         return party in self._met
 
     def follow(self, spoken: Spoken, *, expecting: bool) -> None:
-        """What is open after a frame; `expecting`: the person says that the frames to come answer it."""
+        """Update the open requests after a frame; `expecting`: the person says that the next frames answer it."""
         key = spoken.party, spoken.exchange
         if spoken.asks is not None:
             self._met.add(spoken.party)
@@ -146,13 +146,13 @@ class Course:
 
 
 class Speech(Protocol):
-    """How a family takes frames apart; its part `speech` offers `speech_of(device, options)` that makes one."""
+    """Decodes the frames of a family; `speech_of(device, options)` of its part `speech` makes one."""
 
     def frames(self, texts: Sequence[str]) -> Sequence[Any]:
         """The frames that people pasted. Raises UnclearError."""
 
     def space_of(self, place: Place) -> str:
-        """The space in which a place is reached."""
+        """The space through which a place is reached."""
 
     def hear(self, frame: Any, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

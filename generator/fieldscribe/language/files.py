@@ -1,4 +1,4 @@
-"""All documents of a description, held against the table of keys: those of device.yaml, then those of its parts."""
+"""Reads and checks all documents of a description: those of device.yaml, then those of its parts."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Files:
 
 
 def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) -> Files | None:
-    """What the files say; None when device.yaml says too little to go on. Findings go to the report.
+    """All files of a description; None if device.yaml lacks too much to continue. Findings go to the report.
 
     Nothing else of the folder is read: whatever an editor or a stranger leaves there.
     """
@@ -51,13 +51,13 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
 
 
 def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | None]:
-    """What a file holds, one at least: None for what could not be read."""
+    """The documents of a file, at least one; None stands for a document that could not be read."""
     source = read_source(path, report, inputs)
     return [None] if source is None else load(source, report)
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:
-    """Whether a file has no key of a device, but those of a part: one finding in place of one for each key."""
+    """Whether a file given as device.yaml is a part; this is one finding in place of one for each key."""
     if any(key in header for key in ("device", "family", "vendor", "model")) or not _PART_KEYS & set(header):
         return False
     whole = file.parent / "device.yaml"
@@ -68,17 +68,17 @@ def _is_part(header: Map, file: Path, report: Report) -> bool:
 
 
 def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
-    found: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for index, name in enumerate(header.get("parts", ())):
         span = header["parts"].span(index)
         path = device_file.parent / name
-        if name in found:
+        if name in paths:
             first = (header["parts"].span(list(header["parts"]).index(name)), "first listed here")
             report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them", [first])
         elif name == device_file.name:
             report.error("missing-part", f"`{name}` cannot be a part of itself", span, "take it off the list")
         elif not os.path.lexists(path):
-            others = tuple(sorted(one.name for one in device_file.parent.glob("*.y*ml") if one != device_file))
+            others = tuple(sorted(path.name for path in device_file.parent.glob("*.y*ml") if path != device_file))
             near = nearest(name, others)
             hint = f"did you mean `{near}`?" if near else "create it or take it off the list"
             report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, hint)
@@ -86,11 +86,11 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
             hint = "parts stand beside device.yaml: copy the file, or link the whole folder"
             report.error("part-outside", f"`{name}` is a link that leads out of the folder", span, hint)
         else:
-            found[name] = path
-    return list(found.values())
+            paths[name] = path
+    return list(paths.values())
 
 
 def _leads_beside(link: Path, device_file: Path) -> bool:
-    """Whether a link ends in the folder of the description, or of what its device.yaml is a link to itself."""
+    """Whether a link ends in the folder of the description, or in the folder that device.yaml itself links to."""
     folder = os.path.dirname(os.path.realpath(link))
     return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))

@@ -1,4 +1,4 @@
-"""What the findings about a file's shape say: what stands there, what belongs there, what may have been meant."""
+"""Texts for findings about the shape of a file: what stands there, and what may have been meant."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
 _TYPING_SLIP = 0.7
-"""How alike keys must be: below that `precision` would be taken for `section`."""
+"""How similar keys must be; with less, `precision` would be taken for `section`."""
 _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 def quoted(text: str) -> str:
-    """A stranger's text as messages repeat it: short."""
+    """A text from a description, shortened for messages."""
     return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
 
 
 def shown(value: Any) -> str:
-    """What stands there, in words."""
+    """A value from a description, in words."""
     if isinstance(value, Map | Seq):
         return "a mapping" if isinstance(value, Map) else "a list"
     if value is None:
@@ -41,7 +41,7 @@ def shown(value: Any) -> str:
 
 
 def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form | None) -> str:
-    """What to do about a value of the wrong type."""
+    """The hint for a value of the wrong type."""
     if value is None:
         return "fill it in, or leave the key out"
     said = None
@@ -57,7 +57,7 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form |
 
 
 def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, form: Form | None) -> str | None:
-    """What to do about a number, or true or false, where something else belongs."""
+    """The hint for a number, true or false where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
     typed = str(value).lower() if isinstance(value, bool) else str(value)
@@ -89,7 +89,7 @@ def _number_hint(value: str, fractions: bool) -> str:
 
 def _example(example: Any) -> str:
     if isinstance(example, dict):
-        return "{" + ", ".join(f"{key}: {_example(one)}" for key, one in example.items()) + "}"
+        return "{" + ", ".join(f"{key}: {_example(item)}" for key, item in example.items()) + "}"
     if isinstance(example, list):
         return "[" + ", ".join(map(_example, example)) + "]"
     return {True: "true", False: "false"}.get(example, str(example)) if isinstance(example, bool) else str(example)
@@ -110,7 +110,7 @@ def form_hint(value: str, form: Form) -> str:
 
 
 def named_otherwise(key: str, known: Collection[Form]) -> str | None:
-    """A key of bits or of a language that is only written in another way; None if it is not."""
+    """The right writing of a key that names bits or a language in another way; None if it does not."""
     from fieldscribe.language.meant import bits_meant
     from fieldscribe.language.meant_words import LANGUAGES
 
@@ -120,7 +120,7 @@ def named_otherwise(key: str, known: Collection[Form]) -> str | None:
 
 
 def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
-    """What an unknown key with that value may have meant."""
+    """The hint for an unknown key with this value."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
     meant = meant_key(key, value, known)
@@ -141,11 +141,11 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
 
 @lru_cache(maxsize=4096)
 def nearest(word: str, known: tuple[str, ...], likeness: float = 0.6) -> str | None:
-    """The known word that is most like this one, or None."""
+    """The known word most similar to this one, or None."""
     import difflib
 
     if len(word) > _LONGEST_COMPARED:
         return None
-    by_folded = {one.lower(): one for one in reversed(known[:_MOST_COMPARED])}
+    by_folded = {candidate.lower(): candidate for candidate in reversed(known[:_MOST_COMPARED])}
     near = difflib.get_close_matches(word.lower(), by_folded, 1, likeness)
     return by_folded[near[0]] if near else None

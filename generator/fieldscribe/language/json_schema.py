@@ -30,23 +30,25 @@ def json_schema() -> dict[str, Any]:
         "if": {"required": ["device"]},
         "then": device,
         "else": part,
-        "definitions": definitions.made,
+        "definitions": definitions.by_name,
     }
 
 
 def schema_text() -> str:
-    """The same as a file: a line for each key, so that a change shows in a diff."""
+    """The schema as text, with one line for each key, so that a diff shows what changed."""
     schema = json_schema()
-    definitions = ",\n".join(f"  {_dumped(name)}: {_lines(made)}" for name, made in schema.pop("definitions").items())
+    definitions = ",\n".join(
+        f"  {_dumped(name)}: {_lines(definition)}" for name, definition in schema.pop("definitions").items()
+    )
     head = ",\n".join(f" {_dumped(word)}: {_dumped(value)}" for word, value in schema.items())
     return f'{{\n{head},\n "definitions": {{\n{definitions}\n }}\n}}\n'
 
 
 def _lines(definition: dict[str, Any]) -> str:
-    """A definition: on one line, or its keys each on a line of their own."""
+    """A definition on one line; if it has keys, with one line for each of them."""
     if "properties" not in definition:
         return _dumped(definition)
-    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(one)}" for key, one in definition["properties"].items())
+    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(schema)}" for key, schema in definition["properties"].items())
     around = _dumped({**definition, "properties": {}})
     return around.replace('"properties": {}', f'"properties": {{\n{keys}\n   }}', 1)
 
@@ -56,29 +58,29 @@ def _dumped(value: Any) -> str:
 
 
 class _Definitions:
-    """The definitions that the schema needs: places with a name, and what stands at one key in several places."""
+    """The shared definitions of the schema: named places, and the values of keys that stand in several places."""
 
     def __init__(self) -> None:
-        self.made: dict[str, Any] = {}
+        self.by_name: dict[str, Any] = {}
 
     def key(self, key: Key) -> dict[str, Any]:
-        """What stands at a key: written out, or a reference."""
+        """The schema of the value of a key, or a reference to it."""
         place = _place(key.shape)
         if len(key.places) == 1 or (place is not None and place.name):
             return self.shape(key.shape)
         return self._named(f"at_{key.name}", key.shape)
 
     def shape(self, shape: Shape) -> dict[str, Any]:
-        """What may stand in a spot: written out, or a reference where that is a place with a name."""
+        """The schema of a shape, or a reference to it if the shape is a named place."""
         place = _place(shape)
         if place is None or not place.name:
             return self._written(shape)
         return self._named(place.name, shape)
 
     def _named(self, name: str, shape: Shape) -> dict[str, Any]:
-        if name not in self.made:
-            self.made[name] = {}  # what comes first stands first
-            self.made[name] = self._written(shape)
+        if name not in self.by_name:
+            self.by_name[name] = {}  # reserves the position before inner definitions are added
+            self.by_name[name] = self._written(shape)
         return {"$ref": _REFERENCE + name}
 
     def _written(self, shape: Shape) -> dict[str, Any]:
@@ -112,22 +114,22 @@ class _Definitions:
             return _said(maxLength=kind.longest, enum=list(kind.choices)) | form
         if isinstance(kind, Whole):
             bounds = {"minimum": kind.least, "maximum": kind.greatest}
-            return _said(enum=list(kind.choices)) | {word: one for word, one in bounds.items() if one is not None}
+            return _said(enum=list(kind.choices)) | {word: bound for word, bound in bounds.items() if bound is not None}
         return {}
 
     def _mapping(self, place: Place) -> dict[str, Any]:
         keys = keys_of(place)
-        more = {form.pattern: self.shape(shape) for form, shape in place.more.items() if form is not forms.ANY}
-        other = place.more.get(forms.ANY)
+        by_pattern = {form.pattern: self.shape(shape) for form, shape in place.by_form.items() if form is not forms.ANY}
+        other = place.by_form.get(forms.ANY)
         return {
-            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=more),
+            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=by_pattern),
             "additionalProperties": False if other is None else self.shape(other),
             **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
         }
 
 
 def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
-    """What is said of a whole number, which YAML may take for text: 1028h."""
+    """The schema of a whole number; YAML takes notations such as 1028h for text."""
     if "enum" not in said:
         return said | {"pattern": forms.WHOLE.pattern}
     choices = said.pop("enum")
@@ -138,10 +140,10 @@ _TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", 
 
 
 def _said(**words: Any) -> dict[str, Any]:
-    """The words that say something."""
+    """The keywords whose values are not empty."""
     return {word: value for word, value in words.items() if value}
 
 
 def _place(shape: Shape) -> Place | None:
-    """The mapping that the shape is about, if it is one's own."""
+    """The place whose own shape this is; None for any other shape."""
     return next((kind for kind in shape.kinds if isinstance(kind, Place) and kind.shape is shape), None)

@@ -32,29 +32,33 @@ def keys_markdown() -> str:
 
 
 def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
-    """The keys of a mapping; of mappings without a table of their own also what is inside."""
+    """The rows for the keys of a place, and for the keys inside of places without their own table."""
     for name, key in keys_of(place).items():
         if place not in key.places:
-            continue  # of a table of its own
+            continue  # the key of a place with its own table
         needed = " **Required.**" if place in key.required else ""
         yield f"`{prefix}{name}`", _type(key.shape), _meaning(key.shape) + needed, _example(key.shape)
         if len(key.places) <= _FEW or not _leads_to_a_table(key.shape):
             yield from _inside(key.shape, f"{prefix}{name}.")
-    for form, shape in place.more.items():
+    for form, shape in place.by_form.items():
         yield f"`{prefix}{form.sign}`", _type(shape), _meaning(shape), _example(shape)
         yield from _inside(shape, f"{prefix}{form.sign}.")
 
 
 def _inside(shape: Shape, prefix: str) -> Iterator[tuple[str, ...]]:
     for kind in shape.kinds:
-        if isinstance(kind, Place) and not kind.heading and forms.LANGUAGE not in kind.more:
+        if isinstance(kind, Place) and not kind.heading and forms.LANGUAGE not in kind.by_form:
             yield from _rows(kind, prefix)
 
 
 def _leads_to_a_table(shape: Shape) -> bool:
     """Whether what is inside has a table of its own, so that a key of many places need not repeat what it is."""
     inner = [
-        kind for outer in shape.kinds if isinstance(outer, Place) for one in outer.more.values() for kind in one.kinds
+        kind
+        for outer in shape.kinds
+        if isinstance(outer, Place)
+        for inner in outer.by_form.values()
+        for kind in inner.kinds
     ]
     return any(isinstance(kind, Place) and kind.heading for kind in inner)
 
@@ -69,7 +73,7 @@ def _type(shape: Shape) -> str:
 
 def _kind(kind: Kind) -> str:
     if isinstance(kind, Text | Whole) and kind.choices:
-        return ", ".join(f"`{one}`" for one in kind.choices)
+        return ", ".join(f"`{choice}`" for choice in kind.choices)
     return _TYPES.get(type(kind)) or _PLAIN[kind]
 
 
@@ -80,7 +84,7 @@ def _example(shape: Shape) -> str:
 def shown(value: Any) -> str:
     """An example as it stands in YAML."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {shown(one)}" for key, one in value.items()) + "}"
+        return "{" + ", ".join(f"{key}: {shown(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(map(shown, value)) + "]"
     return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)

@@ -40,13 +40,13 @@ _SYNTAX_HINTS = (
 
 
 class _RefusedError(Exception):
-    """The text cannot be read any further; the finding is already reported."""
+    """Reading stops here; the finding is already reported."""
 
 
 def load(source: SourceFile, report: Report) -> list[Map | None]:
-    """The mapping of each document, or None with a finding for what is none and for a rest that cannot be read.
+    """The mapping of each document; None, with a finding, for a document that is no mapping or cannot be read.
 
-    Empty documents are nothing; duplicate keys are left out.
+    Empty documents are left out; duplicate keys are left out.
     """
     documents: list[Map | None] = []
     try:
@@ -146,7 +146,7 @@ class _Builder:
                     self._cut(result, last, cut)
                 return result
             named, event = event, next_event()
-            if type(event) is yaml.ScalarEvent and not event.value and _is_alone(named, event):
+            if type(event) is yaml.ScalarEvent and not event.value and _lacks_colon(named, event):
                 cut.append(named)
                 continue
             if cut:
@@ -162,7 +162,7 @@ class _Builder:
                 places[key] = (mark.line + 1, mark.column + 1, *at)
 
     def _cut(self, into: Map, last: Any, pieces: list[Any]) -> None:
-        """A finding for words between commas without a value; they are put back to the text that they were cut from."""
+        """Report words between commas that have no value, and put them back into the text that they were cut from."""
         key, first = next(reversed(into), None), pieces[0].value[:60]
         texts = type(last) is yaml.ScalarEvent and not last.style and len(pieces) <= _MOST_PIECES
         keys = all(_WORD.fullmatch(piece.value) for piece in pieces) and not (texts and "(" in last.value)
@@ -238,8 +238,8 @@ def _is_nothing(event: Any) -> bool:
     return type(event) is yaml.ScalarEvent and not (event.value or event.style or event.tag or event.anchor)
 
 
-def _is_alone(key: Any, value: Any) -> bool:
-    """Whether a key in braces, with an empty value, has no colon either: `{when: a in (0, 1)}` holds the key `1)`."""
+def _lacks_colon(key: Any, value: Any) -> bool:
+    """Whether a key in braces has neither value nor colon: `{when: a in (0, 1)}` has such a key, `1)`."""
     if type(key) is not yaml.ScalarEvent or value.style or value.tag or value.anchor:
         return False
     start, end = value.start_mark, key.end_mark
@@ -247,7 +247,7 @@ def _is_alone(key: Any, value: Any) -> bool:
 
 
 def _place(event: Any) -> tuple[int, int]:
-    """Where a value starts; of a quoted text where its first character stands: columns in formulas count from there."""
+    """Where a value starts, behind the quote if it has one: columns in formulas count from there."""
     mark = event.start_mark
     quoted = type(event) is yaml.ScalarEvent and event.style in ("'", '"')
     return mark.line + 1, mark.column + 1 + quoted

@@ -1,4 +1,4 @@
-"""Keys that people bring from other tools and languages, and what says the same here."""
+"""Keys that people know from other tools and languages, and the keys that mean the same here."""
 
 from __future__ import annotations
 
@@ -73,11 +73,11 @@ _MEANT: Mapping[str, tuple[str, str]] = {
     )
     for word in words.split()
 }
-"""Other people's key, small: ours, and how it is said where the key alone does not help."""
+"""By the foreign key in lower case: our key, and an explanation if the key alone does not help."""
 
 
 def meant_key(key: str, value: Any, known: Collection[str]) -> str | None:
-    """What to write instead of a key, where it is known what somebody meant by it; None if not."""
+    """The hint what to write instead of a foreign key; None if there is no guess."""
     ours, hint = _MEANT.get(key.lower().replace("-", "_"), ("", ""))
     if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
         return _GROUP
@@ -89,12 +89,12 @@ def meant_key(key: str, value: Any, known: Collection[str]) -> str | None:
         plain = isinstance(value, int | Decimal) and not isinstance(value, bool)
         hint = _SCALE.format(hint, f"{value:f}" if isinstance(value, Decimal) else value) if plain else ""
     if ours == "access" and value is False:
-        hint = ""  # the other way round: which of the others is meant, nobody knows
+        hint = ""  # such as `read_only: false`: which other access is meant is unknown
     return hint or f"did you mean `{ours}`?"
 
 
 def _of_an_entry(key: str, known: Collection[str]) -> str | None:
-    """A title beside the name of a number: there it stands by language."""
+    """The hint for a title beside the name of a number: titles there are by language."""
     if key.lower() in ("title", "label", "description", "text") and "quantity" in known:
         return "titles stand beside the name, by language: `{name: off, en: Off}`"
     return None

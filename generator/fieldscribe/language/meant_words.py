@@ -1,4 +1,4 @@
-"""Words that people bring from other tools and languages as values, and ours for them."""
+"""Words that people know from other tools and languages as values, and our words for them."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "reserved": {"yes": "true", "no": "false", "1": "true", "0": "false"},
     "encoding": {"utf-8": "ascii` or `encoding: latin-1", "utf8": "ascii` or `encoding: latin-1"},
 }
-"""By key: other people's word, small, and ours."""
+"""By key: our word for each foreign word in lower case."""
 
 ALSO = {
     "bit": " in the space `coil` or `discrete`; one bit of a word is `bits: 0`, without a type",
@@ -72,4 +72,4 @@ ALSO = {
     "s8": " with the `bits: 7..0` that it takes of its word, or `type: s16`",
     "text": " with `characters: …`",
 }
-"""What else a type needs."""
+"""What else a line with this type needs."""

@@ -1,4 +1,4 @@
-"""YAML values that remember where they stand, and which of their facts were dropped because they were wrong."""
+"""YAML values that remember their place in the file, and which of their keys were dropped as wrong."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Map(dict[str, Any]):
         self.uses: dict[object, tuple[Map, bool]] | None = None
 
     def copied(self) -> Map:
-        """The same mapping once more, of which keys can be dropped; its values are the same ones."""
+        """A copy from which keys can be dropped; the values are shared with the original."""
         copy = Map(self.file, self.at)
         copy.update(self)
         copy.places = self.places
@@ -40,8 +40,8 @@ class Map(dict[str, Any]):
 
     def span(self, key: str | None = None) -> Span:
         """Where the value of `key` stands, or the whole mapping."""
-        found = None if key is None else self.places.get(key)
-        line, column = self.at if found is None else found[2:]
+        place = None if key is None else self.places.get(key)
+        line, column = self.at if place is None else place[2:]
         return Span(self.file.name, line, column)
 
     def key_span(self, key: str) -> Span:
@@ -63,7 +63,7 @@ class Seq(list[Any]):
         self.uses: dict[object, tuple[Seq, bool]] | None = None
 
     def copied(self) -> Seq:
-        """The same sequence once more, of which items can be dropped."""
+        """A copy from which items can be dropped; they are shared with the original."""
         copy = Seq(self.file, self.at)
         copy.extend(self)
         copy.item_at = list(self.item_at)
@@ -79,10 +79,10 @@ Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 
 
 def share(value: Value) -> None:
-    """Mark all that an alias repeats: it must have the shape of each place, and what one drops stays in the others."""
+    """Mark a value that an alias repeats, and all inside it: each place checks and drops for itself."""
     waiting = [value]
     while waiting:
-        one = waiting.pop()
-        if isinstance(one, Map | Seq) and one.uses is None:
-            one.uses = {}
-            waiting.extend(one.values() if isinstance(one, Map) else one)
+        node = waiting.pop()
+        if isinstance(node, Map | Seq) and node.uses is None:
+            node.uses = {}
+            waiting.extend(node.values() if isinstance(node, Map) else node)

@@ -22,7 +22,7 @@ LONGEST = 64
 MOST_EXPONENT = 400
 """The largest power of ten that may be written."""
 
-_QUOTED = 40  # characters of a wrong text that a message repeats
+_QUOTED = 40  # how many characters of a wrong text a message repeats
 _HEX = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH])")
 _BINARY = re.compile(r"([+-]?)0b([01]+)")
 _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
@@ -43,14 +43,14 @@ def parse_number(text: str) -> Fraction:
     text = text.strip(" \t")
     if len(text) > LONGEST:
         raise NumberError(f"a number has at most {LONGEST} characters", "write it with an exponent, as in 1e30")
-    if found := _DECIMAL.fullmatch(text):
-        return _decimal(text, found)
-    if found := _HEX.fullmatch(text):
-        magnitude = int(found[2] or found[3] or found[4], 16)
-        return Fraction(-magnitude if found[1] == "-" else magnitude)
-    if found := _BINARY.fullmatch(text):
-        magnitude = int(found[2], 2)
-        return Fraction(-magnitude if found[1] == "-" else magnitude)
+    if match := _DECIMAL.fullmatch(text):
+        return _decimal(text, match)
+    if match := _HEX.fullmatch(text):
+        magnitude = int(match[2] or match[3] or match[4], 16)
+        return Fraction(-magnitude if match[1] == "-" else magnitude)
+    if match := _BINARY.fullmatch(text):
+        magnitude = int(match[2], 2)
+        return Fraction(-magnitude if match[1] == "-" else magnitude)
     raise _diagnosis(text)
 
 
@@ -73,14 +73,14 @@ def is_whole_number(text: str) -> bool:
 
 
 def shown(text: str) -> str:
-    """A text from a description as messages quote it: clean, on one line, short."""
+    """A text from a description for messages: clean, short, and on one line."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
 
 
-def _decimal(text: str, found: re.Match[str]) -> Fraction:
-    """The number of a decimal match, with its fraction and exponent."""
-    whole, fraction, mark, exponent = found.groups()
+def _decimal(text: str, match: re.Match[str]) -> Fraction:
+    """The number of a decimal, from its digits, fraction and exponent."""
+    whole, fraction, mark, exponent = match.groups()
     if fraction is None and mark is None:
         return Fraction(int(whole))
     if mark == "E" and fraction is None and exponent[0] not in "+-":
@@ -97,26 +97,26 @@ def _decimal(text: str, found: re.Match[str]) -> Fraction:
     return Fraction(digits * 10**power) if power >= 0 else Fraction(digits, 10**-power)
 
 
-def _comma_hint(found: re.Match[str]) -> str:
-    return f"write the decimal point: {found[0].replace(',', '.')}; a list has a blank behind each comma"
+def _comma_hint(match: re.Match[str]) -> str:
+    return f"write the decimal point: {match[0].replace(',', '.')}; a list has a blank behind each comma"
 
 
-def _joined_hint(found: re.Match[str]) -> str:
-    return f"write the digits together: {re.sub('[^0-9+-]', '', found[0])}"
+def _joined_hint(match: re.Match[str]) -> str:
+    return f"write the digits together: {re.sub('[^0-9+-]', '', match[0])}"
 
 
-def _hex_hint(found: re.Match[str]) -> str:
-    return f"write {found[0]}h or {found[1]}0x{found[2]} for hexadecimal; a unit is not part of a number"
+def _hex_hint(match: re.Match[str]) -> str:
+    return f"write {match[0]}h or {match[1]}0x{match[2]} for hexadecimal; a unit is not part of a number"
 
 
-def _other_hex_hint(found: re.Match[str]) -> str:
-    digits = (found[1] or found[2]).upper()
+def _other_hex_hint(match: re.Match[str]) -> str:
+    digits = (match[1] or match[2]).upper()
     return f"write {digits}h" if digits[0].isdigit() else f"write 0x{digits}"
 
 
-def _modicon_hint(found: re.Match[str]) -> str:
-    number = max(0, int(found[2]) - 1)
-    space = {"1": "discrete", "3": "input", "4": "holding"}[found[1]]
+def _modicon_hint(match: re.Match[str]) -> str:
+    number = max(0, int(match[2]) - 1)
+    space = {"1": "discrete", "3": "input", "4": "holding"}[match[1]]
     return f"on the wire it is {number}, in the space `{space}`; the printed number goes under `printed`"
 
 
@@ -165,8 +165,8 @@ _REFUSED: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], str]], ...
 
 
 def _diagnosis(text: str) -> NumberError:
-    """Why a text is no number: the first known mistake that fits."""
+    """The error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
-        if found := pattern.fullmatch(text):
-            return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(found)))
+        if match := pattern.fullmatch(text):
+            return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(match)))
     return NumberError(f"`{shown(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")

@@ -1,4 +1,4 @@
-"""Plain scalars by the YAML 1.2 core rules: `on`, `NO`, `010`, `12:30` mean what they look like, decimals are exact."""
+"""Plain scalars by the YAML 1.2 core rules: `on`, `NO`, `12:30` are text, `010` is ten, decimals are exact."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NUMBER_STARTS = frozenset("-+.0123456789")
 
 
 def scalar(text: str) -> int | Decimal | bool | str | None:
-    """A plain scalar by the rules of the YAML 1.2 core schema; infinities and endless numbers stay text."""
+    """A plain scalar by the rules of the YAML 1.2 core schema; infinities and overlong numbers stay text."""
     if text[:1] not in _NUMBER_STARTS:
         return _WORDS.get(text, text)
     if _INTEGER.fullmatch(text):

@@ -1,4 +1,4 @@
-"""Holds a file against the table of keys, with positions and suggestions.
+"""Checks a file against the table of keys; findings have positions and hints.
 
 The checks are made from the table, each when a value first needs it; a test holds them against `jsonschema` on every
 description and every bad input.
@@ -32,7 +32,7 @@ def check_shape(value: Map, place: Place, report: Report) -> bool:
 
 
 def check_of(shape: Shape) -> Check:
-    """The check of what may stand in a spot, made once."""
+    """The check for a shape, made once."""
     if shape not in _made:
         _made[shape] = _check(shape)
     return _made[shape]
@@ -55,7 +55,7 @@ def _word(kind: Kind) -> str:
 
 
 def _by_python_type(kind: Kind) -> tuple[tuple[type, Check], ...]:
-    """The check of a kind, by the types that its values have in Python."""
+    """The check for a kind of value, by the Python types of its values."""
     if isinstance(kind, Place):
         return ((Map, ObjectCheck(kind, check_of)),)
     if isinstance(kind, Items):

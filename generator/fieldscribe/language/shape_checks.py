@@ -1,4 +1,4 @@
-"""The single checks that a shape is made of: each reports what is wrong, in words, and drops it."""
+"""The checks of single values: each reports a wrong value and drops it."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def compiled_pattern(pattern: str) -> re.Pattern[str]:
 
 
 def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> bool:
-    """Anything is fine."""
+    """Accepts any value."""
     return True
 
 
 def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
-    """The check of the value's own type, if it is one of the `wanted`.
+    """Picks the check for the type of the value, if that is one of the `wanted` types.
 
     A whole number may be written in every notation of numbers; from here on it is one.
     """
@@ -47,9 +47,9 @@ def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         if notation is not None and isinstance(value, str) and notation(value):
             value = holder[at] = parse_integer(value)
-        found = checks.get(type(value))
-        if found is not None:
-            return found(value, holder, at, report)
+        type_check = checks.get(type(value))
+        if type_check is not None:
+            return type_check(value, holder, at, report)
         report.error(
             "wrong-type",
             f"{shown(value)} stands where {wanted} belongs",
@@ -62,7 +62,7 @@ def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form 
 
 
 def string(kind: Text) -> Check:
-    """One of the choices, of that length and form."""
+    """Checks a text: its choices, length and form."""
     choices, longest, form = kind.choices, kind.longest, kind.form
     fits = None if form is None else compiled_pattern(form.pattern).search
 
@@ -87,7 +87,7 @@ def string(kind: Text) -> Check:
 
 
 def number(kind: Whole) -> Check:
-    """One of the choices, within the bounds."""
+    """Checks a number: its choices and bounds."""
     choices, least, greatest = kind.choices, kind.least, kind.greatest
 
     def check(value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
@@ -110,19 +110,19 @@ def number(kind: Whole) -> Check:
 
 
 def array(item: Check, least: int) -> Check:
-    """Items that are each fine; `least` of them."""
+    """Checks a sequence: each item, and that there are at least `least`."""
 
     def check(value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
         if value.uses is not None:
-            return _of_this_shape(check, value, holder, at, report)
+            return _check_aliased(check, value, holder, at, report)
         if report.full:
             return False
         if len(value) < least:
             report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
             return False
-        broken = [index for index, one in enumerate(value) if not item(one, value, index, report)]
+        broken = [index for index, element in enumerate(value) if not item(element, value, index, report)]
         for index in reversed(broken):
-            _lose(value[index], value.file.lost)
+            _remember_names(value[index], value.file.lost)
             del value[index], value.item_at[index]
         return len(value) >= least
 
@@ -130,7 +130,7 @@ def array(item: Check, least: int) -> Check:
 
 
 class ObjectCheck:
-    """The check of a mapping; those of its keys are made when the first such mapping comes."""
+    """Checks a mapping; the checks of its keys are made when the first such mapping comes."""
 
     __slots__ = ("additional", "check_of", "least", "needs", "patterns", "place", "properties", "ready", "required")
 
@@ -143,32 +143,32 @@ class ObjectCheck:
         self.properties = {name: check_of(key.shape) for name, key in keys_of(place).items()}
         self.patterns = [
             (form, compiled_pattern(form.pattern), check_of(shape))
-            for form, shape in place.more.items()
+            for form, shape in place.by_form.items()
             if form is not forms.ANY
         ]
-        other = place.more.get(forms.ANY)
+        other = place.by_form.get(forms.ANY)
         self.additional = None if other is None else check_of(other)
         self.required, self.needs, self.least = required(place), needs(place), place.least
         self.ready = True
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Whether the mapping has the shape, as every `Check`."""
+        """Whether the mapping is right; a `Check` like the others."""
         if value.uses is not None:
-            return _of_this_shape(self, value, holder, at, report)
+            return _check_aliased(self, value, holder, at, report)
         if report.full:
             return False
         if not self.ready:
             self._open()
         broken = []
-        for key, one in value.items():
-            found = self.properties.get(key) or self._pattern(key)
-            if found is None:
+        for key, entry in value.items():
+            entry_check = self.properties.get(key) or self._pattern(key)
+            if entry_check is None:
                 known = [form for form, _, _ in self.patterns]
                 named = forms.NUMBER in known or forms.BITS in known
-                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, known, one)
+                hint = (reversed_hint(key, entry) if named else None) or key_hint(key, self.properties, known, entry)
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
-            elif not found(one, value, key, report):
+            elif not entry_check(entry, value, key, report):
                 broken.append(key)
             if report.full:
                 return False
@@ -178,9 +178,9 @@ class ObjectCheck:
         return complete and not any(key in broken for key in self.required) and len(value) >= self.least
 
     def _pattern(self, key: str) -> Check | None:
-        for _, pattern, found in self.patterns:
+        for _, pattern, pattern_check in self.patterns:
             if pattern.search(key):
-                return found
+                return pattern_check
         return self.additional
 
     def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
@@ -201,13 +201,13 @@ class ObjectCheck:
             lost.add(f"*{key}")  # a whole section
         if key not in self.properties:
             lost.add(key)
-        _lose(value[key], lost)
+        _remember_names(value[key], lost)
         del value[key]
         value.broken += (key,)
 
 
-def _of_this_shape(check: Check, value: Any, holder: Any, at: Any, report: Report) -> bool:
-    """The check of what aliases repeat: once for each shape, on a copy that holds what is left of it there."""
+def _check_aliased(check: Check, value: Any, holder: Any, at: Any, report: Report) -> bool:
+    """Check a value that aliases repeat: once for each check, on a copy that keeps what is right for this check."""
     if report.full:
         return False
     if check not in value.uses:
@@ -219,15 +219,15 @@ def _of_this_shape(check: Check, value: Any, holder: Any, at: Any, report: Repor
     return bool(fine)
 
 
-def _lose(value: Any, lost: set[str]) -> None:
-    """Remember the names in what is dropped."""
+def _remember_names(value: Any, lost: set[str]) -> None:
+    """Remember the names inside a dropped value, so that they are not reported as unknown too."""
     waiting: list[Iterable[Any]] = [(value,)]
     seen: set[int] = set()
     while waiting:
-        for one in waiting.pop():
-            if not isinstance(one, Map | Seq) or id(one) in seen:
+        for node in waiting.pop():
+            if not isinstance(node, Map | Seq) or id(node) in seen:
                 continue
-            seen.add(id(one))
-            waiting.append(one.values() if isinstance(one, Map) else one)
-            if isinstance(one, Map):
-                lost.update(one, (one[key] for key in _NAMING if isinstance(one.get(key), str)))
+            seen.add(id(node))
+            waiting.append(node.values() if isinstance(node, Map) else node)
+            if isinstance(node, Map):
+                lost.update(node, (node[key] for key in _NAMING if isinstance(node.get(key), str)))

@@ -1,4 +1,4 @@
-"""Text files of a description, with bounds on what a stranger's file may cost."""
+"""Reads the text files of a description; what a stranger's file may cost is bounded."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_BYTES = 16 * 1024 * 1024
 
 @cache
 def _no_yaml() -> re.Pattern[str]:
-    """What YAML does not allow. Compiled when a file is read: the large set takes as long as all other imports."""
+    """The characters that YAML forbids. Compiled on first use, for that takes as long as all other imports."""
     return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
@@ -29,7 +29,7 @@ def _no_yaml() -> re.Pattern[str]:
 class SourceFile:
     """A file's text; `name` is its path as shown to people, relative to where they called from if possible.
 
-    `lost` collects the names of what had the wrong shape, so that nobody is told that they are unknown too.
+    `lost` collects names in dropped values, so that they are not reported as unknown too.
     """
 
     name: str
@@ -42,7 +42,7 @@ class SourceFile:
 
 
 def shown(path: Path) -> str:
-    """The path as people typed or would type it: relative to the working folder when it lies below."""
+    """The path for people: relative to the working folder if it lies inside that."""
     try:
         return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
     except ValueError:

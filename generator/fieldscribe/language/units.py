@@ -1,4 +1,4 @@
-"""The shipped units: which symbols are known, how they relate to each other, and what somebody may have meant."""
+"""The shipped units: their symbols, the factors between them, and hints for unknown symbols."""
 
 from __future__ import annotations
 
@@ -28,37 +28,37 @@ _PREFIX_LETTERS = frozenset("yzafpnµmcdhkMGTPEZY")
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """A unit that needs no declaration: 1 of it is `factor` of the unit `base`, the same without its prefix."""
+    """A unit that needs no declaration; 1 of it is `factor` times `base`, the unit without prefix."""
 
     unit: Unit
     base: str
     factor: Fraction
     prefix: str
     spellings: tuple[str, ...]
-    """What else people write for it."""
+    """Other spellings of it."""
 
 
 @cache
 def shipped() -> Mapping[str, Known]:
-    """All units that need no declaration, by symbol; each unit is followed by itself with its prefixes."""
+    """All units that need no declaration, by symbol; each is followed by its forms with prefixes."""
     table = _table()
-    found: dict[str, Known] = {}
-    for symbol, one in table["units"].items():
-        for known in _with_prefixes(symbol, one, table["prefixes"]):
-            if known.unit.symbol in found:
+    units: dict[str, Known] = {}
+    for symbol, entry in table["units"].items():
+        for known in _with_prefixes(symbol, entry, table["prefixes"]):
+            if known.unit.symbol in units:
                 raise ValueError(f"units.yaml: `{known.unit.symbol}` has two meanings")
-            found[known.unit.symbol] = known
-    return found
+            units[known.unit.symbol] = known
+    return units
 
 
 def shipped_unit(symbol: str) -> Unit | None:
     """The shipped unit of that symbol; micro may be written with either of its characters."""
-    found = shipped().get(symbol.translate(_SAME))
-    return None if found is None else found.unit
+    known = shipped().get(symbol.translate(_SAME))
+    return None if known is None else known.unit
 
 
 def factor_between(typed: str, unit: Unit) -> Fraction | None:
-    """How many of the unit one of the `typed` are; None where they are not one unit with different prefixes."""
+    """The factor from the `typed` unit to the other; None unless they differ only in the prefix."""
     mine, other = shipped().get(typed.translate(_SAME)), shipped().get(unit.symbol)
     if mine is None or other is None or other.unit != unit or mine.base != other.base:
         return None
@@ -66,47 +66,47 @@ def factor_between(typed: str, unit: Unit) -> Fraction | None:
 
 
 def unit_hint(typed: str, declared: Iterable[str]) -> str:
-    """What to do about an unknown unit. A unit of another magnitude or quantity is never suggested alone."""
+    """The hint for an unknown unit. A unit of another size or quantity is never the only suggestion."""
     if typed.casefold() in _NO_UNIT:
         return "a plain number has no unit: leave `unit` out"
     stepped = _STEPPED.fullmatch(typed)
     if stepped is not None and (shipped_unit(stepped[2]) or stepped[2] in declared):
         scale = f"`scale: value = raw * {stepped[1].replace(',', '.')}`"
         return f"write `unit: {stepped[2]}`; what one raw step is worth belongs to the scale: {scale}"
-    meant = _meant(typed, declared)
+    meant = _symbols_meant(typed, declared)
     if not meant:
         return f"declare it under `units`: `units: {{{_as_key(typed)}: {{name: …, quantity: …}}}}`; {LISTED}"
-    return f"write {' or '.join(_told(symbol, alone=len(meant) == 1) for symbol in meant)}"
+    return f"write {' or '.join(_symbol_with_name(symbol, alone=len(meant) == 1) for symbol in meant)}"
 
 
-def _told(symbol: str, *, alone: bool) -> str:
-    """A symbol; where there is a choice, with its name."""
+def _symbol_with_name(symbol: str, *, alone: bool) -> str:
+    """A symbol; with its name if there are several to choose from."""
     known = shipped().get(symbol)
     return f"`{symbol}`" if alone or known is None else f"`{symbol}` ({known.unit.name})"
 
 
 def _as_key(typed: str) -> str:
-    """A symbol as a key in braces, quoted where YAML needs it."""
+    """A symbol as a YAML key in braces, quoted if necessary."""
     return typed if typed.replace("/", "").isalnum() else f'"{typed}"'
 
 
-def _meant(typed: str, declared: Iterable[str]) -> list[str]:
-    """The symbols that the text spells in another way; those that only differ in the prefix come along, last."""
+def _symbols_meant(typed: str, declared: Iterable[str]) -> list[str]:
+    """The symbols that the text probably means; those with another prefix come last."""
     folded = _folded(typed)
-    found = [symbol for symbol in declared if _folded(symbol) == folded]
+    symbols = [symbol for symbol in declared if _folded(symbol) == folded]
     spelled = [known for known in shipped().values() if folded in _spelled(known)]
     near = [known for known in spelled if _same_prefix(typed, known) and not _other_letter(typed, known)]
     if not near:
-        return found
+        return symbols
     exact = [known for known in near if _with_micro(typed) in (known.unit.symbol, *known.spellings)]
     if exact:
         return [known.unit.symbol for known in exact]
     far = [known for known in spelled if known not in near and not _other_letter(typed, known)]
-    return list(dict.fromkeys((*found, *(known.unit.symbol for known in (*near, *far)))))
+    return list(dict.fromkeys((*symbols, *(known.unit.symbol for known in (*near, *far)))))
 
 
 def _same_prefix(typed: str, known: Known) -> bool:
-    """Whether the prefix is the one typed: `MV` is no `mV`, but `KW` can only be `kW`, and names are words."""
+    """Whether the unit has the typed prefix: `MV` is not `mV`, but `KW` can only be `kW`. Whole names always fit."""
     first = typed.translate(_SAME)[:1].replace("u", "µ")
     if not known.prefix or first == known.prefix or first not in _PREFIX_LETTERS:
         return True
@@ -114,7 +114,7 @@ def _same_prefix(typed: str, known: Known) -> bool:
 
 
 def _other_letter(typed: str, known: Known) -> bool:
-    """Whether the one letter of the unit is typed in the case that makes it another: `M` is no metre, `mh` no henry."""
+    """Whether the case of the last letter makes it another unit: `M` is no metre, `mh` no henry."""
     letter = typed[-1:]
     if len(known.base) != 1 or letter == known.base or letter.casefold() != known.base.casefold():
         return False
@@ -129,11 +129,11 @@ def _named(known: Known) -> frozenset[str]:
 
 @cache
 def _spelled(known: Known) -> frozenset[str]:
-    return _named(known) | {_folded(one) for one in (known.unit.symbol, *known.spellings)}
+    return _named(known) | {_folded(spelling) for spelling in (known.unit.symbol, *known.spellings)}
 
 
 def _folded(text: str) -> str:
-    """The text without what people write differently: case, and the character for micro."""
+    """The text in lower case and with one character for micro, for comparing."""
     return _with_micro(text.translate(_SAME).casefold())
 
 
@@ -143,12 +143,12 @@ def _with_micro(text: str) -> str:
     return f"µ{text[1:]}" if text[:1] == "u" else text
 
 
-def _with_prefixes(symbol: str, one: Mapping[str, Any], prefixes: Mapping[str, Any]) -> Iterator[Known]:
-    also = tuple(one.get("also", ()))
-    yield Known(Unit(symbol, one["name"], one["quantity"]), symbol, Fraction(1), "", also)
-    for prefix in one.get("prefixes", "").split():
+def _with_prefixes(symbol: str, entry: Mapping[str, Any], prefixes: Mapping[str, Any]) -> Iterator[Known]:
+    also = tuple(entry.get("also", ()))
+    yield Known(Unit(symbol, entry["name"], entry["quantity"]), symbol, Fraction(1), "", also)
+    for prefix in entry.get("prefixes", "").split():
         said = prefixes[prefix]
-        unit = Unit(prefix + symbol, said["name"] + one["name"], one["quantity"])
+        unit = Unit(prefix + symbol, said["name"] + entry["name"], entry["quantity"])
         spellings = tuple(prefix + other for other in also)
         yield Known(unit, symbol, Fraction(10) ** int(said["power"]), prefix, spellings)
 

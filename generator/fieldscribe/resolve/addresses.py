@@ -32,12 +32,12 @@ _VERBS = {"w": "written", "r": "read"}
 _LAST_INDEX = 255
 _RULE_KNOWS = "a rule knows number, index, set, sets and indices"
 
-_TOLD_APART = 2
-"""Two words in two frames can be told to belong together; more cannot."""
+_MOST_PARTED_WORDS = 2
+"""The most words of a number that comes in two frames: more of them could be old and new ones mixed, unnoticed."""
 
 
 class Places:
-    """The addressing of one device."""
+    """Works out the address of every point of one device."""
 
     def __init__(self, scope: Scope, telegrams: Telegrams) -> None:
         self.scope = scope
@@ -49,57 +49,60 @@ class Places:
         self._wrong_rules: set[int] = set()
 
     def place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> Place | None:
-        """The words of a point, the one with the high part (of a text: the first characters) first.
+        """The addresses of a point's words, that of the highest bits (in a text: of the first characters) first.
 
         None if the manual prints no address, or after a finding.
         """
         last = self._last(draft, space)
-        found = self._text_words(draft, last) if type_name == "text" else self._words(draft, space, type_name, bits)
-        if found is None or last is None:
+        words = self._text_words(draft, last) if type_name == "text" else self._words(draft, space, type_name, bits)
+        if words is None or last is None:
             return None
-        for address in (found[0], found[-1]):
+        for address in (words[0], words[-1]):
             if not 0 <= address <= last:
-                self._outside(draft, space, address, last, single=address == found[0])
+                self._outside(draft, space, address, last, single=address == words[0])
                 return None
         if type_name != "text":
-            self._too_scattered(draft, found)
+            self._refuse_scattered(draft, words)
         order = "high first" if type_name == "text" else draft.get("words") or self._order(type_name)
         purpose = "write" if self.access(draft, space) == "w" else "read"
-        return Place(purpose, space, found[::-1] if order == "low first" else found, None)
+        return Place(purpose, space, words[::-1] if order == "low first" else words, None)
 
     def access(self, draft: Draft, space: str) -> str:
-        """What a master may do: said, or what the direction of the telegram says, or both."""
-        found = self.telegrams.get(draft.group.get("telegram", "")) if space == SPACE else None
-        usual = "rw" if found is None else _ACCESS[found[0].direction]
-        said = str(draft.get("access", usual))
-        if found is not None and not set(said) <= set(usual) and said != "none":
-            message = f"a word of the telegram `{found[0].name}` is {_VERBS[usual]} only"
+        """What a master may do: as the description says, else all that the direction of the telegram allows."""
+        telegram_entry = self.telegrams.get(draft.group.get("telegram", "")) if space == SPACE else None
+        usual = "rw" if telegram_entry is None else _ACCESS[telegram_entry[0].direction]
+        access = str(draft.get("access", usual))
+        if telegram_entry is not None and not set(access) <= set(usual) and access != "none":
+            message = f"a word of the telegram `{telegram_entry[0].name}` is {_VERBS[usual]} only"
             self.report.error(
                 "wrong-choice", message, draft.span("access"), f"write `access: {usual}`, or leave it out"
             )
             return usual
-        return said
+        return access
 
     def references(self, draft: Draft, address: int | None) -> Mapping[str, int]:
-        """The printed numbers that follow from the address, by numbering; in a multiplexed telegram `mux`, `word`."""
+        """The numbers that the manual prints for an address, by numbering.
+
+        In a multiplexed telegram these are `mux`, the number of the frame, and `word`, the place in it, too.
+        """
         if address is None:
             return {}
         numbering: Map | None = draft.group.get("numbering")
-        found = {} if numbering is None else dict(self._numberings.numbers(numbering, address))
+        numbers = {} if numbering is None else dict(self._numberings.numbers(numbering, address))
         carried = self.carried(draft)
         if carried:
-            found = {"mux": address // carried, "word": address % carried + 1, **found}
-        return found
+            numbers = {"mux": address // carried, "word": address % carried + 1, **numbers}
+        return numbers
 
     def carried(self, draft: Draft) -> int:
         """How many words of the point's telegram one of its frames carries; 0 if it is in no multiplexed telegram."""
         if draft.get("space") != SPACE:
             return 0
-        found = self.telegrams.get(draft.group.get("telegram", ""))
-        return 0 if found is None else found[1]
+        telegram_entry = self.telegrams.get(draft.group.get("telegram", ""))
+        return 0 if telegram_entry is None else telegram_entry[1]
 
     def _last(self, draft: Draft, space: str) -> int | None:
-        """The last address of the space, of a telegram its last word; None after a finding."""
+        """The last address of the space, or the last word of the telegram; None after a finding."""
         if space != SPACE:
             return self.scope.family.last_address
         telegram = telegram_of(self.scope, self.telegrams, draft)
@@ -109,19 +112,19 @@ class Places:
         first = self._address(draft)
         if first is None:
             return None
-        alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
+        single_word = bits is not None or space in self.scope.family.indexed  # there a number names a whole value
         words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
-        return tuple(range(first, first + (1 if alone else words)))
+        return tuple(range(first, first + (1 if single_word else words)))
 
     def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
         """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""
-        raw = self._said(draft)
+        raw = self._written_address(draft)
         characters: int | None = draft.get("characters")
         if raw is None or characters is None or "characters" in draft.failed:
             return None
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
-        first = self._end(draft, first_text) if dots else self._address(draft)
-        final = self._end(draft, last_text) if dots else None
+        first = self._text_end(draft, first_text) if dots else self._address(draft)
+        final = self._text_end(draft, last_text) if dots else None
         if first is None or (dots and final is None):
             return None
         if final is None:
@@ -130,21 +133,21 @@ class Places:
         if abs(final - first) >= (_MOST_WORDS if last is None else last + 1):
             self._outside(draft, str(draft.get("space")), max(first, final), last or _MOST_WORDS, single=True)
             return None
-        found = tuple(range(first, final + step, step))
-        if 2 * len(found) != characters:
-            message = f"{len(found)} words hold {2 * len(found)} characters, not {characters}"
+        words = tuple(range(first, final + step, step))
+        if 2 * len(words) != characters:
+            message = f"{len(words)} words hold {2 * len(words)} characters, not {characters}"
             hint = "two characters stand in a word: correct `at` or `characters`"
             self.report.error("text-length", message, draft.span("at"), hint)
             return None
-        return found
+        return words
 
-    def _end(self, draft: Draft, text: str) -> int | None:
+    def _text_end(self, draft: Draft, text: str) -> int | None:
         """The first or the last word of a text, as its row writes it."""
         number = self._number(draft, text.strip())
-        return None if number is None else self._placed(draft, number)
+        return None if number is None else self._address_of(draft, number)
 
-    def _said(self, draft: Draft) -> object:
-        """What the point says under `at`; None if the manual prints no address, or after a finding."""
+    def _written_address(self, draft: Draft) -> object:
+        """The value of `at` as it is written; None if the manual prints no address, or after a finding."""
         layer = draft.layer("at")
         if layer is None:
             if "at" not in draft.failed:
@@ -154,17 +157,17 @@ class Places:
         return None if draft.use is not None and draft.use.get("at", 0) is None else layer["at"]
 
     def _address(self, draft: Draft) -> int | None:
-        """The number on the wire; None if the manual prints none, or after a finding."""
-        raw = self._said(draft)
+        """The first address of the point on the wire; None if the manual prints none, or after a finding."""
+        raw = self._written_address(draft)
         if raw is None:
             return None
         number = raw if isinstance(raw, int) else self._number(draft, str(raw))
-        return None if number is None else self._placed(draft, number)
+        return None if number is None else self._address_of(draft, number)
 
     def _number(self, draft: Draft, text: str) -> int | None:
-        """A number, or a formula of `base`."""
+        """The number that a text under `at` means, which may be a formula with `base`; None after a finding."""
         span = draft.span("at")
-        several = _several(text)
+        several = _first_of_several(text)
         if several is not None:
             hint = f"it stands once, at its first word: write `at: {several}`; the `type` says how many words it has"
             self.report.error("bad-number", f"`{text[:60]}` are several addresses", span, hint)
@@ -177,12 +180,12 @@ class Places:
         known = "`base` is where a record is used: it is known in the points of a record only" if not base else ""
         return self._whole(text, base, span, known)
 
-    def _placed(self, draft: Draft, number: int) -> int | None:
-        """The address that the group's rule gives for a number; without a rule it is the number."""
+    def _address_of(self, draft: Draft, number: int) -> int | None:
+        """The address that the group's `addressing` makes of a number; without such a rule it is the number itself."""
         group, element = draft.group, draft.element
         rule: str | None = group.get("addressing")
         if rule is not None:
-            return self._ruled(draft, rule, (element or ALONE).values(number))
+            return self._by_rule(draft, rule, (element or ALONE).values(number))
         if element is None or "addressing" in group.broken:
             return None if "addressing" in group.broken else number
         indexed = draft.get("space") in self.scope.family.indexed
@@ -199,8 +202,8 @@ class Places:
             return None
         return number
 
-    def _ruled(self, draft: Draft, rule: str, values: Mapping[str, Fraction]) -> int | None:
-        """What the group's rule gives; what is wrong with the rule is one finding, not one for each element."""
+    def _by_rule(self, draft: Draft, rule: str, values: Mapping[str, Fraction]) -> int | None:
+        """The result of the group's `addressing`; a wrong rule is reported once, not once for each element."""
         span = draft.group.span("addressing")
         if id(draft.group) in self._wrong_rules:
             return None
@@ -216,6 +219,7 @@ class Places:
         return exact.numerator
 
     def _whole(self, text: str, known: Mapping[str, Fraction], span: Span, unknown: str) -> int | None:
+        """The whole number that a formula gives; None after a finding, with `unknown` as hint for other names."""
         exact = formula_value(text, known, span, self.report, unknown)
         if exact is None:
             return None
@@ -226,7 +230,7 @@ class Places:
         return exact.numerator
 
     def _base(self, draft: Draft) -> Mapping[str, Fraction] | None:
-        """What an address may be computed from: the place where a record is used. None after a finding."""
+        """The names that a formula under `at` may use: in a record `base`, where it is used. None after a finding."""
         use = draft.use
         if use is None:
             return {}
@@ -238,16 +242,16 @@ class Places:
         base = integer(use["at"], use.span("at"), self.report)
         return None if base is None else {"base": Fraction(base)}
 
-    def _too_scattered(self, draft: Draft, words: tuple[int, ...]) -> None:
-        """A finding for a number of more than two words that come in several frames: nobody could tell a torn one."""
+    def _refuse_scattered(self, draft: Draft, words: tuple[int, ...]) -> None:
+        """A finding for a number of more than two words in several frames: old and new words could mix unnoticed."""
         carried = self.carried(draft)
-        if carried and len(words) > _TOLD_APART and words[0] // carried != words[-1] // carried:
+        if carried and len(words) > _MOST_PARTED_WORDS and words[0] // carried != words[-1] // carried:
             message = f"the {len(words)} words of `{draft.name}` come in several frames"
             hint = "a number that is parted has two words at most: describe the parts as points of their own"
             self.report.error("parted-number", message, draft.span("at"), hint)
 
     def _outside(self, draft: Draft, space: str, address: int, last: int, *, single: bool) -> None:
-        """A finding for a word that its space or telegram does not have."""
+        """A finding for an address that the space, or a word that the telegram, does not have."""
         if space == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
             hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
@@ -265,7 +269,7 @@ class Places:
         return str(self.order or "high first")
 
 
-def _several(text: str) -> str | None:
-    """The first of `1..2` or `1 - 2`: addresses of one point; None for a formula, whose result is not below zero."""
+def _first_of_several(text: str) -> str | None:
+    """The first address of a text that names several (`1..2`, `1 - 2`); None for a number or a formula (`5 - 2`)."""
     first, _, last = ("" if ":" in text else interval_meant(text) or "").partition("..")
     return first if first and parse_number(first) < parse_number(last) else None

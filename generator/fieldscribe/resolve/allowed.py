@@ -28,7 +28,7 @@ _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|
 
 
 class Ranges:
-    """The allowed numbers of every point."""
+    """Works out which raw numbers may be written to each point."""
 
     def __init__(self, bounds: Bounds) -> None:
         self.bounds = bounds
@@ -37,26 +37,26 @@ class Ranges:
     def allowed(self, draft: Draft, enum: Enum | None) -> Allowed:
         """What may be written to the point: its range, else its enum's numbers, else all that the type holds."""
         if draft.floating:
-            return Allowed((), False, self._units(draft))
+            return Allowed((), False, self._float_range(draft))
         if draft.text:
             return Allowed((), False, ())
         least, greatest = self.bounds.holds[draft]
-        whole = Allowed((Interval(least, greatest),), False, ())
+        type_range = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):
             if draft.layer(key) is not None:
-                found = self.intervals(draft, draft.get(key), draft.span(key), key == "range_in_units")
-                if found is None:
+                ranged = self.intervals(draft, draft.get(key), draft.span(key), key == "range_in_units")
+                if ranged is None:
                     draft.failed.add("range")
-                return found or whole
+                return ranged or type_range
         if enum is not None and not draft.get("open", False):
             numbers = [entry.raw for entry in enum.entries if least <= entry.raw <= greatest]
-            return Allowed(_merged([(one, one) for one in numbers]), True, ()) if numbers else whole
-        return whole
+            return Allowed(_merged([(number, number) for number in numbers]), True, ()) if numbers else type_range
+        return type_range
 
     def intervals(self, draft: Draft, raw: Any, span: Span, in_units: bool, *, printed: bool = False) -> Allowed | None:
         """The raw numbers that a range (its YAML value, in raw numbers or in units) allows; None after a finding.
 
-        What is only `printed` may leave the type and run downwards: misprints do.
+        A range that is only `printed` in the manual may lie outside the type or run downwards, as misprints do.
         """
         text = as_text(raw)
         decimal = _DECIMAL_END.search(text) if not in_units and not printed else None
@@ -70,10 +70,10 @@ class Ranges:
         try:
             pairs = self._constant(draft, text, span, in_units)
             if pairs is None:
-                found = parse_range(text).alternatives
+                alternatives = parse_range(text).alternatives
                 pairs = [
                     (self._bound(draft, low, text, span, in_units), self._bound(draft, high, text, span, in_units))
-                    for low, high in found
+                    for low, high in alternatives
                 ]
                 if in_units and self.bounds.falls(draft):
                     pairs = [(high, low) for low, high in pairs]
@@ -101,7 +101,7 @@ class Ranges:
     def _two_meanings(self, raw: Seq, span: Span) -> bool:
         """A finding for `[0, 100]`: here a list of two numbers, in other tools the ends of an interval."""
         first, last = (raw[0], raw[1]) if len(raw) == 2 else (0, 0)
-        if not all(isinstance(one, int | Decimal) for one in (first, last)) or last - first <= 1:
+        if not all(isinstance(end, int | Decimal) for end in (first, last)) or last - first <= 1:
             return False
         message = f"[{first}, {last}] could be an interval or two single numbers"
         hint = f"write `{first}..{last}` for all between them, `{first} | {last}` for these two alone"
@@ -110,12 +110,13 @@ class Ranges:
 
     def _constant(self, draft: Draft, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
         """The ends of a range that names no point and needs none for its scale; None if it does."""
-        found = self.bounds.constant(draft, text, in_units)
-        if found is None:
+        pairs = self.bounds.constant(draft, text, in_units)
+        if pairs is None:
             return None
-        return [(self._whole(low, span), self._whole(high, span)) for low, high in found]
+        return [(self._whole(low, span), self._whole(high, span)) for low, high in pairs]
 
     def _whole(self, exact: int | Fraction, span: Span) -> int:
+        """A limit as a whole raw number. Raises UnknownError after a finding."""
         if exact.denominator == 1:
             return exact.numerator
         hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
@@ -125,6 +126,7 @@ class Ranges:
         raise UnknownError
 
     def _bound(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
+        """One end of a range: a raw number, or a limit that other points set."""
         rule = self.bounds.limit(draft, end, text, span, in_units)
         if rule.factors:
             return self._limit(draft, rule, span)
@@ -132,6 +134,7 @@ class Ranges:
         return half_away(exact) if in_units else self._whole(exact, span)
 
     def _checked(self, draft: Draft, low: Bound, high: Bound, span: Span) -> bool:
+        """Whether the type holds both ends and the interval can hold a number; a finding if not."""
         least, greatest = self.bounds.holds[draft]
         for end in (low, high):
             if isinstance(end, int) and not least <= end <= greatest:
@@ -151,10 +154,11 @@ class Ranges:
         return True
 
     def _limit(self, draft: Draft, rule: Linear, span: Span) -> Limit:
+        """A limit that other points set, with the least and greatest number that it can be."""
         if not self.bounds.exponents_fit(rule, span):
             raise UnknownError
         own_least, own_greatest = self.bounds.holds[draft]
-        corners = [half_away(one) for one in self.bounds.corners(rule)]
+        corners = [half_away(corner) for corner in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
             message = f"the limit can only be {min(corners)}..{max(corners)}, outside the type"
@@ -167,9 +171,9 @@ class Ranges:
     def _codes(self, name: str) -> tuple[tuple[int, int], ...]:
         """The special codes of a point that limits another: while it holds one of them, the limit does not apply."""
         specials = self.bounds.specials[self.bounds.scales.index.by_item(name)]
-        return tuple(sorted((one.low, one.high) for one in specials))
+        return tuple(sorted((special.low, special.high) for special in specials))
 
-    def _units(self, draft: Draft) -> tuple[tuple[Fraction, Fraction], ...]:
+    def _float_range(self, draft: Draft) -> tuple[tuple[Fraction, Fraction], ...]:
         """The range of a floating-point point, in its unit."""
         if draft.layer("range") is not None:
             message = "`range` is in raw numbers, which are bit patterns here"
@@ -178,21 +182,21 @@ class Ranges:
             return ()
         span = draft.span("range_in_units")
         try:
-            found = constant_range(as_text(draft.get("range_in_units")))
+            intervals = constant_range(as_text(draft.get("range_in_units")))
         except FormulaError as error:
             formula_finding(error, span, self.report)
             return ()
-        if found is None:
+        if intervals is None:
             message = "a range of floating-point numbers takes constants only"
             self.report.error("float-fact", message, span, "write the widest range")
             return ()
-        for low, high in found:
+        for low, high in intervals:
             if low > high:
                 low_text, high_text = number_text(low), number_text(high)
                 hint = f"write {high_text}..{low_text} if that is meant"
                 self.report.error("range-reversed", f"the range {low_text}..{high_text} runs downwards", span, hint)
                 return ()
-        return tuple(sorted(found))
+        return tuple(sorted(intervals))
 
 
 def _merged(pairs: Iterable[tuple[int, int]]) -> tuple[Interval, ...]:

@@ -1,4 +1,4 @@
-"""What the raw number of a point, or a formula of points, can be at most: by type, by range, by the factors' bounds."""
+"""The least and greatest number that a point or a formula of points can be: by types, ranges and factors."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ _DEEPEST = 30
 
 
 def as_text(raw: Any) -> str:
-    """A range in the one notation that the parser reads: a YAML list is its items with commas."""
-    return ", ".join(str(one) for one in raw) if isinstance(raw, Seq) else str(raw)
+    """A range as the text that the parser reads: of a YAML list its items with commas."""
+    return ", ".join(str(item) for item in raw) if isinstance(raw, Seq) else str(raw)
 
 
 @lru_cache(maxsize=16384)
@@ -40,18 +40,18 @@ def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
 
 @lru_cache(maxsize=16384)
 def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) -> tuple[tuple[int, int], ...] | None:
-    """The same for a range in units under a fixed scale, as raw numbers; ratio and offset as numerator, denominator."""
-    found = constant_range(text)
-    if found is None:
+    """The raw intervals of a range in units; `ratio` and `offset` of the fixed scale are (numerator, denominator)."""
+    intervals = constant_range(text)
+    if intervals is None:
         return None
     (up, down), (add, part) = ratio, offset
     rule = Fraction(up, down), Fraction(add, part)
-    ends = [tuple(half_away(end * rule[0] + rule[1]) for end in pair) for pair in found]
+    ends = [tuple(half_away(end * rule[0] + rule[1]) for end in pair) for pair in intervals]
     return tuple((high, low) if up < 0 else (low, high) for low, high in ends)
 
 
 class Bounds:
-    """Types, special codes and outer bounds of all points."""
+    """What the raw number of each point can be: what its type `holds`, and its hull, what its range leaves of that."""
 
     def __init__(
         self, scales: Scales, holds: dict[Draft, tuple[int, int]], specials: dict[Draft, tuple[Special, ...]]
@@ -65,39 +65,42 @@ class Bounds:
     def hull(self, item: str) -> tuple[int, int]:
         """The least and greatest raw number that a point can hold, whatever its dependent limits and variant say."""
         index = self.scales.index
-        ends = [self.own_hull(one) for one in index.siblings(index.by_item(item))]
+        ends = [self.own_hull(sibling) for sibling in index.siblings(index.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)
 
     def own_hull(self, draft: Draft) -> tuple[int, int]:
-        """The same for one variant of a point."""
+        """The least and greatest raw number that one variant of a point can hold."""
         return self._end(draft, 0), self._end(draft, 1)
 
     def _end(self, draft: Draft, end: int) -> int:
-        """One end of the hull, each for itself: so points that limit each other find an end that is fixed."""
+        """The least (`end` 0) or greatest (1) number of the hull.
+
+        Each end is computed alone: where points limit each other in a circle, one end is often fixed and breaks it.
+        """
         key = (draft, end)
-        found = self._ends.get(key)
-        if found is None:
-            found = self._ends[key] = self.holds[draft][end]  # what holds while the points of a circle are looked at
+        bound = self._ends.get(key)
+        if bound is None:
+            bound = self._ends[key] = self.holds[draft][end]  # the answer to points of a circle, which ask again
             self._depth += 1
             if self._depth <= _DEEPEST:
-                found = self._ends[key] = self._computed_end(draft, end)
+                bound = self._ends[key] = self._computed_end(draft, end)
             self._depth -= 1
-        return found
+        return bound
 
     def ends_of(self, factor: Factor) -> tuple[int, int]:
-        """The ends of raw * slope + intercept of a factor's point."""
+        """What a factor is (raw * slope + intercept) at the least and greatest raw number of its point."""
         low, high = self.hull(factor.point)
         return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
 
     def corners(self, rule: Linear) -> list[Fraction]:
-        """The extreme results of the rule (applied to 1) at the ends of what its factors can hold."""
+        """The extreme results of a rule for the value 1, over all that its factors can hold."""
         if not rule.factors:
             return [rule.ratio + rule.offset]
         results = {rule.ratio}
         for factor in rule.factors:
-            products = {one * end for one in results for end in self._factor_ends(factor)}
+            products = {result * end for result in results for end in self._factor_ends(factor)}
             results = {min(products), max(products)}
-        return sorted(one + rule.offset for one in results)
+        return sorted(result + rule.offset for result in results)
 
     def float_range(self, factor: Factor) -> tuple[Fraction, Fraction] | None:
         """The outer limits of a floating-point factor; None where its point gives none."""
@@ -105,12 +108,13 @@ class Bounds:
         if draft.layer("range_in_units") is None:
             return None
         try:
-            found = constant_range(as_text(draft.get("range_in_units")))
+            intervals = constant_range(as_text(draft.get("range_in_units")))
         except FormulaError:
             return None
-        return (min(low for low, _ in found), max(high for _, high in found)) if found else None
+        return (min(low for low, _ in intervals), max(high for _, high in intervals)) if intervals else None
 
     def _factor_ends(self, factor: Factor) -> set[Fraction]:
+        """The extreme values of a factor: a number, one divided by it, or ten to the power of it."""
         if self.scales.index.by_item(factor.point).floating:
             ends = set(self.float_range(factor) or ())
             return {end**factor.power for end in ends if end} or {Fraction(1)}
@@ -120,11 +124,11 @@ class Bounds:
             return {Fraction(10) ** (factor.power * exponent) for exponent in exponents}
         if factor.power == 1:
             return {Fraction(low), Fraction(high)}
-        nearest = {one for one in (1, -1) if low <= one <= high}  # zero itself is an error at run time
-        return {Fraction(1, one) for one in {low, high, *nearest} if one} or {Fraction(1)}
+        nearest = {divisor for divisor in (1, -1) if low <= divisor <= high}  # zero itself is an error at run time
+        return {Fraction(1, divisor) for divisor in {low, high, *nearest} if divisor} or {Fraction(1)}
 
     def exponents_fit(self, rule: Linear, span: Span) -> bool:
-        """Whether every point that is an exponent has a range that keeps the power in sight; else a finding."""
+        """Whether the range of every point that is an exponent of ten lies within MOST_EXPONENT; a finding if not."""
         for factor in rule.factors:
             if factor.ten_to and max(map(abs, self.ends_of(factor))) > MOST_EXPONENT:
                 low, high = self.ends_of(factor)
@@ -175,7 +179,7 @@ class Bounds:
         return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
 
     def limit(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
-        """The rule of one end of a range, applied to 1 it gives the raw limit. Raises FormulaError or UnknownError."""
+        """One end of a range, as a rule that gives the limit for the value 1. Raises FormulaError or UnknownError."""
         rule = limit_rule(end, lambda name, part: self._of_another(draft, name, part, Written(text, span)))
         return self.encoded(draft, rule, span) if in_units else rule
 
@@ -195,6 +199,7 @@ class Bounds:
         return cases is not None and cases[0].rule.ratio < 0
 
     def _computed_end(self, draft: Draft, end: int) -> int:
+        """One end of what the range leaves of the type; that of the type where the range says nothing usable."""
         key = "range" if draft.layer("range") is not None else "range_in_units"
         least, greatest = self.holds[draft]
         if draft.layer(key) is None or draft.floating or draft.text:
@@ -204,13 +209,13 @@ class Bounds:
         try:
             constant = self.constant(draft, text, key != "range")
             if constant is not None:
-                found = [Fraction(ends[end]) for ends in constant]
+                candidates = [Fraction(ends[end]) for ends in constant]
             else:
                 side = 1 - end if key != "range" and self.falls(draft) else end
                 rules = [
                     self.limit(draft, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
                 ]
-                found = [corner for rule in rules for corner in self.corners(rule)]
+                candidates = [corner for rule in rules for corner in self.corners(rule)]
         except (FormulaError, UnknownError):
             return self.holds[draft][end]
-        return max(least, min(greatest, half_away(pick(found))))
+        return max(least, min(greatest, half_away(pick(candidates))))

@@ -26,18 +26,18 @@ _LAST_UNIT = 255
 
 def bus_of(scope: Scope) -> Bus:
     """The bus of the device; a finding when no file or two files say `bus`, or when it lacks what the family needs."""
-    found = [file for file in scope.files if "bus" in file]
+    holders = [file for file in scope.files if "bus" in file]
     keys = scope.family.bus
-    if not found:
+    if not holders:
         if not scope.is_lost("bus", "bus"):
             hint = f"add `bus:` with {', '.join((*keys.needed[:1], 'units', *keys.needed[1:]))}"
             scope.report.error("missing-key", "no file of the device says `bus`", scope.header.span(), hint)
         return NO_BUS
-    for second in found[1:]:
-        first = [(found[0].key_span("bus"), "first said here")]
+    for second in holders[1:]:
+        first = [(holders[0].key_span("bus"), "first said here")]
         scope.report.error("duplicate-name", "`bus` is said twice", second.key_span("bus"), "write it once", first)
-    raw: Map = found[0]["bus"]
-    _of_family(scope, raw, keys)
+    raw: Map = holders[0]["bus"]
+    _check_keys(scope, raw, keys)
     functions = codes_under(scope, raw, "functions")
     own = reading_of(scope).bus(scope, raw, functions)
     return Bus(
@@ -54,7 +54,7 @@ def bus_of(scope: Scope) -> Bus:
     )
 
 
-def _of_family(scope: Scope, raw: Map, keys: BusKeys) -> None:
+def _check_keys(scope: Scope, raw: Map, keys: BusKeys) -> None:
     """Findings for keys that the family needs and that are missing, and for keys that it does not know."""
     family = scope.family.name
     for key in keys.needed:
@@ -73,20 +73,20 @@ def _of_family(scope: Scope, raw: Map, keys: BusKeys) -> None:
         scope.report.error("wrong-choice", message, raw.span("broadcast"), hint)
 
 
-def _knows(one: Family, key: str) -> bool:
-    """Whether a family has a key under `bus`: with others, or alone."""
-    return key in one.bus or any(own.name == key and BUS in own.places for own in keys_of_family(one))
+def _knows(family: Family, key: str) -> bool:
+    """Whether a family has this key under `bus`, be it a common key or one of its own."""
+    return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
 
 
-def ends_of(scope: Scope, raw: Map, key: str, wrong: str, last: int) -> tuple[int, int]:
+def ends_of(scope: Scope, raw: Map, key: str, complaint: str, last: int) -> tuple[int, int]:
     """The ends of an interval under `bus`, such as `units`; zeros after a finding or where it is not said."""
     if key not in raw:
         return 0, 0
-    found = interval(str(raw[key]), raw.span(key), scope.report)
-    if found is not None and 0 <= found[0] <= found[1] <= last:
-        return found
-    if found is not None:
-        message = f"{key} {found[0]}..{found[1]} {wrong}"
+    ends = interval(str(raw[key]), raw.span(key), scope.report)
+    if ends is not None and 0 <= ends[0] <= ends[1] <= last:
+        return ends
+    if ends is not None:
+        message = f"{key} {ends[0]}..{ends[1]} {complaint}"
         scope.report.error("address-outside-space", message, raw.span(key), f"they lie in 0..{last}")
     raw.broken += (key,)
     return 0, 0
@@ -134,16 +134,16 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
 
 def code_list(scope: Scope, raw: Map, key: str) -> tuple[int, ...]:
     """The numbers of a list of codes, where `11..14` stands for several."""
-    found: dict[int, None] = {}
-    said: Seq = raw.get(key) or Seq(raw.file, raw.at)
-    for place, one in enumerate(said):
-        ends = interval(str(one), said.span(place), scope.report)
+    codes: dict[int, None] = {}
+    items: Seq = raw.get(key) or Seq(raw.file, raw.at)
+    for place, item in enumerate(items):
+        ends = interval(str(item), items.span(place), scope.report)
         if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_UNIT:
-            message = f"the code {one} lies outside 0..{_LAST_UNIT}"
-            scope.report.error("address-outside-space", message, said.span(place), "correct the code")
+            message = f"the code {item} lies outside 0..{_LAST_UNIT}"
+            scope.report.error("address-outside-space", message, items.span(place), "correct the code")
         elif ends is not None:
-            found.update(dict.fromkeys(range(ends[0], ends[1] + 1)))
-    return tuple(found)
+            codes.update(dict.fromkeys(range(ends[0], ends[1] + 1)))
+    return tuple(codes)
 
 
 def _code_titles(value: Map | str, name: str) -> Mapping[str, str]:
@@ -154,27 +154,29 @@ def _code_titles(value: Map | str, name: str) -> Mapping[str, str]:
 
 
 def _gaps(scope: Scope, raw: Map | None) -> dict[str, tuple[tuple[int, int], ...]]:
+    """The intervals of addresses under `gaps`, by space."""
     result: dict[str, tuple[tuple[int, int], ...]] = {}
     known, last = scope.family.spaces, scope.family.last_address
     for space, texts in raw.items() if raw is not None else ():
         if raw is not None and space not in known:
             scope.unknown("space", space, raw.key_span(space), known)
             continue
-        found = [
+        gaps = [
             (interval(str(text), texts.span(index), scope.report), texts.span(index))
             for index, text in enumerate(texts)
         ]
-        for one, span in found:
-            if one is not None and not 0 <= one[0] <= one[1] <= last:
-                message = f"the gap {one[0]}..{one[1]} lies outside 0..{last}"
+        for gap, span in gaps:
+            if gap is not None and not 0 <= gap[0] <= gap[1] <= last:
+                message = f"the gap {gap[0]}..{gap[1]} lies outside 0..{last}"
                 scope.report.error("address-outside-space", message, span, "gaps are given in numbers on the wire")
-        result[space] = tuple(sorted(one for one, _ in found if one is not None))
+        result[space] = tuple(sorted(gap for gap, _ in gaps if gap is not None))
     return result
 
 
 def _setting(value: Any) -> dict[str, str]:
+    """A serial setting as texts by key; the texts of a list, or a single one, are their own keys."""
     if isinstance(value, Map):
         return {key: str(text) for key, text in value.items()}
     if isinstance(value, Seq):
-        return {str(one): str(one) for one in value}
+        return {str(item): str(item) for item in value}
     return {str(value): str(value)}

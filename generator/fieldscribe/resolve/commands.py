@@ -26,7 +26,7 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
         name = str(raw["name"])
         if scope.family.commands_in is None:
             hint = "describe the point that it writes, with its value under `enum` or `flags`"
-            known = " and ".join(one.name for one in families() if one.commands_in is not None)
+            known = " and ".join(family.name for family in families() if family.commands_in is not None)
             scope.report.error("family-key", f"commands are for the family {known}", raw.span("name"), hint)
             continue
         if name in result or name in ("no", "yes", "choice"):
@@ -73,14 +73,14 @@ def _fits(scope: Scope, raw: Map, space: str, address: int, value: int | None) -
     """Whether the space has the address and holds the value; a finding if not."""
     last = scope.family.last_address
     greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
-    there, held = 0 <= address <= last, value is None or 0 <= value <= greatest
-    if not there:
+    inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
+    if not inside:
         message = f"the address {address} lies outside 0..{last}"
         scope.report.error("address-outside-space", message, raw.span("at"), "`at` is the number on the wire")
-    if not held:
+    if not holds:
         message = f"the value {value} does not fit into `{space}`"
         scope.report.error("range-outside-type", message, raw.span("value"), f"0..{greatest} can be written")
-    return there and held
+    return inside and holds
 
 
 def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> bool:
@@ -91,6 +91,6 @@ def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> boo
     message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"
     if function not in known:
         message = f"function {function:02X}h does not write into `{space}`"
-        hint = f"functions that do: {', '.join(f'{one:02X}h' for one in known) or 'none'}"
+        hint = f"functions that do: {', '.join(f'{other:02X}h' for other in known) or 'none'}"
     scope.report.error("unknown-function", message, raw.span("function"), hint)
     return False

@@ -19,7 +19,7 @@ _PLAIN = Linear(Fraction(1), Fraction(0), ())
 
 
 def default_of(scope: Scope, draft: Draft, shape: Shape) -> tuple[Fraction | None, int | None]:
-    """The factory setting in the unit and as raw number; what is not said, or what only other points tell, is None."""
+    """The factory setting in the unit and as raw number; None where it is not given or depends on other points."""
     if draft.text:
         return None, None
     rule = None if draft.floating else _rule(draft, shape)
@@ -33,35 +33,35 @@ def default_of(scope: Scope, draft: Draft, shape: Shape) -> tuple[Fraction | Non
 
 def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
     """The raw number that `default` says; None after a finding."""
-    said, span, enum = draft.get("default"), draft.span("default"), shape.enum
+    default, span, enum = draft.get("default"), draft.span("default"), shape.enum
     if draft.floating:
         message = "`default` is in raw numbers, which are bit patterns here"
-        scope.report.error("float-fact", message, span, f"write `default_in_units: {said}`")
+        scope.report.error("float-fact", message, span, f"write `default_in_units: {default}`")
         return None
-    named = {one.name: one.low for one in shape.specials if one.low == one.high}
-    named |= {one.name: one.raw for one in (() if enum is None else enum.entries)}
-    if said in named:
-        return named[said]
-    if isinstance(said, str) and enum is not None and said.isidentifier():
-        hint = f"write a number, or one of {', '.join(one.name for one in enum.entries[:_MOST_NAMES])}"
-        scope.report.error("bad-number", f"`{said}` is no name of this enum", span, hint)
+    named = {special.name: special.low for special in shape.specials if special.low == special.high}
+    named |= {entry.name: entry.raw for entry in (() if enum is None else enum.entries)}
+    if default in named:
+        return named[default]
+    if isinstance(default, str) and enum is not None and default.isidentifier():
+        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
+        scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
         return None
-    if _has_a_fraction(said):
-        message = f"`{said}` has a decimal point, and `default` is in raw numbers"
-        scope.report.error("bad-number", message, span, f"write `default_in_units: {said}`, or the raw number")
+    if _has_a_fraction(default):
+        message = f"`{default}` has a decimal point, and `default` is in raw numbers"
+        scope.report.error("bad-number", message, span, f"write `default_in_units: {default}`, or the raw number")
         return None
-    return integer(said, span, scope.report)
+    return integer(default, span, scope.report)
 
 
-def _has_a_fraction(said: object) -> bool:
+def _has_a_fraction(default: object) -> bool:
     try:
-        return isinstance(said, str) and "." in said and parse_number(said) is not None
+        return isinstance(default, str) and "." in default and parse_number(default) is not None
     except NumberError:
         return False
 
 
 def _rule(draft: Draft, shape: Shape) -> Linear | None:
-    """The one rule between raw number and value; None where other points, or nobody, tell."""
+    """The rule between raw number and value; None where it depends on other points or is not known."""
     if shape.scale is not None:
         return shape.fixed_scale
     unsettled = draft.untyped is not None or (draft.layer("scale") is not None and draft.get("scale") is None)

@@ -25,17 +25,17 @@ def build_device(subject: Subject) -> tuple[Device, Device]:
 
 
 def sound_device(subject: Subject) -> Device:
-    """What is left of a device with findings: the points that were read whole and need no other ones."""
-    sound = {one.point.item: one for one in subject.resolved if not one.draft.failed}
-    known = {one.point.name for one in sound.values()} | sound.keys()
-    while lost := [item for item, one in sound.items() if not known.issuperset(one.point.arguments)]:
+    """A device with findings, reduced to the points that have none and depend on no point that has."""
+    sound = {resolved.point.item: resolved for resolved in subject.resolved if not resolved.draft.failed}
+    known = {resolved.point.name for resolved in sound.values()} | sound.keys()
+    while lost := [item for item, resolved in sound.items() if not known.issuperset(resolved.point.arguments)]:
         known -= {name for item in lost for name in (item, sound.pop(item).point.name)}
     return _device(subject, sound.values())
 
 
 def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
     scope, header = subject.scope, subject.scope.header
-    points = with_exponents(tuple([_with_errata(subject, one.point) for one in resolved]))
+    points = with_exponents(tuple([_with_errata(subject, entry.point) for entry in resolved]))
     return Device(
         id=str(header["device"]),
         version=str(header.get("version", "")),
@@ -53,7 +53,7 @@ def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
         blocks=_blocks(subject, points),
         commands=subject.commands,
         frames=tuple(subject.frames),
-        errata=tuple(one.erratum for one in subject.errata),
+        errata=tuple(open_erratum.erratum for open_erratum in subject.errata),
         digest="",
         messages=subject.messages,
         telegrams=tuple(telegram for telegram, _ in subject.places.telegrams.values()),
@@ -61,8 +61,10 @@ def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
 
 
 def _with_errata(subject: Subject, point: Point) -> Point:
-    found = subject.cited.get(point.name)
-    return point if found is None else replace(point, errata=tuple(dict.fromkeys(one.erratum.id for one in found)))
+    cited = subject.cited.get(point.name)
+    if cited is None:
+        return point
+    return replace(point, errata=tuple(dict.fromkeys(open_erratum.erratum.id for open_erratum in cited)))
 
 
 def _groups(scope: Scope) -> Iterator[Group]:

@@ -1,4 +1,4 @@
-"""With how many decimals people see the values of a point."""
+"""How many decimals people see in the values of a point."""
 
 from __future__ import annotations
 
@@ -18,30 +18,30 @@ _WITHOUT_VALUE = {
     "text": "a text",
     "bit": "a single bit",
 }
-"""The forms of points that are no quantity."""
+"""The forms of points that are no quantity, in words."""
 
 
 def display_of(draft: Draft, shape: Shape, bounds: Bounds) -> int | None:
     """The decimals that `display` says; a finding where there is no value to show with them."""
-    said = draft.get("display")
-    if said is None:
+    display = draft.get("display")
+    if display is None:
         return None
-    decimals: int = said["decimals"]
+    decimals: int = display["decimals"]
     kind, report = _WITHOUT_VALUE.get(shape.form), bounds.scales.scope.report
     if kind is not None:
         if draft.layer("display") is not draft.group:  # what a group says is for its quantities
             message = f"`{draft.name}` is {kind}, which has no value to show with decimals"
             report.error("display-fact", message, draft.span("display"), "leave `display` out")
         return None
-    fits = [one for one in range(decimals + 1) if _is_shown(draft, shape, bounds, one)]
+    fits = [count for count in range(decimals + 1) if _is_shown(draft, shape, bounds, count)]
     if decimals not in fits:
         message = f"`decimals: {decimals}` needs integers that are wider than code computes with"
         hint = f"write `decimals: {fits[-1]}`" if fits else "leave `display` out: no decimals of this scale are exact"
-        report.error("display-fact", message, said.span("decimals"), hint)
+        report.error("display-fact", message, display.span("decimals"), hint)
         return None
     return decimals
 
 
 def _is_shown(draft: Draft, shape: Shape, bounds: Bounds, decimals: int) -> bool:
-    """Whether code computes each value with so many decimals."""
+    """Whether code can compute each value with this many decimals."""
     return shape.scale is None or shows(draft, shape.scale, bounds, decimals, counted=shape.decimals is not None)

@@ -1,4 +1,4 @@
-"""Points before they are computed: every fact still with its place in the text, and with the layer that says it."""
+"""Points before they are computed: every fact with its place in the text, and with the layer that it comes from."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 _INHERITED = inherited(GROUP)
-"""What a group says for its points."""
+"""Keys that a group may set for its points."""
 
 _RIVALS = (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
-"""Two ways to say one fact: the nearer layer wins, whichever it says."""
+"""Pairs of keys that say one fact: the key that the nearer layer has hides the other one of farther layers."""
 
 
 @dataclass(slots=True, eq=False)
 class Draft:
     """One expanded point: its layers of facts, own facts first, and the group last. `use` is where its record is used.
 
-    `failed` collects the facts that turned out wrong, so that nothing is held against what was taken in their place.
+    `failed` collects the keys that have findings, so that nobody reports what was assumed in their place.
     """
 
     name: str
@@ -55,13 +55,13 @@ class Draft:
             keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
             for pair in _RIVALS:
-                for said, rival in (pair, pair[::-1]):
-                    if said in keys and rival not in keys:
+                for stated, rival in (pair, pair[::-1]):
+                    if stated in keys and rival not in keys:
                         where.pop(rival, None)
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):
-            del where["scale"]  # a scale for the numbers of a group is none for its names, floats and texts
+            del where["scale"]  # a group's scale is for its numbers, not for names, floats and texts
         if where.get("range") is group and (self.text or "digits" in where):
             del where["range"]
 
@@ -77,7 +77,7 @@ class Draft:
 
     @property
     def untyped(self) -> str | None:
-        """What stands in place of a type: the manual's words for it, or nothing where it does not settle it."""
+        """What stands in place of a type: the manual's words, "" where it leaves that open, None if there is a type."""
         words, typed = self.layer("untyped"), self.layer("type")
         if words is not None and (typed is None or self._rank(words) <= self._rank(typed)):
             return str(words["untyped"])
@@ -85,13 +85,13 @@ class Draft:
 
     @property
     def keeps(self) -> str | None:
-        """What happens to a written value, or the command that keeps it: the word of the nearer layer."""
-        said: str | None = self.get("keep_with", self.get("keeps"))
-        return said
+        """Whether a written value is kept, or by which command: the nearer one of `keep_with` and `keeps`."""
+        keeps: str | None = self.get("keep_with", self.get("keeps"))
+        return keeps
 
     def _rank(self, layer: Map) -> int:
-        """Whose word it is: own facts come before those of formats and of the group."""
-        return next((place for place, one in enumerate(self.layers) if one is layer), len(self.layers))
+        """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""
+        return next((place for place, other in enumerate(self.layers) if other is layer), len(self.layers))
 
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""
@@ -99,26 +99,26 @@ class Draft:
 
     def get(self, key: str, otherwise: Any = None) -> Any:
         """The fact, or `otherwise`."""
-        found = self._where.get(key)
-        return otherwise if found is None else found[key]
+        layer = self._where.get(key)
+        return otherwise if layer is None else layer[key]
 
     def span(self, key: str | None = None) -> Span:
         """Where the fact stands, or the point's name when nobody says it."""
-        found = self._where.get(key) if key is not None else None
-        if found is not None and key is not None:
-            return found.span(key)
+        layer = self._where.get(key) if key is not None else None
+        if layer is not None and key is not None:
+            return layer.span(key)
         return self.own.span("name" if "name" in self.own else None)
 
     @property
     def suffix(self) -> str:
-        """What the name of this element has behind the name of the whole."""
+        """What this element adds to the name of its row, such as `_set_2`."""
         return "" if self.element is None else self.element.suffix
 
     @property
     def code(self) -> str | None:
         """The manual's short name."""
-        found = self.get("code")
-        return None if found is None else str(found)
+        code = self.get("code")
+        return None if code is None else str(code)
 
     @property
     def item(self) -> str:
@@ -127,7 +127,7 @@ class Draft:
 
 
 def groups(scope: Scope) -> Iterator[Map]:
-    """The documents that are a group: what their points share, and these."""
+    """The groups of the device, as the text has them."""
     for document in scope.files:
         if "group" in document and "space" in document:
             yield document

@@ -1,4 +1,4 @@
-"""Sets and arrays: one row of the manual that stands for a point in each parameter set, for each index, or both."""
+"""Sets and arrays: rows of the manual that stand for one point in each parameter set, for each index, or both."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ _INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One of the points that a row stands for: `counted` are those of `sets` and `indices` that the row says.
+    """One of the points that a row stands for.
 
-    `set_number` and `index` are None where the row has no sets or indices; `sets` and `indices` count them.
+    `set_number` and `index` tell which one, None where the row has no sets or indices; `sets` and `indices` tell how
+    many there are. `counted` holds those of the keys `sets` and `indices` that the row has.
     """
 
     set_number: int | None
@@ -49,14 +50,14 @@ class Element:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """What `each` may call it, the closest first: set/index, its index, or its set where there are no indices."""
+        """The keys under `each` that mean this element, the most exact first: `set/index`, `index`; or `set` alone."""
         if self.index is None:
             return () if self.set_number is None else (f"{self.set_number}",)
-        alone = (f"{self.index}",)
-        return alone if self.set_number is None else (f"{self.set_number}/{self.index}", *alone)
+        by_index = (f"{self.index}",)
+        return by_index if self.set_number is None else (f"{self.set_number}/{self.index}", *by_index)
 
     def titled(self, title: Titles) -> Titles:
-        """The title of this element, from that of the whole."""
+        """The title of this element: that of the row, with its set and index."""
         words = [
             (words, number)
             for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
@@ -64,21 +65,21 @@ class Element:
         ]
         if not words:
             return title
-        return {language: f"{text} ({_said(words, language)})" for language, text in title.items()}
+        return {language: f"{text} ({_words_in(words, language)})" for language, text in title.items()}
 
 
 def set_title(title: Titles, number: int) -> Titles:
     """The title of a point in a further set."""
-    return {language: f"{text} ({_said([(_SET_WORDS, number)], language)})" for language, text in title.items()}
+    return {language: f"{text} ({_words_in([(_SET_WORDS, number)], language)})" for language, text in title.items()}
 
 
 ALONE = Element(None, 1, None, 1, "", ())
-"""What a row stands for that says neither sets nor indices."""
+"""The one element of a row without sets and indices."""
 
 
 def elements_of(scope: Scope, row: Draft) -> list[Element]:
     """All points that the row stands for, set by set, in each set index by index; none after a finding."""
-    rows = isinstance(row.get("sets"), Map)  # each set has one of its own
+    rows = isinstance(row.get("sets"), Map)  # each further set has a row of its own
     sets = _Axis(1, (None,), "") if rows else _axis(scope, row, "sets", "set")
     indices = _axis(scope, row, "indices", "index")
     if sets is None or indices is None:
@@ -90,15 +91,15 @@ def elements_of(scope: Scope, row: Draft) -> list[Element]:
         return []
     counted = tuple(key for key in ("sets", "indices") if row.layer(key) is not None and not (rows and key == "sets"))
     return [
-        Element(one, sets.count, each, indices.count, sets.suffix(one) + indices.suffix(each), counted)
-        for one in sets.used
-        for each in indices.used
+        Element(set_number, sets.count, index, indices.count, sets.suffix(set_number) + indices.suffix(index), counted)
+        for set_number in sets.used
+        for index in indices.used
     ]
 
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """The sets, or the indices: how many there are, which of them the row means, and what names say of them."""
+    """The sets or indices of a row: how many there are, which ones the row stands for, and their word in names."""
 
     count: int
     used: tuple[int | None, ...]
@@ -108,34 +109,34 @@ class _Axis:
         return f"_{self.word}_{number}" if self.word else ""
 
 
-def _axis(scope: Scope, row: Draft, many: str, one: str) -> _Axis | None:
+def _axis(scope: Scope, row: Draft, plural: str, singular: str) -> _Axis | None:
     """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
-    alone: int | None = row.get(one)
-    said = row.get(many)
-    if said is None:
-        return _Axis(1, (alone,), "")
-    span, text = row.span(many), str(said)
+    own_number: int | None = row.get(singular)
+    raw = row.get(plural)
+    if raw is None:
+        return _Axis(1, (own_number,), "")
+    span, text = row.span(plural), str(raw)
     if ".." in text:
-        found = interval(text, span, scope.report)
+        ends = interval(text, span, scope.report)
     else:
-        count = integer(said, span, scope.report)
-        found = None if count is None else (1, count)
-    if found is None:
+        count = integer(raw, span, scope.report)
+        ends = None if count is None else (1, count)
+    if ends is None:
         return None
-    low, high = found
+    low, high = ends
     if low < 0 or high < low or high - low >= 65536:
-        message = f"`{many}: {text}` is no count of elements, or too many"
-        scope.report.error("wrong-choice", message, span, f"write a count, or an interval such as `{many}: 0..1`")
+        message = f"`{plural}: {text}` is no count of elements, or too many"
+        scope.report.error("wrong-choice", message, span, f"write a count, or an interval such as `{plural}: 0..1`")
         return None
-    if alone is None:
+    if own_number is None:
         used = range(low, min(high, low + MOST_ELEMENTS) + 1)
-        return _Axis(high - low + 1, tuple(used), one)
-    if not low <= alone <= high:
-        message = f"there is no {one} {alone} in {low}..{high}"
-        scope.report.error("wrong-choice", message, row.span(one), f"correct `{one}` or `{many}`")
+        return _Axis(high - low + 1, tuple(used), singular)
+    if not low <= own_number <= high:
+        message = f"there is no {singular} {own_number} in {low}..{high}"
+        scope.report.error("wrong-choice", message, row.span(singular), f"correct `{singular}` or `{plural}`")
         return None
-    return _Axis(high - low + 1, (alone,), "")
+    return _Axis(high - low + 1, (own_number,), "")
 
 
-def _said(words: list[tuple[dict[str, str], int]], language: str) -> str:
-    return ", ".join(said.get(language, said["en"]).format(number) for said, number in words)
+def _words_in(words: list[tuple[dict[str, str], int]], language: str) -> str:
+    return ", ".join(texts.get(language, texts["en"]).format(number) for texts, number in words)

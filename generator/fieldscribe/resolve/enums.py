@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 _WIDEST = 63
-"""The highest bit that any type has: what is higher is no bit number."""
+"""The highest bit of the widest type: a greater number cannot be a bit number."""
 _MASKS = 3
-"""So many keys that are powers of two in a row are masks."""
+"""So many successive powers of two as keys are probably masks, not bit numbers."""
 
 
 def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
@@ -90,7 +90,7 @@ def entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
 
 @dataclass(slots=True)
 class _Taken:
-    """What the numbers and names of one point are taken by, with the places for findings."""
+    """The numbers and names that a word has used so far, with their places in the text."""
 
     scope: Scope
     what: str
@@ -99,7 +99,7 @@ class _Taken:
     names: dict[str, Span] = field(default_factory=dict)
 
     def takes(self, band: tuple[int, int], name: str, key: Span, value: Span) -> bool:
-        """Whether the numbers (low, high) and the name are free; a finding if not."""
+        """Take a name and the numbers from low to high; False, with a finding, if some of that is taken already."""
         low, high = band
         other = next((span for first, last, span in self.numbers if first <= high and low <= last), None)
         if other is not None:
@@ -117,14 +117,14 @@ class _Taken:
 
 
 def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
-    """The bits that the word's description names, in its numbers; bits outside the point or taken twice are findings.
+    """The flags of a point, read by bit numbers of its word; bits outside the point or named twice are findings.
 
     A flag of a point that takes only some `bits` of its word counts from the lowest of them.
     """
     raw: Map | None = draft.get("flags")
     if raw is None:
         return ()
-    _not_masks(scope, raw)
+    _warn_of_masks(scope, raw)
     taken = _Taken(scope, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
@@ -148,7 +148,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     return tuple(result)
 
 
-def _not_masks(scope: Scope, raw: Map) -> None:
+def _warn_of_masks(scope: Scope, raw: Map) -> None:
     """A warning where the keys look like the masks of the bits, 1, 2, 4, 8, and not like their numbers."""
     keys = list(raw)
     if len(keys) >= _MASKS and not any(".." in key for key in keys):
@@ -160,11 +160,11 @@ def _not_masks(scope: Scope, raw: Map) -> None:
 
 def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
     """The names of a flag's numbers: its own, or those of a shared enum."""
-    said: Map | str | None = value.get("values")
-    entries = scope.named_enums.get(said) if isinstance(said, str) else said
+    raw: Map | str | None = value.get("values")
+    entries = scope.named_enums.get(raw) if isinstance(raw, str) else raw
     if entries is None:
-        if said is not None:
-            scope.unknown("enum", str(said), value.span("values"), scope.named_enums)
+        if raw is not None:
+            scope.unknown("enum", str(raw), value.span("values"), scope.named_enums)
         return ()
     return entries_of(scope, entries)
 

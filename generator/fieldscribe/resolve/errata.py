@@ -1,4 +1,4 @@
-"""Errata: whom they are about, and what they say."""
+"""Errata: which points or frames they are about, and what they say."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"
 
 @dataclass(slots=True)
 class OpenErratum:
-    """An erratum with its text; `used` collects the keys of `printed` that a check found to disagree indeed."""
+    """An erratum with its text; `used` collects the keys of `printed` where a check really met the misprint."""
 
     erratum: Erratum
     raw: Map
@@ -31,7 +31,7 @@ class OpenErratum:
 
     @property
     def subjects(self) -> tuple[str, ...]:
-        """Whom it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
+        """What it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
         return self.erratum.points or ((self.erratum.where,) if ":" in self.erratum.where else ())
 
     def printed(self, key: str) -> Any:
@@ -69,8 +69,8 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             points,
             where or "",
             source,
-            said(raw["printed"]),
-            said(raw["taken"]),
+            in_one_line(raw["printed"]),
+            in_one_line(raw["taken"]),
             str(raw["why"]),
             raw["certainty"],
             _facts(raw["printed"]),
@@ -80,13 +80,14 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
 
 
 def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
+    """The names of the points that it is about; a word that means none is a finding."""
     words = [(raw["point"], raw.span("point"))] if "point" in raw else []
     words += [(word, raw["points"].span(number)) for number, word in enumerate(raw.get("points", ()))]
     for word, span in words:
-        found = index.all(word)
-        if not found:
+        drafts = index.all(word)
+        if not drafts:
             index.unknown(word, span)
-        yield from dict.fromkeys(draft.name for draft in found)
+        yield from dict.fromkeys(draft.name for draft in drafts)
 
 
 def _flag_exists(scope: Scope, index: Index, raw: Map) -> None:
@@ -101,14 +102,14 @@ def _flag_exists(scope: Scope, index: Index, raw: Map) -> None:
 
 
 def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
-    """Where it is, if not at a whole point: `frame:NAME`, `response:7`, words, or nothing; None after a finding."""
+    """What it is about, if not a whole point: `frame:NAME`, `response:7`, words, or nothing; None after a finding."""
     for section, key in _NAMED:
         if key in raw:
-            known = [str(one["name"]) for one in scope.listed(section)]
+            known = [str(item["name"]) for item in scope.listed(section)]
             if raw[key] not in known:
                 scope.unknown(key, raw[key], raw.span(key), known)
             return f"{key}:{raw[key]}"
-    for key, section in {codes.key: codes.section for one in families() for codes in one.codes}.items():
+    for key, section in {codes.key: codes.section for family in families() for codes in family.codes}.items():
         if key in raw:
             number = integer(raw[key], raw.span(key), scope.report)
             if number is not None and all(code.number != number for code in bus.codes(section)):
@@ -123,18 +124,19 @@ def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
     return f"the flag {raw['flag']}" if "flag" in raw else ""
 
 
-def said(value: Any) -> str:
+def in_one_line(value: Any) -> str:
     """What is printed or taken, in one line."""
     facts = _facts(value)
-    return "; ".join(f"{key.replace('_', ' ')} {one}" for key, one in facts) if facts else str(value)
+    return "; ".join(f"{key.replace('_', ' ')} {text}" for key, text in facts) if facts else str(value)
 
 
 def _facts(value: Any) -> tuple[tuple[str, str], ...]:
-    """Each fact by its key; nothing where words alone are given."""
-    return tuple((str(key), _one(one, key)) for key, one in value.items()) if isinstance(value, Map) else ()
+    """Each fact as (key, text); none where the erratum says it in words."""
+    return tuple((str(key), _fact_text(fact, key)) for key, fact in value.items()) if isinstance(value, Map) else ()
 
 
-def _one(value: Any, key: str) -> str:
+def _fact_text(value: Any, key: str) -> str:
+    """One fact as people read it: masks in hexadecimal, lists with slashes."""
     if key == "mask" and isinstance(value, int):
         return f"{value:04X}h"
     if isinstance(value, Seq):

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
+"""What a comparison of values becomes for raw numbers that fall while the value rises."""
 
 
 def existence_of(scope: Scope, draft: Draft, scales: Scales) -> Condition | None:
@@ -28,24 +29,28 @@ def existence_of(scope: Scope, draft: Draft, scales: Scales) -> Condition | None
         return None
     written = Written(text, draft.span("when"))
     try:
-        said = clauses_of(parse_condition(text))
+        stated = clauses_of(parse_condition(text))
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
-        said = ()
-    found = {one: _resolved(scope, draft, scales, one, written) for clause in said for one in clause}
-    clauses = tuple([tuple([one for each in clause if (one := found[each]) is not None]) for clause in said])
-    if said and None not in found.values():
+        stated = ()
+    resolved = {
+        comparison: _resolved(scope, draft, scales, comparison, written) for clause in stated for comparison in clause
+    }
+    clauses = tuple(
+        [tuple([result for comparison in clause if (result := resolved[comparison]) is not None]) for clause in stated]
+    )
+    if stated and None not in resolved.values():
         return Condition(clauses)
     draft.failed.add("when")
     return None
 
 
 def _resolved(
-    scope: Scope, draft: Draft, scales: Scales, one: Comparison, written: Written
+    scope: Scope, draft: Draft, scales: Scales, comparison: Comparison, written: Written
 ) -> existence.Comparison | None:
     """One comparison as the model has it; None after a finding."""
     try:
-        return _comparison(scope, draft, scales, one, written)
+        return _comparison(scope, draft, scales, comparison, written)
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
     except UnknownError:
@@ -53,53 +58,59 @@ def _resolved(
     return None
 
 
-def _comparison(scope: Scope, draft: Draft, scales: Scales, one: Comparison, written: Written) -> existence.Comparison:
+def _comparison(
+    scope: Scope, draft: Draft, scales: Scales, comparison: Comparison, written: Written
+) -> existence.Comparison:
     """One comparison in whole raw numbers, or of a variant. Raises UnknownError after a finding, else FormulaError."""
-    name = one.name.name
+    name = comparison.name.name
     if name in scope.axes:
-        return existence.Comparison(name, one.op, tuple([_value(scope, name, each, written) for each in one.constants]))
+        values = [_value(scope, name, constant, written) for constant in comparison.constants]
+        return existence.Comparison(name, comparison.op, tuple(values))
     used = scales.index.find(name, draft.variant)
     if used is None:
         scales.index.unknown(name, written.of(name), scope.axes)
         raise UnknownError
     if used.floating:
         message = f"`{name}` is a floating-point number"
-        raise FormulaError(message, one.name.column, "a condition compares whole numbers and names")
+        raise FormulaError(message, comparison.name.column, "a condition compares whole numbers and names")
     if used.name == draft.name:
-        raise FormulaError(f"`{name}` cannot say itself whether it exists", one.name.column, "name another point")
-    rule = scales.affine(draft, name, one.name.part, written)
-    raws = [_raw(scope, used, rule, each, written) for each in one.constants]
-    return _whole(rule.point, _TURNED.get(one.op, one.op) if rule.slope < 0 else one.op, raws, one)
+        raise FormulaError(
+            f"`{name}` cannot say itself whether it exists", comparison.name.column, "name another point"
+        )
+    rule = scales.affine(draft, name, comparison.name.part, written)
+    raws = [_raw(scope, used, rule, constant, written) for constant in comparison.constants]
+    test = _TURNED.get(comparison.op, comparison.op) if rule.slope < 0 else comparison.op
+    return _with_whole_numbers(rule.point, test, raws, comparison)
 
 
-def _value(scope: Scope, axis: str, given: Constant, written: Written) -> str:
-    """The value of an axis that a constant names, in digits too."""
+def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str:
+    """The value of a variant axis that a constant names; it may consist of digits."""
     values = scope.axes[axis]["values"]
-    if given.text not in values:
-        place = written.span._replace(column=written.span.column + given.column)
-        scope.unknown("variant", given.text, place, [*values])
+    if constant.text not in values:
+        place = written.span._replace(column=written.span.column + constant.column)
+        scope.unknown("variant", constant.text, place, [*values])
         raise UnknownError
-    return given.text
+    return constant.text
 
 
-def _raw(scope: Scope, used: Draft, rule: Affine, given: Constant, written: Written) -> Fraction:
+def _raw(scope: Scope, used: Draft, rule: Affine, constant: Constant, written: Written) -> Fraction:
     """The raw number that a constant means: a number, or a name in the enum of the point."""
-    if not isinstance(given.value, str):
-        return (given.value - rule.intercept) / rule.slope
-    if given.value[0].isdigit():
-        raise wrong_number(given.value, given.column)
+    if not isinstance(constant.value, str):
+        return (constant.value - rule.intercept) / rule.slope
+    if constant.value[0].isdigit():
+        raise wrong_number(constant.value, constant.column)
     enum = None if used.text else enum_of(scope, used, closed=True)
     entries = {} if enum is None else {entry.name: entry.raw for entry in enum.entries}
-    if given.value in entries:
-        return Fraction(entries[given.value])
-    place = written.span._replace(column=written.span.column + given.column)
+    if constant.value in entries:
+        return Fraction(entries[constant.value])
+    place = written.span._replace(column=written.span.column + constant.column)
     hint = None if entries else f"`{used.name}` has no names: compare it with numbers"
-    scope.unknown("entry", given.value, place, entries, hint)
+    scope.unknown("entry", constant.value, place, entries, hint)
     raise UnknownError
 
 
-def _whole(point: str, test: str, raws: list[Fraction], one: Comparison) -> existence.Comparison:
-    """The comparison with whole raw numbers that is true of the same ones."""
+def _with_whole_numbers(point: str, test: str, raws: list[Fraction], comparison: Comparison) -> existence.Comparison:
+    """The same comparison with whole numbers: raw numbers below 2.5 are those up to 2."""
     broken = next((place for place, raw in enumerate(raws) if raw.denominator != 1), None)
     if broken is None:
         return existence.Comparison(point, test, tuple([raw.numerator for raw in raws]))
@@ -107,5 +118,5 @@ def _whole(point: str, test: str, raws: list[Fraction], one: Comparison) -> exis
         return existence.Comparison(point, "<=", (floor(raws[0]),))
     if test in (">", ">="):
         return existence.Comparison(point, ">=", (ceil(raws[0]),))
-    column = one.constants[broken].column
-    raise FormulaError(f"`{one.name.name}` is never just that: it moves in steps", column, "compare with < or >")
+    column = comparison.constants[broken].column
+    raise FormulaError(f"`{comparison.name.name}` is never just that: it moves in steps", column, "compare with < or >")

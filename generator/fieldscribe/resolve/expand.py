@@ -21,25 +21,25 @@ MOST_POINTS = 100_000
 
 _LAST_SET = 999
 _AXES = frozenset(("sets", "indices", "set", "index"))
-"""What says that a row stands for several points, or for one of several."""
+"""Keys of a row that stands for several points, or for one point of several."""
 _OWN = own(POINT)
-"""What a further set does not take from the point it repeats (the title is extended instead)."""
+"""Keys that a further set does not take over from the row that it repeats; its title is extended instead."""
 _OF_RECORDS = inherited(USE)
-"""What the use of a record says for all its members."""
+"""Keys that the use of a record may set for all its members."""
 
 
 def expand(scope: Scope) -> list[Draft]:
-    """All points of all groups, in the order of the text; a finding when rows stand for more than anybody needs."""
-    found: list[Draft] = []
+    """All points of all groups, in the order of the text; a finding when there are more than MOST_POINTS."""
+    drafts: list[Draft] = []
     for group in groups(scope):
         for point in group.get("points", ()):
-            found.extend(_point(scope, group, point))
-            if len(found) > MOST_POINTS:
+            drafts.extend(_point(scope, group, point))
+            if len(drafts) > MOST_POINTS:
                 message = f"the rows up to here stand for more than {MOST_POINTS} points"
                 hint = "look at the sets, indices and records"
                 scope.report.error("too-many-items", message, point.span("name"), hint)
-                return found[:MOST_POINTS]
-    return found
+                return drafts[:MOST_POINTS]
+    return drafts
 
 
 def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
@@ -63,15 +63,15 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
 
 
 def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
-    """The point in its own set, and in those that have rows of their own."""
+    """The point in its own set, and in each further set that has a row under `sets`."""
     if "indices" in first.own:
         message = f"`{first.name}` repeats in indices, and in sets that have rows of their own"
         hint = "write a point with its `indices` for each set"
         scope.report.error("two-meanings", message, first.own.key_span("indices"), hint)
     first.set_number = first.get("set", 1)
-    first.element = _alone(scope, first)
+    first.element = _single_element(scope, first)
     yield from _variants(scope, first)
-    for number, override in _further(scope, rows, first.set_number):
+    for number, override in _further_sets(scope, rows, first.set_number):
         own_title = titles(override.get("title")) or set_title(first.title, number)
         own_name = f"{first.name}_set_{number}"
         enum_name = own_name if "enum" in override else first.name
@@ -85,11 +85,11 @@ def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
             enum_name=enum_name,
             hidden=_OWN,
         )
-        repeated.element = _alone(scope, repeated)
+        repeated.element = _single_element(scope, repeated)
         yield from _variants(scope, repeated)
 
 
-def _further(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tuple[int, Map]]:
+def _further_sets(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tuple[int, Map]]:
     """The further sets by number; a number that is none, or is given twice, is a finding."""
     seen: set[int] = set()
     for key in rows:
@@ -106,7 +106,7 @@ def _further(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tuple[int
             yield number, rows[key]
 
 
-def _alone(scope: Scope, draft: Draft) -> Element | None:
+def _single_element(scope: Scope, draft: Draft) -> Element | None:
     """The one element that a row stands for where it says its own set or index; None if it says none."""
     if draft.get("index") is None and (draft.get("set") is None or isinstance(draft.get("sets"), Map)):
         return None
@@ -119,26 +119,26 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     title = titles(point.get("title"), humanised(point["name"]))
     layers = (point, *_format(scope, point))
     elements = elements_of(scope, Draft(point["name"], layers, group, point, title))
-    each: Map = point.get("each") or Map(point.file, point.at)
+    rows: Map = point.get("each") or Map(point.file, point.at)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
-    for key in each:
-        if _key(key) in overrides:
-            first = [(each.key_span(spelt[_key(key)]), "first given here")]
+    for key in rows:
+        if _decimal_key(key) in overrides:
+            first = [(rows.key_span(spelt[_decimal_key(key)]), "first given here")]
             message = f"the element {key} is given twice"
-            scope.report.error("duplicate-name", message, each.key_span(key), "say it once", first)
-        spelt.setdefault(_key(key), key)
-        overrides.setdefault(_key(key), each[key])
+            scope.report.error("duplicate-name", message, rows.key_span(key), "say it once", first)
+        spelt.setdefault(_decimal_key(key), key)
+        overrides.setdefault(_decimal_key(key), rows[key])
     known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
-    for key in each:
-        if elements and _key(key) not in known:
+    for key in rows:
+        if elements and _decimal_key(key) not in known:
             message = f"`{point['name']}` has no element {key}"
             hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
-            scope.report.error("unknown-element", message, each.key_span(key), hint)
+            scope.report.error("unknown-element", message, rows.key_span(key), hint)
     for element in elements:
         own = tuple(overrides[key] for key in element.keys if key in overrides)
         name = point["name"] + element.suffix
-        own_title = next((titles(one["title"]) for one in own if "title" in one), None)
+        own_title = next((titles(override["title"]) for override in own if "title" in override), None)
         yield from _variants(
             scope,
             Draft(
@@ -149,17 +149,18 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
                 own_title or element.titled(title),
                 set_number=element.set_number,
                 element=element,
-                enum_name=name if any("enum" in one for one in own) else point["name"],
+                enum_name=name if any("enum" in override for override in own) else point["name"],
             ),
         )
 
 
-def _key(text: str) -> str:
-    """An element as `each` names it, in decimal."""
+def _decimal_key(text: str) -> str:
+    """A key of `each` with its numbers in decimal: `01h/2` as `1/2`."""
     return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
 def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
+    """The point once for each of its variants, or as it is if it has none."""
     overrides: Map | None = draft.get("variants")
     if not overrides:
         yield draft
@@ -170,7 +171,7 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
         axis, _, value = key.partition("=")
         span = overrides.key_span(key)
         if axis not in axes or value not in axes[axis]["values"]:
-            known = [f"{one}={each}" for one, entry in axes.items() for each in entry["values"]]
+            known = [f"{name}={choice}" for name, entry in axes.items() for choice in entry["values"]]
             scope.unknown("variant", key, span, known)
         elif axis != (first := first or axis):
             message = f"`{draft.name}` differs by `{first}` and by `{axis}`"
@@ -196,19 +197,20 @@ def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> 
         enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
         hidden=draft.hidden - override.keys(),
     )
-    said = next((key for key in ("set", "index") if key in override), None)
-    if said is None:
+    own_key = next((key for key in ("set", "index") if key in override), None)
+    if own_key is None:
         return varied
     if draft.suffix:
         message = f"the row of `{draft.own['name']}` stands for several points, and its variant for one of them"
         hint = "give the variant a row of its own"
-        scope.report.error("two-meanings", message, override.key_span(said), hint)
+        scope.report.error("two-meanings", message, override.key_span(own_key), hint)
         return varied
-    varied.element = _alone(scope, varied)
+    varied.element = _single_element(scope, varied)
     return varied
 
 
 def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
+    """The points of a record, where a row uses it."""
     record = scope.records.get(use["record"])
     if record is None:
         scope.unknown("record", use["record"], use.span("record"), scope.records)
@@ -257,13 +259,14 @@ def _whole_record(use: Map) -> Map:
 
 
 def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
+    """The layer of facts that the point's `format` adds, if it has one; an unknown format counts as all broken."""
     if "format" not in point:
         return ()
-    found = scope.formats.get(point["format"])
-    if found is None:
+    facts = scope.formats.get(point["format"])
+    if facts is None:
         hint = value_hint("type", point["format"])
         scope.unknown("format", point["format"], point.span("format"), scope.formats, hint)
         nothing = Map(point.file, point.at)
         nothing.broken = tuple(keys_of(FORMAT))
         return (nothing,)
-    return (found,)
+    return (facts,)

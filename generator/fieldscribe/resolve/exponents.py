@@ -1,4 +1,4 @@
-"""What a point may hold that others take as an exponent of ten: one bound for every language and the command line."""
+"""The bounds of points that are exponents of ten in other rules, alike in every language and on the command line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Ends = tuple[int, int]
 
 
 def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
-    """The points, whose rules now say for which raw numbers their powers of ten are defined."""
+    """The points, with the raw numbers for which powers of ten are defined added to the rules that have some."""
     names = {factor.point for point in points for rule in _rules(point) for factor in rule.factors if factor.ten_to}
     ends: dict[str, Ends] = {}
     for point in points:
@@ -36,9 +36,9 @@ def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
     )
 
 
-def _joined(one: Ends | None, other: Ends) -> Ends:
-    """Both, for a point that has another range in each variant."""
-    return other if one is None else (min(one[0], other[0]), max(one[1], other[1]))
+def _joined(known: Ends | None, other: Ends) -> Ends:
+    """The ends that cover both: a point may have another range in each variant."""
+    return other if known is None else (min(known[0], other[0]), max(known[1], other[1]))
 
 
 def _rules(point: Point) -> list[Linear]:
@@ -55,7 +55,7 @@ def _shape(shape: Shape, ends: Mapping[str, Ends]) -> Shape:
 def _allowed(allowed: Allowed, ends: Mapping[str, Ends]) -> Allowed:
     if not allowed.moves:
         return allowed
-    intervals = [Interval(_limit(one.low, ends), _limit(one.high, ends)) for one in allowed.intervals]
+    intervals = [Interval(_limit(interval.low, ends), _limit(interval.high, ends)) for interval in allowed.intervals]
     return replace(allowed, intervals=tuple(intervals))
 
 
@@ -64,7 +64,7 @@ def _limit(bound: Bound, ends: Mapping[str, Ends]) -> Bound:
 
 
 def _rule(rule: Linear, ends: Mapping[str, Ends]) -> Linear:
-    return replace(rule, factors=tuple([_factor(one, ends) for one in rule.factors]))
+    return replace(rule, factors=tuple([_factor(factor, ends) for factor in rule.factors]))
 
 
 def _factor(factor: Factor, ends: Mapping[str, Ends]) -> Factor:

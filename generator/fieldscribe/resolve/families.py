@@ -1,4 +1,4 @@
-"""How the family of a device reads its own keys: what is here holds for families that say nothing else."""
+"""How the family of a device reads keys that only it has, with defaults for families that have none."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Reading:
-    """The facts of a family, out of the text; a family offers its own as `READING` of its part `reading`."""
+    """Reads the facts that only one family has; a family offers its own reader as `READING` in its module `reading`."""
 
     def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> Own | None:
         """What the family alone knows of the bus, with findings for what its protocol cannot do."""
@@ -35,7 +35,7 @@ class Reading:
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:
         """The messages that the description lays out."""
         del bus
-        laid_out = " and ".join(one.name for one in families() if one.lays_out_messages)
+        laid_out = " and ".join(family.name for family in families() if family.lays_out_messages)
         for raw in scope.listed("messages"):
             hint = f"leave it out: the frames of {scope.family.name} are known"
             scope.report.error("family-key", f"messages are for the family {laid_out}", raw.span("name"), hint)

@@ -20,42 +20,46 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 RAW = ".raw"
-"""Behind a point's name: the raw number is said, not the value."""
+"""Behind a point's name it says that the raw number follows, not the value."""
 
 
 def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
-    """The raw numbers by item that a frame is said to carry."""
+    """The raw numbers that a frame carries according to its `says`, by item."""
     held: dict[str, int | Fraction] = {}
-    given: Map | None = raw.get("with")
-    for point, found in _Said(scope, given).numbers(index, points) if given is not None else ():
-        held[point.item] = held[point.name] = setting_of(point, found)
-    said: Map | None = raw.get("says")
-    return {} if said is None else {one.item: found for one, found in _Said(scope, said, held).numbers(index, points)}
+    settings: Map | None = raw.get("with")
+    for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
+        held[point.item] = held[point.name] = setting_of(point, raw_number)
+    says: Map | None = raw.get("says")
+    if says is None:
+        return {}
+    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(index, points)}
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
-    """Values by point as an author wrote them, and what other points hold meanwhile."""
+class _StatedValues:
+    """Values by point as an author wrote them, and `held`: what other points hold at that time."""
 
     scope: Scope
-    said: Map
+    values: Map
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
     def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
-        """Each point that is named, with its raw number; what cannot be told is a finding and left out."""
-        for word, value in self.said.items():
+        """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
+        for word, value in self.values.items():
             name = word.removesuffix(RAW)
             draft = index.find(name)
             if draft is None:
-                index.unknown(name, self.said.key_span(word))
+                index.unknown(name, self.values.key_span(word))
                 continue
             point = points.get(draft.item)
             if point is None or draft.failed & {"scale", "type", "enum"}:
                 continue
-            is_raw = name != word
-            found = integer(value, self.said.span(word), self.scope.report) if is_raw else self._raw(point, word, value)
-            if found is not None:
-                yield point, found
+            if word == name:
+                raw_number = self._raw(point, word, value)
+            else:
+                raw_number = integer(value, self.values.span(word), self.scope.report)
+            if raw_number is not None:
+                yield point, raw_number
 
     def _raw(self, point: Point, word: str, value: Any) -> int | None:
         """The raw number of a name, or of a value in the unit; None after a finding."""
@@ -65,14 +69,14 @@ class _Said:
         if value in known:
             return known[value]
         if known and not is_whole_number(value):
-            self.scope.unknown("entry", value, self.said.span(word), known)
+            self.scope.unknown("entry", value, self.values.span(word), known)
             return None
         fault = self._fault(point)
         if fault is not None:
             hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"
             self._refuse("bad-formula", word, fault, hint)
             return None
-        exact = number(value, self.said.span(word), self.scope.report)
+        exact = number(value, self.values.span(word), self.scope.report)
         return None if exact is None else self._number(point, word, value, exact)
 
     def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
@@ -81,7 +85,7 @@ class _Said:
             try:
                 return encode(point, exact, self.held)
             except CodecError:
-                self._no_number(point, word, value)
+                self._report_no_number(point, word, value)
                 return None
         if point.fixed_scale is not None:
             exact = point.fixed_scale.at(exact)
@@ -91,20 +95,21 @@ class _Said:
             return None
         return exact.numerator
 
-    def _no_number(self, point: Point, word: str, value: Any) -> None:
+    def _report_no_number(self, point: Point, word: str, value: Any) -> None:
         if point.info.floating:
             self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
         else:
             self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
 
     def _fault(self, point: Point) -> str | None:
+        """Why a value cannot become the point's raw number, or None."""
         if point.text is not None:
             return "is a text"
         missing = [name for name in point.scale_arguments if name not in self.held]
         return f"needs what {', '.join(missing)} holds to be scaled (say it under `with`)" if missing else None
 
     def _refuse(self, rule: str, word: str, fault: str, hint: str) -> None:
-        self.scope.report.error(rule, f"`{word}` {fault}", self.said.span(word), hint)
+        self.scope.report.error(rule, f"`{word}` {fault}", self.values.span(word), hint)
 
 
 def _names(point: Point) -> dict[str, int]:

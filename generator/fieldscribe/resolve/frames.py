@@ -29,7 +29,7 @@ class OpenFrame:
 
 
 def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point]) -> list[OpenFrame]:
-    """All frames in the order of the text; `valid` and `corrected` are still open."""
+    """All frames in the order of the text; checks fill in `valid` and `corrected` later."""
     result: dict[str, OpenFrame] = {}
     seen: dict[str, Span] = {}
     for raw in scope.listed("frames"):
@@ -80,7 +80,7 @@ def _frame(scope: Scope, bus: Bus, raw: Map, data: bytes, meaning: Mapping[str, 
 
 
 def framing_of(scope: Scope, bus: Bus, raw: Map) -> str:
-    """The framing of a frame: said, or the usual one of the family."""
+    """The framing of a frame: its own, or the first one of the bus or the family."""
     usual = bus.framings[0] if bus.framings else scope.family.framings[0]
     return str(raw.get("framing") or usual)
 

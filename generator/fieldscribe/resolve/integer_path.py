@@ -1,4 +1,4 @@
-"""The ways to compute a scaled point, as far as they go: counts of 10^-k units in 64 bits, and values in binary64."""
+"""Which ways to compute a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
 MOST_DECIMALS = 12
 
 _COUNTED = 1 << 62
-"""No integer on the way between counts and raw numbers is larger.
+"""The largest integer on the way between counts and raw numbers.
 
 Code computes with 64 bits and a sign, which hold 2^63 - 1. One bit stays free: to round, half the divisor is added to
 the size of the numerator, and the divisor is held to this bound as the numerator is, so that the sum is below 2^63.
 """
 
 _WORD = 1 << 63
-"""No constant of a scale is as large: each stands in the code as an integer of 64 bits with a sign."""
+"""Every constant of a scale is smaller, for code holds it in a signed integer of 64 bits."""
 
 _WIDE = 1 << 127
-"""What integers of 128 bits with a sign hold."""
+"""Signed integers of 128 bits are smaller."""
 
 _EXACT = 1 << 53
 """Up to here every integer is a binary64 number."""
@@ -34,18 +34,19 @@ _NARROW = 1 << 33
 """All raw numbers of 32 bits are smaller."""
 
 _HALF = (1 << 52) - (1 << 8)
-"""Half a raw step, in units of 2^-53, less what the roundings of roundings add."""
+"""Half a raw step in units of 2^-53, less a margin for rounding numbers that were rounded before."""
 
 _MOST_ROUNDINGS = 5
-"""Of the value, the product, the quotient, the sum and the offset, where other points choose the rule."""
+"""Where other points choose the rule, five are rounded: the value, product, quotient, sum and offset."""
 
 _MANTISSA = 24
-"""Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
+"""The bits of an f32's mantissa: as a factor they widen the integers, while its exponent only shifts the result."""
 
 
 class Paths(NamedTuple):
-    """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded.
+    """How code computes a point: `decimals` is the k of its counts, None where no 64-bit integer holds them.
 
+    `encodes_values` says whether every raw number comes back from its value in binary64.
     `most_raw` is the largest size of a raw number for which a scale with factors is exact, where the type goes beyond.
     `raw_alone` says that the scale itself needs more than 64 bits: nothing is computed.
     """
@@ -57,7 +58,7 @@ class Paths(NamedTuple):
 
 
 class _Needs(NamedTuple):
-    """The largest integers that a rule meets: with its offset, in the numerator of a value, and among its constants.
+    """The largest integers in a rule: of a raw number with its offset, of a value's numerator, of the constants.
 
     `down` is what raw numbers are multiplied by on the way to the numerator.
     """
@@ -69,22 +70,22 @@ class _Needs(NamedTuple):
 
 
 def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
-    """How the point can be computed; the k is the author's, or the least at which a raw step is a count at least."""
-    said: int | None = draft.get("decimals")
+    """How code computes the point: with the author's decimals, or as few as make each raw step one count or more."""
+    stated: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
+        if stated and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return Paths(0)
-    span = draft.span("decimals" if said is not None else "scale")
-    if said is None and any(bounds.scales.floats(case.rule) for case in cases):
+    span = draft.span("decimals" if stated is not None else "scale")
+    if stated is None and any(bounds.scales.floats(case.rule) for case in cases):
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
-    widest = max(one.constant for one in needs)
+    widest = max(need.constant for need in needs)
     if widest >= _WORD:
         bits = widest.bit_length()
         message = (
@@ -92,7 +93,7 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         )
         report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
         return Paths(None, encodes_values=False, raw_alone=True)
-    encodes = all(_survives(case.rule, one, chosen=chosen) for case, one in zip(cases, needs, strict=True))
+    encodes = all(_survives(case.rule, need, chosen=chosen) for case, need in zip(cases, needs, strict=True))
     decimals = _decimals(draft, cases, bounds, needs)
     return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
 
@@ -101,7 +102,7 @@ def shows(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: 
     """Whether code computes every value with so many decimals by integers alone.
 
     Where other points choose the rule, the numerator has 64 bits if there are counts, and 40 more for the decimals stay
-    below 128. Of a fixed scale any raw number of the type may come.
+    below 128. With a fixed scale any raw number of the type may come.
     """
     if _is_chosen(cases):
         return counted
@@ -133,17 +134,17 @@ def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
 
 
 def _largest(draft: Draft, bounds: Bounds) -> int:
-    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range.
+    """The largest raw number that has to come back unchanged: any of a type of 32 bits, any in range of a wider type.
 
-    Of 32 bits and less every pattern that a device may send has its count and its value. Of 64 bits few scales would be
-    left if that were asked: there it is the numbers that may be written, and decoding others says that they overflow.
+    Every pattern of up to 32 bits that a device may send has a count and a value. To ask that of 64 bits would rule out
+    most scales: there only numbers that may be written have to, and decoding reports others as an overflow.
     """
     raw = max(map(abs, bounds.holds[draft]))
     return raw if raw < _NARROW else max(map(abs, bounds.own_hull(draft)))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
-    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any.
+    """The largest numerator with which every way to compute a point is exact; None where 128 bits hold any.
 
     Values in binary64 take one that is exact there. Counts are 10^decimals times as large, and twice that is below the
     bound, because their numerator is compared with its own half on the way to rounding.
@@ -154,7 +155,7 @@ def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
 
 
 def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
-    """How large raw numbers may be, whatever the factors are; None if that is as large as the type allows."""
+    """The largest raw number that code can compute whatever the factors are; None if the type holds no larger one."""
     if not _is_chosen(cases) or numerator is None:
         return None
     least = _largest(draft, bounds)
@@ -164,30 +165,30 @@ def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numera
 
 
 def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
-    """The decimals of the counts; None, which is no finding, where they are beyond 64 bits."""
-    said: int | None = draft.get("decimals")
-    needed = max(_needed(case.rule, bounds) for case in cases)
+    """The decimals of the counts; None (without a finding) where no 64-bit integer holds the counts."""
+    stated: int | None = draft.get("decimals")
+    needed = max(_least_decimals(case.rule, bounds) for case in cases)
     fits = needed <= MOST_DECIMALS and _fit(needs, needed)
-    if said is None:
+    if stated is None:
         return needed if fits else None
-    if said < needed:
-        message = f"with {said} decimals two raw numbers would have one count"
-        alone = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
-        hint = f"write `decimals: {needed}`, or leave it out" if fits else alone
+    if stated < needed:
+        message = f"with {stated} decimals two raw numbers would have one count"
+        no_counts = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
+        hint = f"write `decimals: {needed}`, or leave it out" if fits else no_counts
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
         return needed
-    if fits and not _fit(needs, said):
-        message = f"counts of 10^-{said} units do not fit into 64 bits"
-        hint = f"write `decimals: {max(one for one in range(needed, said) if _fit(needs, one))}`"
+    if fits and not _fit(needs, stated):
+        message = f"counts of 10^-{stated} units do not fit into 64 bits"
+        hint = f"write `decimals: {max(count for count in range(needed, stated) if _fit(needs, count))}`"
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
-    return said if fits else None
+    return stated if fits else None
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """What to do where the integers of a scale do not fit: something that leads into no other fault."""
+    """What to do where the integers of a scale do not fit: a change that really helps, and causes no other finding."""
     factors = [factor for case in cases for factor in case.rule.factors]
     names = " and ".join(
-        f"`{name}`" for name in sorted({bounds.scales.index.by_item(one.point).name for one in factors})
+        f"`{name}`" for name in sorted({bounds.scales.index.by_item(factor.point).name for factor in factors})
     )
     tens = [factor.ten_to for factor in factors]
 
@@ -197,7 +198,7 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
     if any(tens) and not all(tens):
         return f"for values give {names} a narrower `range`"
     tries = range(MOST_EXPONENT, 0, -1) if any(tens) else [(1 << bits) - 1 for bits in range(63, 0, -1)]
-    room = next((one for one in tries if fits(one)), 0) if factors else 0
+    room = next((most for most in tries if fits(most)), 0) if factors else 0
     if room > 1:
         within = f"within -{room}..{room}" if any(tens) else f"that ends at {room} at most"
         return f"for values give {names} a narrower `range` {within}"
@@ -211,14 +212,14 @@ def _fit(needs: list[_Needs], decimals: int) -> bool:
     with its offset times `down` is the numerator, and the constants are multiplied by 10^decimals at most. The factor
     of two is the half that rounding compares with.
     """
-    return all(2 * max(one.numerator, one.constant) * 10**decimals <= _COUNTED for one in needs)
+    return all(2 * max(need.numerator, need.constant) * 10**decimals <= _COUNTED for need in needs)
 
 
-def _needed(rule: Linear, bounds: Bounds) -> int:
-    """The decimals at which the smallest raw step is one count at least; one more than the most if there are none."""
+def _least_decimals(rule: Linear, bounds: Bounds) -> int:
+    """The fewest decimals at which a raw step is one count or more; above MOST_DECIMALS if none are enough."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
     if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
-        return 0  # the author's decimals are all that is known
+        return 0  # nothing can be computed: the author's decimals count
     if rule.factors:
         corners = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
         largest = max((corner for corner in corners if corner), default=abs(rule.ratio))
@@ -230,7 +231,7 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
 
 
 def _needs(rule: Linear, raw: int, bounds: Bounds, *, limit: int | None = None) -> _Needs:
-    """What both paths of a rule meet, whatever the points in it hold; or if none of them held more than `limit`."""
+    """The largest integers of both paths of a rule, whatever its factors hold, or with factors of at most `limit`."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:

@@ -1,4 +1,4 @@
-"""Which points exist under which name and code, and what is clear about them before any formula is read."""
+"""Points by name and code, and what is known of them before any formula is read."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Index:
-    """Drafts by name (several where variants differ) and by code; a code that several points carry names none."""
+    """Drafts by name (several where variants differ) and by code; a code that several points have finds none."""
 
     scope: Scope
     by_name: dict[str, list[Draft]]
@@ -28,14 +28,14 @@ class Index:
     by_items: dict[str, Draft]
 
     def find(self, word: str, variant: str | None = None) -> Draft | None:
-        """The point that a formula or an erratum means by `word`: its name, or a code that only one point has.
+        """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
 
         Of a point that differs by variant it is the one of this variant, else the first.
         """
-        found = self.by_name.get(word) or self.by_code.get(word, [])
-        if not found or (len(found) > 1 and any(draft.name != found[0].name for draft in found)):
+        drafts = self.by_name.get(word) or self.by_code.get(word, [])
+        if not drafts or (len(drafts) > 1 and any(draft.name != drafts[0].name for draft in drafts)):
             return None
-        return next((draft for draft in found if draft.variant == variant), found[0])
+        return next((draft for draft in drafts if draft.variant == variant), drafts[0])
 
     def by_item(self, item: str) -> Draft:
         """The point that a formula was resolved to: by its item name, or by its name where its variants are alike."""
@@ -50,13 +50,13 @@ class Index:
         return self.by_name.get(word) or self.by_code.get(word, [])
 
     def unknown(self, word: str, span: Span, axes: Collection[str] = ()) -> None:
-        """A finding for a word that means no point, or too many; where it stands it could be one of `axes` too."""
+        """A finding for a word that means no point, or several; it could also mean one of the variant `axes`."""
         several = self.by_code.get(word, [])
         if several:
             message = f"`{word}` is the code of {len(several)} points"
             self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
             return
-        hexadecimal = word.isupper() and all(one in "0123456789ABCDEF" for one in word)
+        hexadecimal = word.isupper() and all(char in "0123456789ABCDEF" for char in word)
         hint = f"if a hexadecimal number is meant, write 0{word}h" if hexadecimal else None
         near = nearest(word, (*axes, *self.by_name, *self.by_code)) if axes else None
         hint = f"did you mean the axis `{near}`?" if near in axes else hint
@@ -69,7 +69,7 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     kept = []
     for draft in drafts:
         known = index.by_name.setdefault(draft.name, [])
-        first = next((one for one in known if not _differ(one, draft)), None)
+        first = next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
@@ -86,9 +86,11 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     return index
 
 
-def _differ(one: Draft, other: Draft) -> bool:
-    """Whether the two are one point in two variants."""
-    return one.variant is not None and other.variant not in (None, one.variant) and one.layers[1] is other.layers[1]
+def _are_variants(draft: Draft, other: Draft) -> bool:
+    """Whether two drafts are one point in two variants."""
+    return (
+        draft.variant is not None and other.variant not in (None, draft.variant) and draft.layers[1] is other.layers[1]
+    )
 
 
 def space_of(scope: Scope, draft: Draft) -> str:
@@ -113,10 +115,10 @@ def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
             "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
         )
         return None
-    return _bits_said(scope, str(text), span)
+    return _parse_bits(scope, str(text), span)
 
 
-def _bits_said(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
     meant = bits_meant(text)
     if meant is not None:
         message = f"{quoted(text)} is not a bit or bits"
@@ -142,55 +144,57 @@ def _bits_said(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
 
 
 def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None) -> str:
-    """The point's wire type: said, or what its space and bits ask for; a finding if they do not fit each other."""
+    """The point's wire type: as described, else by its space and bits; a finding if it does not fit them."""
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    said = str(draft.get("type") or default) if draft.untyped is None else default
-    fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
-    fault = fault or (None if bits else _carrier_fault(scope, said, space))
+    type_name = str(draft.get("type") or default) if draft.untyped is None else default
+    fault = None if "space" in draft.failed else _type_fault(type_name, space, single, width, default)
+    fault = fault or (None if bits else _carrier_fault(scope, type_name, space))
     if fault is None:
-        return said
+        return type_name
     draft.failed.add("type")
     span = draft.span("type" if draft.layer("type") is not None else "space")
     scope.report.error(fault[0], fault[1], span, fault[2])
     return default
 
 
-def _carrier_fault(scope: Scope, said: str, space: str) -> tuple[str, str, str] | None:
-    """What is wrong with a type that nothing on the bus could carry, or None."""
+def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:
+    """Rule, message and hint for a type that is too wide for the bus, or None."""
     widest = scope.family.widest(space)
-    if said == "text" and space in scope.family.indexed:
+    if type_name == "text" and space in scope.family.indexed:
         message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
         return (
             "type-outside-space",
             message,
             'write in place of `type` and `characters`: `untyped: "a text, one character an index"`, in words that fit',
         )
-    if said == "text" or TYPES[said].bits <= widest:
+    if type_name == "text" or TYPES[type_name].bits <= widest:
         return None
     if space in scope.family.indexed:
-        message = f"`{said}` does not fit an address of `{space}`, which carries {widest} bits"
+        message = f"`{type_name}` does not fit an address of `{space}`, which carries {widest} bits"
         return "type-outside-space", message, "use u32, s32 or f32, or correct `space`"
-    message = f"`{said}` does not fit into a message, which carries one word"
+    message = f"`{type_name}` does not fit into a message, which carries one word"
     return "type-outside-space", message, "give each address a point of its own"
 
 
-def _type_fault(said: str, space: str, single: bool, width: int | None, default: str) -> tuple[str, str, str] | None:
+def _type_fault(
+    type_name: str, space: str, single: bool, width: int | None, default: str
+) -> tuple[str, str, str] | None:
     """Rule, message and hint of what is wrong with the type, or None."""
-    info: TypeInfo = TYPES[said]
-    if said == "text" and (single or width is not None):
+    info: TypeInfo = TYPES[type_name]
+    if type_name == "text" and (single or width is not None):
         return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
     if width is not None:
         if width <= info.bits <= 16 and not info.floating:
             return None
-        return "bit-outside-word", f"{width} bits do not fit the type `{said}`", f"use `{default}`"
-    if single != (said == "bit"):
+        return "bit-outside-word", f"{width} bits do not fit the type `{type_name}`", f"use `{default}`"
+    if single != (type_name == "bit"):
         message = (
-            f"`{said}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
+            f"`{type_name}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
         )
         return "type-outside-space", message, "use `bit`" if single else "use `bits` to take one bit of a word"
     if not single and info.bits < 16:
-        message = f"`{said}` is smaller than the words of `{space}`"
+        message = f"`{type_name}` is smaller than the words of `{space}`"
         return "type-outside-space", message, "use u16 or s16, or say which `bits` of the word it takes"
     return None

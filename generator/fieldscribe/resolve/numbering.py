@@ -19,7 +19,9 @@ WIRE = "wire"
 """The name of the address on the wire in formulas of `numbering`."""
 
 _Rule = tuple[int, int]
+"""Slope and offset of a printed number over the address."""
 _PROBES = (0, 1, 2, 0xFFFF)
+"""Addresses at which a formula is tried, to see whether it is such a rule."""
 
 
 class Numberings:
@@ -56,14 +58,16 @@ class Numberings:
             if any(known.get(used.name, 0) is None for used in names(expression)):
                 return None  # the finding stands where that numbering does
             at = [
-                evaluate(expression, {one: Fraction(rule[0] * wire + rule[1]) for one, rule in known.items() if rule})
+                evaluate(
+                    expression, {other: Fraction(rule[0] * wire + rule[1]) for other, rule in known.items() if rule}
+                )
                 for wire in _PROBES
             ]
         except FormulaError as error:
             formula_finding(error, span, self.report)
             return None
         slope, offset = at[1] - at[0], at[0]
-        straight = all(found == slope * wire + offset for wire, found in zip(_PROBES, at, strict=True))
+        straight = all(result == slope * wire + offset for wire, result in zip(_PROBES, at, strict=True))
         if slope.denominator != 1 or offset.denominator != 1 or not straight:
             message = f"`{name}` is not a whole number at every address"
             self.report.error("bad-formula", message, span, "write it as `wire + 1` or `40000 + wire`")

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Resolved:
-    """A point with the draft that it came from: the model knows no places in the text, the checks do."""
+    """A point with the draft that it came from: checks need its places in the text, which the model does not have."""
 
     point: Point
     draft: Draft
@@ -40,7 +40,7 @@ class Resolved:
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """What is clear about a point before any formula: where it counts, its type, its bits of the word, its codes."""
+    """What is known of a point before any formula is read: its space, type, bits of the word and special codes."""
 
     space: str
     type: str
@@ -70,7 +70,7 @@ class _Tools(NamedTuple):
 def resolve_points(
     scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
 ) -> tuple[list[Resolved], Ranges, Places]:
-    """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
+    """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
     codes = SpecialCodes(scope)
     codes.check_types()
     words = {draft: _word(scope, draft, codes) for draft in drafts}
@@ -82,8 +82,8 @@ def resolve_points(
     ranges = Ranges(bounds)
     places = Places(scope, telegrams)
     tools = _Tools(places, ranges, Interner())
-    found = [Resolved(_point(scope, draft, word, tools), draft) for draft, word in words.items()]
-    return found, ranges, places
+    resolved = [Resolved(_point(scope, draft, word, tools), draft) for draft, word in words.items()]
+    return resolved, ranges, places
 
 
 def _word(scope: Scope, draft: Draft, codes: SpecialCodes) -> Word:
@@ -106,7 +106,7 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
         group=str(draft.group["group"]),
         space=word.space,
         places=() if place is None else (place,),
-        references=places.references(draft, None if place is None else _first(place, word)),
+        references=places.references(draft, None if place is None else _printed_address(place, word)),
         shape=interner.shape(shape),
         bits=word.bits,
         title=draft.title,
@@ -172,12 +172,13 @@ def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges
     return shape if shown is None else replace(shape, display=shown), allowed, paths
 
 
-def _first(place: Place, word: Word) -> int:
-    """The word that printed numbers are about: of a text that of its first characters, else the lowest."""
+def _printed_address(place: Place, word: Word) -> int:
+    """The address whose number manuals print: in a text that of the first characters, else the lowest."""
     return place.addresses[0] if word.type == "text" else min(place.addresses)
 
 
 def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
+    """The cases of the point's scale; None without a scale, or if an exponent in it is too large (a finding)."""
     cases = None if draft.floating else bounds.scales.cases(draft)
     for case in cases or ():
         if case.rule.factors and not bounds.exponents_fit(case.rule, draft.span("scale")):
@@ -187,6 +188,7 @@ def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
 
 
 def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> str | None:
+    """Why no code is generated for the point; None if there is code for it."""
     if not has_place:
         return "the manual prints no address"
     if draft.get("reserved", False):
@@ -201,7 +203,7 @@ def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> s
 
 
 def _untyped(scope: Scope, draft: Draft) -> str | None:
-    """What stands in place of a type; a finding where something is said twice, or of nothing."""
+    """What stands in place of a type; a finding where a type stands beside it, or `length` beside a type."""
     words, typed = draft.layer("untyped"), draft.layer("type")
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
@@ -213,7 +215,7 @@ def _untyped(scope: Scope, draft: Draft) -> str | None:
 
 
 def _keeps(scope: Scope, draft: Draft) -> str | None:
-    """What keeps a written value; a finding where one layer says it twice."""
+    """What keeps a written value; a finding where `keeps` and `keep_with` stand side by side."""
     kept, command = draft.layer("keeps"), draft.layer("keep_with")
     if kept is not None and kept is command:
         message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
@@ -223,27 +225,27 @@ def _keeps(scope: Scope, draft: Draft) -> str | None:
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
-    found = PLAIN if symbol is None else scope.unit(symbol)
-    if found is None:
+    unit = PLAIN if symbol is None else scope.unit(symbol)
+    if unit is None:
         scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, unit_hint(str(symbol), scope.units))
         draft.failed.add("unit")
-    return found or PLAIN
+    return unit or PLAIN
 
 
 def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
     raw: Map | None = draft.get("steps")
     if raw is None:
         return ()
-    found: dict[int, int] = {}
+    steps: dict[int, int] = {}
     for key, step in raw.items():
         start = integer(key, raw.key_span(key), scope.report)
         if start is None:
             continue
-        if start in found:
+        if start in steps:
             message = f"the steps from {start} on are given twice"
             scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them")
-        found.setdefault(start, step)
-    return tuple(sorted(found.items()))
+        steps.setdefault(start, step)
+    return tuple(sorted(steps.items()))
 
 
 def _all_named(allowed: Allowed, enum: Enum) -> bool:
@@ -257,7 +259,7 @@ def _all_named(allowed: Allowed, enum: Enum) -> bool:
 def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:
     """The points whose writing changes this one, by name; a word that names none is a finding."""
     words = draft.get("changes_with")
-    found: dict[str, None] = {}
+    names: dict[str, None] = {}
     for place, word in enumerate(words if words is not None else ()):
         used = index.all(word)
         if not used:
@@ -265,5 +267,5 @@ def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:
         if draft in used:
             message = f"`{draft.name}` cannot change with itself"
             index.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
-        found.update(dict.fromkeys(one.name for one in used))
-    return tuple(found)
+        names.update(dict.fromkeys(writer.name for writer in used))
+    return tuple(names)

@@ -24,7 +24,7 @@ IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
 
 _LONGEST_CHAIN = 100
-"""How far a circle of scales is followed; a longer one is refused at each of its points all the same."""
+"""How many points a search for a circle of scales visits; points of a longer circle are refused for another reason."""
 
 
 class UnknownError(Exception):
@@ -32,7 +32,7 @@ class UnknownError(Exception):
 
 
 class Scales:
-    """The scale of every point, computed when first asked for; a point that needs itself is a finding."""
+    """The scale of every point, computed when first asked for; a scale that depends on itself is a finding."""
 
     def __init__(self, scope: Scope, index: Index) -> None:
         self.scope = scope
@@ -52,25 +52,25 @@ class Scales:
         if used is None:
             self.index.unknown(name, place)
             raise UnknownError
-        self._settled(used, name, part, place)
+        self._check_settled(used, name, part, place)
         if used.floating:
-            self._floating(used, name, part, place, in_scale=in_scale)
-            return Affine(self._named(draft, used, place), Fraction(1), Fraction(0))
+            self._check_floating(used, name, part, place, in_scale=in_scale)
+            return Affine(self._model_name(draft, used, place), Fraction(1), Fraction(0))
         if part == "raw":
-            return Affine(self._named(draft, used, place), Fraction(1), Fraction(0))
+            return Affine(self._model_name(draft, used, place), Fraction(1), Fraction(0))
         if in_scale and (chain := self._circle(draft, used)):
-            message = f"a scale that needs itself: {' needs '.join(f'`{one}`' for one in chain)}"
+            message = f"a scale that needs itself: {' needs '.join(f'`{needed}`' for needed in chain)}"
             hint = f"use `{name}.raw`, or break the circle"
             self.scope.report.error("scale-cycle", message, place, hint)
             raise UnknownError
-        rule = self._static(used, name, place)
-        if len({self.cases(one) for one in self.index.siblings(used)}) > 1 and used.variant != draft.variant:
+        rule = self._rule_of_its_own(used, name, place)
+        if len({self.cases(sibling) for sibling in self.index.siblings(used)}) > 1 and used.variant != draft.variant:
             self._refuse(
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
-        return Affine(self._named(draft, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
+        return Affine(self._model_name(draft, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
-    def _settled(self, used: Draft, name: str, part: Part, place: Span) -> None:
+    def _check_settled(self, used: Draft, name: str, part: Part, place: Span) -> None:
         """A finding unless the point is a number, and one that the manual settles."""
         if used.text:
             self._refuse(place, f"`{name}` is a text", "name a number")
@@ -81,17 +81,17 @@ class Scales:
                 hint = "a formula needs what is settled: write `scale: ~` here too, or settle it"
                 self._refuse(place, f"the {key} of `{name}` is not settled", hint)
 
-    def _named(self, draft: Draft, used: Draft, place: Span) -> str:
+    def _model_name(self, draft: Draft, used: Draft, place: Span) -> str:
         """What the model calls a point that `draft` uses: its item in the same variant, else the name of all."""
         if used.variant is None or used.variant == draft.variant:
             return used.item
-        if len({one.get("type") or "" for one in self.index.siblings(used)}) > 1:
+        if len({sibling.get("type") or "" for sibling in self.index.siblings(used)}) > 1:
             hint = "give `variants` here too"
             self._refuse(place, f"the type of `{used.name}` differs by variant", hint)
         return used.name
 
-    def _floating(self, used: Draft, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
-        """A finding unless it is the value of an f32, which a scale may be multiplied with or divided by."""
+    def _check_floating(self, used: Draft, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
+        """A finding unless a floating-point number stands where it may: the value of an f32, as a factor of a scale."""
         if not in_scale:
             message = f"`{name}` is a floating-point number and cannot stand in a limit"
             self._refuse(place, message, "write the widest range")
@@ -113,16 +113,16 @@ class Scales:
             rule = self._rule(draft, raw, draft.span("scale"))
             return None if rule is None or rule == IDENTITY else (ScaleCase(None, None, rule),)
         seen: dict[tuple[str, int], Span] = {}
-        cases = tuple(case for one in raw if (case := self._case(draft, one, seen)) is not None)
+        cases = tuple(case for entry in raw if (case := self._case(draft, entry, seen)) is not None)
         if not cases:
             draft.failed.add("scale")
         return cases or None
 
-    def _case(self, draft: Draft, one: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
-        rule = self._rule(draft, one["rule"], one.span("rule"))
-        place = one.span("when")
+    def _case(self, draft: Draft, entry: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
+        rule = self._rule(draft, entry["rule"], entry.span("rule"))
+        place = entry.span("when")
         try:
-            name, constant = parse_case(one["when"])
+            name, constant = parse_case(entry["when"])
         except FormulaError as error:
             formula_finding(error, place, self.scope.report)
             draft.failed.add("scale")
@@ -133,7 +133,7 @@ class Scales:
             draft.failed.add("scale")
             return None
         try:
-            chosen_name = self._named(draft, chosen, place)
+            chosen_name = self._model_name(draft, chosen, place)
         except UnknownError:
             draft.failed.add("scale")
             return None
@@ -151,27 +151,27 @@ class Scales:
                 parse_scale(text), lambda name, part: self.affine(draft, name, part, formula, in_scale=True)
             )
             if all((factor.slope, factor.intercept, factor.ten_to) == (1, 0, False) for factor in self.floats(rule)):
-                self._lint(text, span)
+                self._warn_of_cut_decimal(text, span)
                 return rule
             message = "a floating-point number can be a factor, but no exponent and no part of a sum"
             self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
         except FormulaError as error:
-            _explained(error, text, "rule" if isinstance(draft.get("scale"), list) else "scale")
+            _suggest_scale(error, text, "rule" if isinstance(draft.get("scale"), list) else "scale")
             formula_finding(error, span, self.scope.report)
         except UnknownError:
             pass
         draft.failed.add("scale")
         return None
 
-    def _lint(self, text: str, span: Span) -> None:
-        """A warning for a decimal that somebody cut off: nobody can tell later what was meant."""
-        found = cut_off(text)
-        if found is not None:
-            message = f"{found.typed} looks like {found.exact}, cut off"
-            self.scope.report.warning("cut-decimal", message, span, f"write `{found.line}` to keep it exact")
+    def _warn_of_cut_decimal(self, text: str, span: Span) -> None:
+        """A warning for a decimal that looks cut off (0.33333): a later reader cannot tell which number was meant."""
+        decimal = cut_off(text)
+        if decimal is not None:
+            message = f"{decimal.typed} looks like {decimal.exact}, cut off"
+            self.scope.report.warning("cut-decimal", message, span, f"write `{decimal.line}` to keep it exact")
 
-    def _static(self, used: Draft, name: str, place: Span) -> Linear:
-        """The rule of a point whose value another formula needs: it cannot need a third one."""
+    def _rule_of_its_own(self, used: Draft, name: str, place: Span) -> Linear:
+        """The rule of a point whose value another formula uses; it must not depend on a third point."""
         moves = any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list)
         cases = None if moves else self.cases(used)
         if moves or (cases is not None and cases[0].rule.factors):
@@ -186,40 +186,40 @@ class Scales:
         came_from: dict[Draft, Draft | None] = {used: None}
         waiting = [used]
         while waiting and len(came_from) < _LONGEST_CHAIN:
-            here = waiting.pop()
-            if here is draft:
-                chain = [here.name]
-                step = came_from[here]
+            visited = waiting.pop()
+            if visited is draft:
+                chain = [visited.name]
+                step = came_from[visited]
                 while step is not None:
                     chain.append(step.name)
                     step = came_from[step]
                 return [draft.name, *reversed(chain)]
-            for needed in self._needs(here):
+            for needed in self._needs(visited):
                 if needed not in came_from:
-                    came_from[needed] = here
+                    came_from[needed] = visited
                     waiting.append(needed)
         return []
 
     def _needs(self, draft: Draft) -> Iterator[Draft]:
         """The points whose values the scale of this one needs."""
         raw = draft.get("scale")
-        for text in (raw,) if isinstance(raw, str) else (one["rule"] for one in raw or ()):
+        for text in (raw,) if isinstance(raw, str) else (entry["rule"] for entry in raw or ()):
             try:
                 uses = parse_scale(text).uses
             except FormulaError:
                 continue
             for name in uses:
-                found = self.index.find(name.name, draft.variant) if name.part == "value" else None
-                if found is not None:
-                    yield found
+                needed = self.index.find(name.name, draft.variant) if name.part == "value" else None
+                if needed is not None:
+                    yield needed
 
     def _refuse(self, place: Span, message: str, hint: str) -> NoReturn:
         self.scope.report.error("bad-formula", message, place, hint)
         raise UnknownError
 
 
-def _explained(error: FormulaError, text: str, key: str) -> None:
-    """Give the error a whole line as its hint, where the text is no scale but one can be guessed from it."""
+def _suggest_scale(error: FormulaError, text: str, key: str) -> None:
+    """Hint at the scale that was probably meant, where the text is none but one can be guessed from it."""
     try:
         parse_scale(text)
     except FormulaError:

@@ -45,7 +45,7 @@ SECTIONS = {
     "unit": "units",
     "variant": "variants",
 }
-"""What a word can name, and under which key that is declared."""
+"""What a word can name, each with the key under which that is declared."""
 
 
 @dataclass(slots=True)
@@ -75,8 +75,8 @@ class Scope:
     @property
     def axes(self) -> Mapping[str, Map]:
         """The variant axes by name."""
-        found: Map = self.header.get("variants", {})
-        return found
+        axes: Map = self.header.get("variants", {})
+        return axes
 
     @property
     def bus(self) -> Map | None:
@@ -86,7 +86,7 @@ class Scope:
     def declared(self, section: str) -> dict[str, Map]:
         """All declarations of a section over all files, by name; a name declared twice is a finding."""
         seen: dict[str, Map] = {}
-        found: dict[str, Map] = {}
+        declarations: dict[str, Map] = {}
         for file in self.files:
             for name, value in file.get(section, {}).items():
                 if name in seen:
@@ -97,8 +97,8 @@ class Scope:
                     )
                     continue
                 seen[name] = file[section]
-                found[name] = value
-        return found
+                declarations[name] = value
+        return declarations
 
     def listed(self, section: str) -> Iterator[Map]:
         """All items of a list section over all files."""
@@ -110,23 +110,23 @@ class Scope:
         return self.units.get(symbol) or shipped_unit(symbol)
 
     def is_lost(self, word: str, section: str) -> bool:
-        """Whether a word may be the name of something that was dropped with a finding of its own."""
+        """Whether a word may name something that was left out because it has a finding of its own."""
         marks = {word, f"*{section}"}
         return not self.complete or any(marks & file.file.lost for file in self.files)
 
     def unknown(self, what: str, word: str, span: Span, known: Collection[str], hint: str | None = None) -> None:
-        """A finding for a word that names nothing: what it should name (a key of `SECTIONS`), and what there is."""
+        """A finding for a word that names nothing; `what` is a key of `SECTIONS`, `known` are the existing names."""
         section = SECTIONS[what]
         if self.report.full or self.is_lost(word, section):
             return
         if hint is None:
             near = nearest(word, tuple(known))
-            hint = f"did you mean `{near}`?" if near else _known(known, section)
+            hint = f"did you mean `{near}`?" if near else _known_hint(known, section)
         message = f"there is no {what} {quoted(word)}"
         self.report.error(f"unknown-{what}", message, span._replace(width=max(1, len(word))), hint)
 
 
-def _known(known: Collection[str], section: str) -> str:
+def _known_hint(known: Collection[str], section: str) -> str:
     if known and len(known) <= 12:
         return f"known: {', '.join(known)}"
     return f"declare it under `{section}`"
@@ -135,7 +135,7 @@ def _known(known: Collection[str], section: str) -> str:
 def open_scope(files: Files, report: Report) -> Scope:
     """The declarations of the files."""
     scope = Scope(files.maps, report, files.complete)
-    units = {symbol: Unit(symbol, one["name"], one["quantity"]) for symbol, one in scope.declared("units").items()}
+    units = {symbol: Unit(symbol, unit["name"], unit["quantity"]) for symbol, unit in scope.declared("units").items()}
     scope.units = units
     scope.formats = scope.declared("formats")
     scope.records = scope.declared("records")
@@ -164,16 +164,16 @@ def first_line(value: object) -> int | None:
 
 def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
-    found: dict[str, object] = {}
+    facts: dict[str, object] = {}
     for layer in layers:
         for key in _SOURCE:
             if key in layer:
-                found.setdefault(key, layer[key])
+                facts.setdefault(key, layer[key])
         if "source" in layer and isinstance(layer["source"], Map):
             for key, value in layer["source"].items():
-                found.setdefault(key, value)
-    document = str(found.get("document") or next(iter(scope.documents), ""))
-    line, section, page = first_line(found.get("line")), found.get("section"), found.get("page")
+                facts.setdefault(key, value)
+    document = str(facts.get("document") or next(iter(scope.documents), ""))
+    line, section, page = first_line(facts.get("line")), facts.get("section"), facts.get("page")
     return Source(
         document,
         None if section is None else str(section),

@@ -1,4 +1,4 @@
-"""Special codes of a point: its own and its format's, then those of its group and of the device, for all or by type."""
+"""The special codes of a point: its own, its format's, and those of its group and of the device, for all or by type."""
 
 from __future__ import annotations
 
@@ -50,43 +50,44 @@ class _Level(NamedTuple):
 
 @dataclass(slots=True)
 class SpecialCodes:
-    """The special codes of all points of a device; those that many inherit are worked out once."""
+    """The special codes of all points of a device; codes that many points share are computed once."""
 
     scope: Scope
-    _told: set[tuple[Span, str]] = field(default_factory=set)
+    _reported: set[tuple[Span, str]] = field(default_factory=set)
     _held: dict[tuple[int, str, int], tuple[_Code, ...]] = field(default_factory=dict)
-    _found: dict[tuple[object, ...], tuple[tuple[Special, ...], str]] = field(default_factory=dict)
+    _specials: dict[tuple[object, ...], tuple[tuple[Special, ...], str]] = field(default_factory=dict)
 
     def check_types(self) -> None:
-        """Findings for codes of types that no point may have: nobody else looks at those."""
+        """Check all codes under `types`, also those of types that no point has."""
         for holder in (self.scope.header, *groups(self.scope)):
             for kind, facts in holder.get("types", {}).items():
                 if "special" in facts:
                     self.held(facts["special"], kind, TYPES[kind].bits)
 
     def of(self, draft: Draft, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
-        """The codes of a point of type `kind`, the nearest first, and the name of what declares those not its own."""
+        """The codes of a point of type `kind`, the nearest first, and a name for those that it shares with others."""
         levels = tuple(_levels(self.scope, draft, kind, bits))
         if not levels:
             return (), ""
         width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
         key = (*(id(level.codes) for level in levels), kind, width)
-        if key not in self._found:
-            self._found[key] = self._found_of(levels, kind, width)
-        return self._found[key]
+        if key not in self._specials:
+            self._specials[key] = self._specials_of(levels, kind, width)
+        return self._specials[key]
 
-    def _found_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
+    def _specials_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
         codes = self._merged([self.held(level.codes, kind, width) for level in levels])
         shared = [level for level in levels if level.label]
         inherited = self._merged([self.held(level.codes, kind, width) for level in shared])
-        whole = bool(inherited) and all(any(one.span == code.span for code in codes) for one in inherited)
+        places = {code.span for code in codes}
+        all_kept = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
         labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
-        own = {id(level.codes) for level in levels if not level.label or not whole}
+        own = {id(level.codes) for level in levels if not level.label or not all_kept}
         specials = tuple(_special(code, id(code.holder) in own) for code in codes)
-        return specials, "_".join((*labels, kind)) if whole else ""
+        return specials, "_".join((*labels, kind)) if all_kept else ""
 
     def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
-        """What one `special` says, as raw numbers of that type; findings for what it cannot hold or is given twice."""
+        """The codes of one `special` as raw numbers of that type; a finding for each that does not fit or clashes."""
         key = (id(raw), kind, width)
         if key not in self._held:
             kept: list[_Code] = []
@@ -97,6 +98,7 @@ class SpecialCodes:
         return self._held[key]
 
     def _numbers(self, raw: Map, kind: str, width: int) -> Iterator[_Code]:
+        """The entries of one `special` that the type can hold; a finding for each other one."""
         info = TYPES[kind]
         least, greatest = ends_of(width, signed=info.signed)
         for key, value in raw.items():
@@ -108,14 +110,14 @@ class SpecialCodes:
             first, dots, last = key.partition("..")
             texts = [first.strip(), last.strip()] if dots else [first.strip()]
             ends = [integer(text, span, self.scope.report) for text in texts]
-            numbers = [one for one in ends if one is not None]
+            numbers = [end for end in ends if end is not None]
             if len(numbers) < len(ends):
                 continue
             patterns = [bool(_PATTERN.match(text)) for text in texts]
             if info.signed:  # manuals print the pattern of a negative code
                 numbers = [
-                    number_of(one, width, signed=True) if pattern and 0 <= one < 1 << width else one
-                    for one, pattern in zip(numbers, patterns, strict=True)
+                    number_of(number, width, signed=True) if pattern and 0 <= number < 1 << width else number
+                    for number, pattern in zip(numbers, patterns, strict=True)
                 ]
             low, high = numbers[0], numbers[-1]
             if low > high and all(patterns) and info.signed:
@@ -134,31 +136,31 @@ class SpecialCodes:
                 yield _Code(low, high, all(patterns), None if value is None else name_of(value), raw, key)
 
     def _merged(self, levels: list[tuple[_Code, ...]]) -> list[_Code]:
-        """The codes of all levels, the nearest first; a nearer one without a name takes one away."""
+        """The codes of all levels, the nearest first, without those that a nearer code without a name takes away."""
         kept: list[_Code] = []
         away: list[_Code] = []
         used: set[Span] = set()
         for codes in levels:
             nearer, takers = list(kept), list(away)
             for code in codes:
-                taken = [one.span for one in takers if one[:2] == code[:2]]
+                taken = [taker.span for taker in takers if taker[:2] == code[:2]]
                 used.update(taken)
                 if code.name is None:
                     away.append(code)
-                elif not taken and not any(self._beats(one, code) for one in nearer):
+                elif not taken and not any(self._beats(nearer_code, code) for nearer_code in nearer):
                     kept.append(code)
-        for one in away:
-            if one.span not in used:
-                message = f"there is no special code {one.key} to take away"
+        for taker in away:
+            if taker.span not in used:
+                message = f"there is no special code {taker.key} to take away"
                 hint = "give it a name, or leave it out; a band is taken away as it was declared"
-                self._report("unknown-code", message, one.span, hint)
+                self._report("unknown-code", message, taker.span, hint)
         return kept
 
     def _beats(self, nearer: _Code, code: _Code) -> bool:
-        """Whether a nearer code of that name or of just these numbers wins; sharing some of them is a finding."""
+        """Whether a nearer code replaces this one: by its name or numbers; with some of them only it is a finding."""
         if nearer.name == code.name or nearer[:2] == code[:2]:
             return True
-        if not _meet(code, nearer):
+        if not _overlap(code, nearer):
             return False
         message = f"the special code {nearer.key}, `{nearer.name}`, shares numbers with the inherited {code.key}, "
         hint = f"take that away (`{code.key}: ~`) and name what is left of it"
@@ -169,12 +171,12 @@ class SpecialCodes:
     def _clash(self, code: _Code, other: _Code) -> bool:
         """Whether two codes of one place share a number or a name; a finding with both places.
 
-        What is taken away may be named anew, whole or in parts.
+        An entry that takes an inherited code away may stand beside entries that name its numbers anew.
         """
         if (code.name is None) != (other.name is None):
             return False
         first = other.span, "first given here"
-        if _meet(code, other):
+        if _overlap(code, other):
             differ = code.name != other.name
             message = f"the special code {code.key} is given twice"
             message += f", as `{other.name}` and as `{code.name}`" if differ else ""
@@ -188,12 +190,12 @@ class SpecialCodes:
         return False
 
     def _report(self, rule: str, message: str, span: Span, hint: str, related: tuple[Span, str] | None = None) -> None:
-        if (span, message) not in self._told:
-            self._told.add((span, message))
+        if (span, message) not in self._reported:
+            self._reported.add((span, message))
             self.scope.report.error(rule, message, span, hint, [] if related is None else [related])
 
 
-def _meet(code: _Code, other: _Code) -> bool:
+def _overlap(code: _Code, other: _Code) -> bool:
     """Whether two codes share a number."""
     return code.low <= other.high and other.low <= code.high
 
@@ -223,9 +225,9 @@ def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None)
 
 def quantities(scope: Scope, draft: Draft, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
     """What a range allows, without the special codes; a finding where nothing is left."""
-    found = without_codes(allowed, specials)
-    if found.intervals or not allowed.intervals:
-        return found
+    remaining = without_codes(allowed, specials)
+    if remaining.intervals or not allowed.intervals:
+        return remaining
     message = f"`{draft.name}` has no number that is a quantity: all that it allows are special codes"
     key = next((key for key in ("range", "range_in_units", "enum") if draft.layer(key) is not None), None)
     scope.report.error("enum-outside-range", message, draft.span(key), "correct the range or the codes")
@@ -234,23 +236,23 @@ def quantities(scope: Scope, draft: Draft, allowed: Allowed, specials: tuple[Spe
 
 def without_codes(allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
     """The intervals without the codes, as far as their ends are known."""
-    found: list[Interval] = []
-    for one in allowed.intervals:
-        if one.fixed is not None:
-            found += _without(*one.fixed, specials)
+    intervals: list[Interval] = []
+    for interval in allowed.intervals:
+        if interval.fixed is not None:
+            intervals += _without(*interval.fixed, specials)
         else:
-            found.append(one)
-    return replace(allowed, intervals=tuple(found))
+            intervals.append(interval)
+    return replace(allowed, intervals=tuple(intervals))
 
 
 def _without(low: int, high: int, specials: tuple[Special, ...]) -> list[Interval]:
     """The parts of low..high between the codes."""
     parts = []
-    for one in sorted(specials, key=lambda one: one.low):
-        if low <= one.high and one.low <= high:
-            if low < one.low:
-                parts.append(Interval(low, one.low - 1))
-            low = one.high + 1
+    for special in sorted(specials, key=lambda special: special.low):
+        if low <= special.high and special.low <= high:
+            if low < special.low:
+                parts.append(Interval(low, special.low - 1))
+            low = special.high + 1
     return [*parts, Interval(low, high)] if low <= high else parts
 
 

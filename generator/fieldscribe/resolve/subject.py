@@ -1,4 +1,4 @@
-"""What the checks read: the resolved parts of one device, with their places in the text."""
+"""What the checks look at: the resolved parts of one device, with their places in the text."""
 
 from __future__ import annotations
 
@@ -104,11 +104,11 @@ class Subject:
             erratum.used.add(fact.key)
             taken = erratum.raw["taken"].get(fact.key) if isinstance(erratum.raw["taken"], Map) else None
             if taken is None or (fact.taken is not None and not fact.fits(taken)):
-                wrong = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
+                message = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
                 if taken is None:
-                    wrong = f"the erratum does not say what was taken for `{fact.key}`"
+                    message = f"the erratum does not say what was taken for `{fact.key}`"
                 hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
-                self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
+                self.report.error("erratum-differs", message, erratum.raw.span("taken"), hint)
             return
         named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
         hint = (
@@ -118,6 +118,7 @@ class Subject:
 
 
 def _lost(value: Any) -> bool:
+    """Whether some key in a mapping, at any depth, could not be read."""
     return isinstance(value, Map) and (bool(value.broken) or any(map(_lost, value.values())))
 
 

@@ -22,7 +22,7 @@ SPACE = "telegram"
 """The space whose points are words of a telegram."""
 
 _MULTIPLEXED = 256
-"""How many frames a multiplexer tells apart."""
+"""How many different frames a multiplexer can number."""
 
 
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
@@ -44,7 +44,7 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
             continue
         seen[name] = raw.span("name")
         carried = _carried(scope, raw, by_name)
-        _fits(scope, raw, by_name, [telegram for telegram, _ in result.values()])
+        _check_carrier(scope, raw, by_name, [telegram for telegram, _ in result.values()])
         telegram = Telegram(
             name=name,
             title=titles(raw.get("title"), humanised(name)),
@@ -66,14 +66,14 @@ def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Teleg
             span = draft.group.span("space") if "space" in draft.group else draft.span()
             scope.report.error("missing-key", "the words of the space `telegram` belong to a telegram", span, hint)
         return None
-    found = telegrams.get(name)
-    if found is None:
+    entry = telegrams.get(name)
+    if entry is None:
         scope.unknown("telegram", name, draft.group.span("telegram"), telegrams)
-    return found
+    return entry
 
 
-def _fits(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
-    """Findings for a telegram that nothing carries, that goes another way than its message, or shares it."""
+def _check_carrier(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
+    """Findings for a telegram without a message, with one of the other direction, or with one that carries another."""
     name, direction, carrier = str(raw["name"]), raw["direction"], raw.get("message")
     if not scope.family.lays_out_messages:
         reading_of(scope).telegram(scope, raw, before)
@@ -83,7 +83,7 @@ def _fits(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[
             text = f"nothing says which message carries `{name}`"
             scope.report.error("missing-key", text, raw.span("name"), "add `message: …`")
         return
-    message, other = messages.get(carrier), next((one for one in before if one.message == carrier), None)
+    message, other = messages.get(carrier), next((earlier for earlier in before if earlier.message == carrier), None)
     if message is not None and message.direction != direction:
         text = f"`{name}` is said to be {direction}, its message `{carrier}` is {message.direction}"
         scope.report.error("wrong-choice", text, raw.span("direction"), f"write `direction: {message.direction}`")
@@ -101,7 +101,7 @@ def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
     message = messages.get(name)
     span = raw.span("message")
     if message is None:
-        known = [str(one["name"]) for one in scope.listed("messages")]
+        known = [str(item["name"]) for item in scope.listed("messages")]
         if name not in known:
             scope.unknown("message", name, span, known)
         return 0

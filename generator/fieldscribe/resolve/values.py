@@ -24,9 +24,9 @@ class Written(NamedTuple):
     span: Span
 
     def of(self, name: str) -> Span:
-        """Where a name stands in it first."""
-        found = re.search(rf"\b{re.escape(name)}\b", self.text)
-        return self.span._replace(column=self.span.column + (found.start() if found else 0), width=len(name))
+        """The place of a name in it, where it stands first."""
+        match = re.search(rf"\b{re.escape(name)}\b", self.text)
+        return self.span._replace(column=self.span.column + (match.start() if match else 0), width=len(name))
 
 
 def number(value: Any, span: Span, report: Report) -> Fraction | None:
@@ -70,7 +70,7 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
 
 
 def bits_named(key: str) -> tuple[int, int]:
-    """The two ends that a key of that form (`5..4`, `0Fh`) names, as written; one number is both."""
+    """The two numbers of a key such as `5..4`, in this order; of a single number such as `0Fh`, that number twice."""
     first, dots, last = key.partition("..")
     return parse_integer(first), parse_integer(last if dots else first)
 

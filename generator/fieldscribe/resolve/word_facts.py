@@ -59,8 +59,10 @@ def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     raw: Map | None = draft.get("digits")
     if raw is None:
         return None
-    said = raw["enum"]
-    name, entries = (said, scope.named_enums.get(said)) if isinstance(said, str) else (draft.enum_name, said)
+    raw_enum = raw["enum"]
+    name, entries = (
+        (raw_enum, scope.named_enums.get(raw_enum)) if isinstance(raw_enum, str) else (draft.enum_name, raw_enum)
+    )
     if entries is None:
         scope.unknown("enum", name, raw.span("enum"), scope.named_enums)
         draft.failed.add("digits")
@@ -69,9 +71,9 @@ def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     if key not in scope.enums:
         scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), True)
     enum = scope.enums[key]
-    wrong = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
-    if wrong is not None:
-        message = f"`{wrong.name}` is {wrong.raw}, and a digit is 0..{_LARGEST_DIGIT}"
+    misfit = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
+    if misfit is not None:
+        message = f"`{misfit.name}` is {misfit.raw}, and a digit is 0..{_LARGEST_DIGIT}"
         scope.report.error("enum-outside-range", message, raw.span("enum"), "name single digits")
         draft.failed.add("digits")
         return None
@@ -98,27 +100,27 @@ def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     word = WORD_BITS if bits is not None else width
     own = 0 if bits is None else ((1 << width) - 1) << bits[1]
     mask = value = 0
-    for key, said in raw.items():
-        found = _fixed_bits(scope, draft, raw, key, word)
-        number = integer(said, raw.span(key), scope.report)
-        if found is None or number is None:
+    for key, content in raw.items():
+        place_and_greatest = _fixed_bits(scope, draft, raw, key, word)
+        number = integer(content, raw.span(key), scope.report)
+        if place_and_greatest is None or number is None:
             continue
-        low, part = found
-        if not 0 <= number <= part:
-            message = f"{said} does not fit into {_shown(key)}"
-            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{part}")
-        elif mask & part << low:
-            message = f"{_shown(key)} cannot be fixed twice"
+        low, greatest = place_and_greatest
+        if not 0 <= number <= greatest:
+            message = f"{content} does not fit into {_bits_text(key)}"
+            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{greatest}")
+        elif mask & greatest << low:
+            message = f"{_bits_text(key)} cannot be fixed twice"
             scope.report.error("bits-overlap", message, raw.key_span(key), "remove one of them")
-        elif own & part << low:
-            message = f"{_shown(key)} cannot be fixed, for the point itself takes it"
+        elif own & greatest << low:
+            message = f"{_bits_text(key)} cannot be fixed, for the point itself takes it"
             scope.report.error("bits-overlap", message, raw.key_span(key), "`fixed` names the bits beside it")
         else:
-            mask, value = mask | part << low, value | number << low
+            mask, value = mask | greatest << low, value | number << low
     return Fixed(mask, value) if mask else None
 
 
-def _shown(key: str) -> str:
+def _bits_text(key: str) -> str:
     return f"bits {key}" if ".." in key else f"bit {key}"
 
 

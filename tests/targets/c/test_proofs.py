@@ -30,7 +30,7 @@ PLANTED = {
     "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
     "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
-    "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
+    "can": ("listen", "at < receiver.slot_count", "at <= receiver.slot_count", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
 }
 """By family: a function, an end of a loop in it, the same one step too late, and the harness that sees it."""

@@ -157,7 +157,8 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
     assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
     assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
-    assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
+    assert calls(4, "const A: B", [("C", (name, name))])[1] == f"    {name},"
+    assert calls(4, "const A: B", [("C", (name, name)), ("D", ("1",))])[2] == f"        {name},"
     assert chain("static A: B", "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
     assert chain("static A: B", "C::new(1)", [".d()", ".e()"]) == ("static A: B = C::new(1)", "    .d()", "    .e();")
     assert comparison(8, name, "== 0") == (f"{name} == 0",)

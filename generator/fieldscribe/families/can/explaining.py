@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 def read_text(device: Device, point: Point) -> str:
-    """How to read the point: by a message, or out of a telegram; empty if it cannot be read."""
+    """How to read the point, by a request or from a telegram; empty if it cannot be read."""
     if point.telegram is not None:
         return _telegram_text(device, point)
     message = request_of(device, writes=False)
     if message is None:
         return ""
-    return f"{_count(point, message)}to unit {device.bus.usual_unit}: {read_frame(device, point.addresses[0])}"
+    return f"{_messages_text(point, message)}to unit {device.bus.usual_unit}: {read_frame(device, point.addresses[0])}"
 
 
 def way_to_write(device: Device, point: Point) -> Way | None:
@@ -31,7 +31,7 @@ def way_to_write(device: Device, point: Point) -> Way | None:
     message = request_of(device, writes=True)
     if point.telegram is not None or message is None:
         return None
-    head = _count(point, message)
+    head = _messages_text(point, message)
     if point.bits is not None:
         fixed = f"; {fixed_text(point)}" if point.fixed is not None else ""
         return Way(
@@ -53,15 +53,17 @@ def _written(device: Device, point: Point, raw: int) -> str:
     return f"; to unit {device.bus.usual_unit}: {' '.join(frames)}"
 
 
-def _count(point: Point, message: Message) -> str:
+def _messages_text(point: Point, message: Message) -> str:
     count = len(point.addresses)
     return f"message {message.name}, " if count == 1 else f"{count} messages {message.name}, one for each word, "
 
 
 def _telegram_text(device: Device, point: Point) -> str:
-    """In which frames of a telegram the point comes, and at which bytes."""
-    telegram = next((one for one in device.telegrams if one.name == point.telegram), None)
-    message = next((one for one in device.messages if telegram is not None and one.name == telegram.message), None)
+    """Which frames and bytes of a telegram carry the point."""
+    telegram = next((telegram for telegram in device.telegrams if telegram.name == point.telegram), None)
+    message = next(
+        (message for message in device.messages if telegram is not None and message.name == telegram.message), None
+    )
     if telegram is None or message is None or not message.words:
         return ""
     unit = device.bus.usual_unit

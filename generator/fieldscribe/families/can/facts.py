@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Frame
 
 USUAL_BITS = 11
-"""How long identifiers are where the description does not say it."""
+"""The bits of an identifier where the description does not give them."""
 
 FAMILY = Family(
     name="can",
@@ -35,7 +35,7 @@ FAMILY = Family(
 
 @dataclass(frozen=True, slots=True)
 class CanBus(Own):
-    """How fast the bus is, and how long its identifiers are where the description says so."""
+    """The speed of the bus and the bits of its identifiers; None where the description does not give them."""
 
     bitrate: int | None = None
     identifier_bits: int | None = None
@@ -54,7 +54,7 @@ def of_bus(bus: Bus) -> CanBus:
 
 
 def identifier_bits(bus: Bus) -> int:
-    """How long identifiers are."""
+    """How many bits an identifier has."""
     return of_bus(bus).identifier_bits or USUAL_BITS
 
 

@@ -25,7 +25,7 @@ class CanFrame:
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """What a frame says as a message: 0 for what the message does not carry, all 0 unless `status` is ok."""
+    """A frame read as a message; what the message does not carry is 0, and all is 0 unless `status` is "ok"."""
 
     status: str
     address: int = 0
@@ -38,7 +38,7 @@ def identifier(message: Message, unit: int) -> int:
 
 
 def checksum(data: Sequence[int], mask: int) -> int:
-    """The bytes of a mask, combined by exclusive or."""
+    """The exclusive or of the bytes that `mask` selects."""
     result = 0
     for place, byte in enumerate(data):
         if mask >> place & 1:
@@ -47,14 +47,16 @@ def checksum(data: Sequence[int], mask: int) -> int:
 
 
 def carries(message: Message, kind: str) -> bool:
-    """Whether bytes of a message have a role of that kind."""
+    """Whether any byte of the message has a role of this kind."""
     return any(role.kind == kind for role in message.roles)
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
-    """What the bytes of a role hold together."""
-    found = zip(message.roles, frame.data, strict=False)
-    return sum(byte << (0 if kind == "multiplexer" else role.number) for role, byte in found if role.kind == kind)
+    """The number that the bytes with a role of this kind make up."""
+    bytes_by_role = zip(message.roles, frame.data, strict=False)
+    return sum(
+        byte << (0 if kind == "multiplexer" else role.number) for role, byte in bytes_by_role if role.kind == kind
+    )
 
 
 def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:
@@ -84,7 +86,7 @@ def _byte(role: Role, unit: int, address: int, raw: int) -> int:
 
 
 def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
-    """What a frame says as that message of that unit. Any bytes at any length are safe; the first failure wins.
+    """The frame read as this message of this unit. Any bytes at any length are safe; the first failure wins.
 
     `wrong_id`, `wrong_length` (not 8 bytes), `wrong_constant`, `wrong_unit`, `wrong_check`.
     """
@@ -93,15 +95,15 @@ def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
         return Parsed("wrong_id")
     if len(data) != LENGTH:
         return Parsed("wrong_length")
-    found = list(zip(message.roles, data, strict=True))
-    if any(role.kind == "constant" and byte != role.number for role, byte in found):
+    bytes_by_role = list(zip(message.roles, data, strict=True))
+    if any(role.kind == "constant" and byte != role.number for role, byte in bytes_by_role):
         return Parsed("wrong_constant")
-    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in found):
+    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in bytes_by_role):
         return Parsed("wrong_unit")
-    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in found):
+    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in bytes_by_role):
         return Parsed("wrong_check")
-    return Parsed("ok", _carried(found, "address"), _carried(found, "raw"))
+    return Parsed("ok", _carried(bytes_by_role, "address"), _carried(bytes_by_role, "raw"))
 
 
-def _carried(found: list[tuple[Role, int]], kind: str) -> int:
-    return sum(byte << role.number for role, byte in found if role.kind == kind)
+def _carried(bytes_by_role: list[tuple[Role, int]], kind: str) -> int:
+    return sum(byte << role.number for role, byte in bytes_by_role if role.kind == kind)

@@ -27,7 +27,7 @@ _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
 
 def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
-    """All messages in the order of the text; one that cannot be laid out is a finding and left out."""
+    """All messages in the order of the description; one with a wrong layout is reported and left out."""
     result: dict[str, Message] = {}
     seen: dict[str, Span] = {}
     for raw in scope.listed("messages"):
@@ -38,9 +38,9 @@ def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
             scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
             continue
         seen[name] = raw.span("name")
-        found = _message(scope, bus, raw)
-        if found is not None:
-            result[name] = found
+        laid_out = _message(scope, bus, raw)
+        if laid_out is not None:
+            result[name] = laid_out
     _answers(scope, result)
     return tuple(result.values())
 
@@ -95,7 +95,7 @@ def _identifier(scope: Scope, bus: Bus, raw: Map) -> tuple[int, bool] | None:
 def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
     """The role of each byte; None after a finding."""
     layout: Map = raw["layout"]
-    found: dict[int, Role] = {}
+    role_of: dict[int, Role] = {}
     fine = "layout" not in raw.broken and not layout.broken
     for key, value in layout.items():
         first, last = bits_named(key)
@@ -112,24 +112,24 @@ def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
         roles = _Part(scope, str(value).strip(), layout.span(key), last - first + 1).roles()
         fine = fine and roles is not None
         for byte, role in zip(range(first, last + 1), roles or (), strict=False):
-            if byte in found:
+            if byte in role_of:
                 message = f"byte {byte} is laid out twice"
                 scope.report.error("bits-overlap", message, layout.key_span(key), "each byte has one meaning")
                 fine = False
-            found[byte] = role
-    missing = [byte for byte in range(LENGTH) if byte not in found]
+            role_of[byte] = role
+    missing = [byte for byte in range(LENGTH) if byte not in role_of]
     if missing and fine:
         message = f"byte {missing[0]} of `{raw['name']}` means nothing"
         hint = f"say what each of the bytes 0..{LENGTH - 1} holds; unused ones are a constant"
         scope.report.error("missing-key", message, raw.span("layout"), hint)
     if missing or not fine:
         return None
-    return tuple(found[byte] for byte in range(LENGTH)) if _sums_fit(scope, raw, found) else None
+    return tuple(role_of[byte] for byte in range(LENGTH)) if _sums_fit(scope, raw, role_of) else None
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """Some bytes of a layout: what stands there, and how many bytes it takes."""
+    """One entry of a layout: its text, and how many bytes it covers."""
 
     scope: Scope
     text: str
@@ -167,12 +167,12 @@ class _Part:
         return [Role("constant", byte) for byte in number.to_bytes(self.count, "big")]
 
     def _xor(self, text: str) -> list[Role] | None:
-        """A checksum: the exclusive or of pieces of as many bytes."""
-        found = _BYTES.fullmatch(text.strip())
-        if found is None:
+        """The roles of a checksum: each of its bytes is the exclusive or of every `count`-th byte of an interval."""
+        interval = _BYTES.fullmatch(text.strip())
+        if interval is None:
             self._refuse(f"`xor {shown(text)}` names no bytes", _HOW)
             return None
-        low, high = int(found[1]), int(found[2] or found[1])
+        low, high = int(interval[1]), int(interval[2] or interval[1])
         if low > high or (high - low + 1) % self.count:
             message = f"`xor {text}` cannot be made of pieces of {self.count} byte{'s' * (self.count > 1)}"
             self._refuse(message, "name the lower byte first, and as many bytes as whole pieces have")
@@ -184,14 +184,14 @@ class _Part:
         self.scope.report.error("wrong-choice", message, self.span, hint)
 
 
-def _sums_fit(scope: Scope, raw: Map, found: dict[int, Role]) -> bool:
-    """Whether no checksum is made of a checksum, and each role stands there at most once."""
-    sums = sum(1 << byte for byte, role in found.items() if role.kind == "xor")
-    if any(role.kind == "xor" and role.number & sums for role in found.values()):
+def _sums_fit(scope: Scope, raw: Map, role_of: dict[int, Role]) -> bool:
+    """Whether no checksum covers another checksum, and no role stands in two places."""
+    sums = sum(1 << byte for byte, role in role_of.items() if role.kind == "xor")
+    if any(role.kind == "xor" and role.number & sums for role in role_of.values()):
         message = "a checksum cannot be made of a checksum"
         scope.report.error("wrong-choice", message, raw.span("layout"), "name the bytes before it")
         return False
-    carried = [role for role in found.values() if role.kind not in ("constant", "xor")]
+    carried = [role for role in role_of.values() if role.kind not in ("constant", "xor")]
     twice = next((role.kind for role in carried if carried.count(role) > 1), None)
     if twice is not None:
         message = f"`{'telegram' if twice == 'word' else twice}` stands in two places"
@@ -200,11 +200,11 @@ def _sums_fit(scope: Scope, raw: Map, found: dict[int, Role]) -> bool:
     return True
 
 
-def _answers(scope: Scope, found: dict[str, Message]) -> None:
-    """A response names a request that there is, and only responses answer."""
+def _answers(scope: Scope, messages: dict[str, Message]) -> None:
+    """Report responses that name no existing request, and `answers` at other messages."""
     for raw in scope.listed("messages"):
         name, answers = str(raw["name"]), raw.get("answers")
-        if name not in found:
+        if name not in messages:
             continue
         if answers is None:
             if raw["direction"] == "response" and "answers" not in raw.broken:
@@ -214,9 +214,9 @@ def _answers(scope: Scope, found: dict[str, Message]) -> None:
         if raw["direction"] != "response":
             message = f"`{name}` answers, but is no response"
             scope.report.error("wrong-choice", message, raw.span("direction"), "write `direction: response`")
-        asked = found.get(answers)
+        asked = messages.get(answers)
         if asked is None:
-            scope.unknown("message", answers, raw.span("answers"), list(found))
+            scope.unknown("message", answers, raw.span("answers"), list(messages))
         elif asked.direction != "request":
             message = f"`{answers}` is no request"
             scope.report.error("wrong-choice", message, raw.span("answers"), "a response answers a request")

@@ -47,7 +47,7 @@ class Pasted:
 
 
 def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
-    """The frames that arguments mean, one a line. Raises UnclearError."""
+    """The frames in the arguments, one on each line. Raises UnclearError."""
     known = None if can_id is None else read_identifier(can_id)
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
     return [_frame(line, known) for line in lines if line or len(lines) == 1]
@@ -55,14 +55,14 @@ def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
 
 def read_identifier(text: str) -> int:
     """An identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
-    found = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
-    if found is None or int(found[1], 16) > MOST_IDENTIFIER:
+    match = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
+    if match is None or int(match[1], 16) > MOST_IDENTIFIER:
         raise UnclearError(f"`{quoted(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
-    return int(found[1], 16)
+    return int(match[1], 16)
 
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
-    """The arguments, with pieces of one line put together where somebody forgot the quotes."""
+    """The arguments; pieces of one line are joined again where somebody forgot the quotes."""
     if any("#" in text for text in texts):
         words = list(texts)
         while words:
@@ -74,17 +74,17 @@ def _joined(texts: Sequence[str]) -> Iterable[str]:
 
 
 def _frame(line: str, known: int | None) -> Pasted:
-    found = _LOGGED.fullmatch(line) or _DUMPED.fullmatch(line)
+    match = _LOGGED.fullmatch(line) or _DUMPED.fullmatch(line)
     try:
-        if found is None:
+        if match is None:
             if known is None or "#" in line:
                 raise HexError(f"`{quoted(line)}` has no identifier" if line else "there are no bytes")
             return Pasted(CanFrame(known, parse_hex(line)))
-        number, data = int(found["id"], 16), found["data"].strip()
+        number, data = int(match["id"], 16), match["data"].strip()
         remote = _REMOTE.fullmatch(data) is not None
         if number > MOST_IDENTIFIER:
             raise HexError(f"the identifier {number:X} is longer than 29 bits")
         frame = CanFrame(number, b"" if remote or not data else parse_hex(data.replace(".", " ")))
     except HexError as error:
         raise UnclearError(f"not a frame: {error}", HINT) from error
-    return Pasted(frame, (found["stamp"] or "").strip(), found["bus"] or "", remote)
+    return Pasted(frame, (match["stamp"] or "").strip(), match["bus"] or "", remote)

@@ -1,4 +1,4 @@
-"""The family's own facts out of the text."""
+"""Reads the family's own facts from the description."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A multiplexed telegram as its frames come in, and which of its words belong together."""
+"""Collects the frames of a multiplexed telegram, and tells which of its words belong together."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class _Slot:
-    """The words of one multiplexer value: the last ones and those before; moments are counted frames, 0 is never."""
+    """The last and the previous words of one multiplexer value; `at` and `before` count frames, 0 means never."""
 
     words: tuple[int, ...] = ()
     at: int = 0
@@ -25,7 +25,7 @@ class _Slot:
 
 
 class Receiver:
-    """Takes the frames of a telegram from one unit, and gives words once they came."""
+    """Takes the frames of a telegram of one unit, and gives the words that have come."""
 
     def __init__(self, telegram: Telegram, message: Message, unit: int) -> None:
         self.message = message
@@ -62,17 +62,17 @@ class Receiver:
         return place if place < len(self._slots) else None
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
-        """The words at positions of the telegram, the high one first: ("ok", words), or `missing` or `torn` and none.
+        """The words at these positions, the high one first: ("ok", words), or "missing" or "torn" without words.
 
-        Two words of two frames are believed when the same high word came before and after the low one. Longer runs of
-        words, such as texts, are given as they came last.
+        Two words from two frames belong together if the same high word came before and after the low one. More than two
+        words, such as a text, are given as they came last.
         """
-        found = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
-        if any(slot.at == 0 for slot, _ in found):
+        slots = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
+        if any(slot.at == 0 for slot, _ in slots):
             return "missing", ()
-        (high, high_word), (low, low_word) = found[0], found[-1]
-        if high is low or len(found) > 2:
-            return "ok", tuple(slot.words[word] for slot, word in found)
+        (high, high_word), (low, low_word) = slots[0], slots[-1]
+        if high is low or len(slots) > 2:
+            return "ok", tuple(slot.words[word] for slot, word in slots)
         if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
             return "torn", ()
         if high.before < low.at < high.at:

@@ -1,4 +1,4 @@
-"""Which message of which unit a frame is, also when something is wrong with it."""
+"""Finds the message and the unit of a frame, even if the frame is damaged."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """A frame as a message. `checks` says how its checksum is; `faults` what is wrong with it."""
+    """A frame read as a message. `checks` describes its checksum, `faults` what is wrong."""
 
     message: Message
     unit: int | None
@@ -37,19 +37,19 @@ class Recognised:
 
     @property
     def raw(self) -> int | None:
-        """The word that the message brings."""
+        """The word that the message carries."""
         return carried(self.message, self.frame, "raw") if carries(self.message, "raw") else None
 
 
 def recognise(device: Device, frame: CanFrame) -> Recognised | None:
-    """The message that a frame is, or is most likely meant to be; None if nothing fits."""
-    found = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
-    whole = [one for one in found if one is not None]
-    return min(whole, key=lambda one: len(one.faults), default=None)
+    """The message with the fewest faults for this frame; None if no message fits."""
+    readings = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
+    whole = [reading for reading in readings if reading is not None]
+    return min(whole, key=lambda reading: len(reading.faults), default=None)
 
 
 def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:
-    """The messages that travel on the identifier of a frame, with the unit that it names."""
+    """The messages with the identifier of the frame, and the unit that the identifier gives."""
     low, high = device.bus.units
     for message in device.messages:
         if message.adds_unit:
@@ -60,17 +60,17 @@ def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | No
 
 
 def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Recognised | None:
-    """The frame as that message; None where the first byte that tells messages apart says that it is another."""
+    """The frame read as this message; None where the first constant byte shows that it is another message."""
     if len(frame.data) != LENGTH:
         return None
-    found = list(zip(message.roles, frame.data, strict=True))
-    fixed = [(role.number, byte) for role, byte in found if role.kind == "constant"]
+    bytes_by_role = list(zip(message.roles, frame.data, strict=True))
+    fixed = [(role.number, byte) for role, byte in bytes_by_role if role.kind == "constant"]
     if fixed and fixed[0][0] != fixed[0][1]:
         return None
     faults = []
     if unit is not None and message.direction != "request" and (strange := strange_unit(bus, unit)):
         faults.append(strange)
-    for place, (role, byte) in enumerate(found):
+    for place, (role, byte) in enumerate(bytes_by_role):
         right = byte
         if role.kind == "constant":
             right = role.number
@@ -78,7 +78,7 @@ def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Reco
             right = unit >> role.number & 0xFF
         if byte != right:
             faults.append(f"byte {place} is {hex_text(byte, 2)}, in this message it is {hex_text(right, 2)}")
-    sums = [(byte, checksum(frame.data, role.number)) for role, byte in found if role.kind == "xor"]
+    sums = [(byte, checksum(frame.data, role.number)) for role, byte in bytes_by_role if role.kind == "xor"]
     checks = ""
     if sums:
         there, right_sums = (bytes(pair[at] for pair in sums) for at in (0, 1))

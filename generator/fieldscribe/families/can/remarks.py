@@ -1,4 +1,4 @@
-"""What messages are called, and what is odd about a frame: sentences for people."""
+"""Sentences about CAN frames for people: which message one is, and what is unusual about it."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Message
 
 
-def message_text(device: Device, found: Recognised) -> str:
+def message_text(device: Device, recognised: Recognised) -> str:
     """A frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
-    message = found.message
-    unit = "" if found.unit is None else f", unit {found.unit}"
-    head = f"CAN {hex_text(found.frame.id, 3)}{unit}, {message.name}"
-    if found.address is not None:
-        return f"{head}: parameter {address_text(found.address)}"
-    telegram = next((one for one in device.telegrams if one.message == message.name), None)
+    message = recognised.message
+    unit = "" if recognised.unit is None else f", unit {recognised.unit}"
+    head = f"CAN {hex_text(recognised.frame.id, 3)}{unit}, {message.name}"
+    if recognised.address is not None:
+        return f"{head}: parameter {address_text(recognised.address)}"
+    telegram = next((telegram for telegram in device.telegrams if telegram.message == message.name), None)
     if telegram is None:
         return line(f"{head}: {message.title['en']}")
-    first = found.slot * message.words
-    where = f"multiplexer {found.slot}, " if carries(message, "multiplexer") else ""
+    first = recognised.slot * message.words
+    where = f"multiplexer {recognised.slot}, " if carries(message, "multiplexer") else ""
     return f"{head}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
 
 
@@ -45,7 +45,7 @@ def identifiers_text(device: Device) -> str:
 
 
 def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
-    """Why a frame is none of the messages that travel on its identifier."""
+    """Why a frame is none of the messages with its identifier."""
     known = []
     for message in messages:
         at = next((place for place, role in enumerate(message.roles) if role.kind == "constant"), None)

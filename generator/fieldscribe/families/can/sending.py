@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 def request_of(device: Device, *, writes: bool) -> Message | None:
     """The message that asks for a parameter, or that changes one."""
-    asking = (one for one in device.messages if one.direction == "request" and carries(one, "address"))
-    return next((one for one in asking if carries(one, "raw") == writes), None)
+    asking = (message for message in device.messages if message.direction == "request" and carries(message, "address"))
+    return next((message for message in asking if carries(message, "raw") == writes), None)
 
 
 def frame_text(frame: CanFrame) -> str:
@@ -57,7 +57,7 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-    """The frames that write a raw number; a bit group into the word that is there. Raises RefusedError."""
+    """The frames that write a raw number; a bit group is put into the word of `--with-word`. Raises RefusedError."""
     del settings  # a message carries one parameter alone
     there: str | None = options.own.get("with_word")
     if point.bits is None:

@@ -1,4 +1,4 @@
-"""CAN frames taken apart: cyclic telegrams, requests and answers, each unit with what was asked of it before."""
+"""Decodes CAN frames: cyclic telegrams, requests, and answers to the last request of each unit."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _KINDS = {"request": "request", "response": "reply"}
 
 
 class CanSpeech:
-    """Takes the frames of one device apart; keeps the words of telegrams that come in several frames."""
+    """Decodes the frames of one device; keeps the words of telegrams that come in several frames."""
 
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
@@ -45,7 +45,7 @@ class CanSpeech:
 
     def hear(self, frame: Pasted, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""
-        del directory, expecting  # which frame answers which is seen from their messages
+        del directory, expecting  # the messages themselves tell which frame answers which
         known = None if frame.remote else recognise(self._device, frame.frame)
         spoken = self._unknown(frame) if known is None else self._message(known, course)
         stamp = {"time": frame.stamp.strip("()") or None, "interface": frame.bus or None}
@@ -54,7 +54,7 @@ class CanSpeech:
 
     def _message(self, known: Recognised, course: Course) -> Spoken:
         message = known.message
-        telegram = next((one for one in self._device.telegrams if one.message == message.name), None)
+        telegram = next((telegram for telegram in self._device.telegrams if telegram.message == message.name), None)
         said = message_text(self._device, known)
         details = {"message": message.name, **({"parameter": known.address} if telegram is None else {})}
         details |= {} if telegram is None else {"multiplexer": known.slot}
@@ -70,8 +70,8 @@ class CanSpeech:
         if first >= telegram.words or per_frame == 0:
             last = -(-telegram.words // max(1, per_frame)) - 1
             return Spoken(replace(heard, findings=(f"the manual knows multiplexers 0 to {last} only",)))
-        made = Receiver(telegram, known.message, known.unit or 0)
-        receiver = self._receivers.setdefault((known.unit, telegram.name), made)
+        fresh = Receiver(telegram, known.message, known.unit or 0)
+        receiver = self._receivers.setdefault((known.unit, telegram.name), fresh)
         if not receiver.take(known.frame):
             return Spoken(replace(heard, notes=("its words are not read, for the frame is damaged",)))
         positions = range(first, min(first + per_frame, telegram.words))
@@ -84,7 +84,7 @@ class CanSpeech:
         asks = message.direction == "request"
         writes = self._writes(message)
         learned = known.raw is not None and sound and not asks
-        # an answer tells what the device took: any number may come
+        # an answer reports what the device holds, so it is not checked against limits
         word = Word(known.address, known.raw, asked=writes and asks, learned=learned, stale=writes and sound)
         if asks:
             strange = "" if known.unit is None else strange_unit(self._device.bus, known.unit)
@@ -98,11 +98,11 @@ class CanSpeech:
 
     def _writes(self, message: Message) -> bool:
         """Whether a message is a request that carries a value, or the answer to one."""
-        asked = next((one for one in self._device.messages if one.name == message.answers), message)
+        asked = next((request for request in self._device.messages if request.name == message.answers), message)
         return asked.direction == "request" and any(role.kind == "raw" for role in asked.roles)
 
     def _unknown(self, pasted: Pasted) -> Spoken:
-        """A frame that is no message of the device, or not a whole one."""
+        """The result for a frame that is no message of the device, or an incomplete one."""
         frame = pasted.frame
         base = Heard(frame.data, "can", "other", None, None, f"CAN {hex_text(frame.id, 3)}")
         here = list(senders(self._device, frame))
@@ -120,12 +120,12 @@ class CanSpeech:
 
 
 def speech_of(device: Device, options: Options) -> CanSpeech:
-    """How frames of the device are taken apart."""
+    """The decoder for the frames of the device."""
     return CanSpeech(device, options.own.get("can_id"))
 
 
 def _course_finding(asked: Recognised, known: Recognised) -> str:
-    """What is wrong about how an answer follows from the request before it."""
+    """How an answer contradicts the request before it; empty if it does not."""
     if asked.address != known.address:
         return f"the request before asked for parameter {asked.address}, this answers {known.address}"
     if asked.raw is not None and asked.raw != known.raw:

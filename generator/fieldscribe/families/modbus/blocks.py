@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class _Lane:
-    """What one space and function offer: spans to read (low, end, name), and addresses that may be crossed.
+    """What one function reads in one space: `spans` of points (low, end, name), and `crossable` addresses.
 
-    Those may be crossed where a readable point is in every device.
+    A block may cross an address if every device has a readable point there.
     """
 
     spans: list[tuple[int, int, str]] = field(default_factory=list)
@@ -26,19 +26,18 @@ class _Lane:
 
 
 def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
-    """Reads that bring all generated readable points, by space, then address.
+    """The reads that fetch all generated readable points, ordered by space, then by address.
 
-    A block crosses no address that no readable point covers (reserved ones may be crossed) and none of the bus's gaps;
-    it holds points whole and at most as many items as the device allows. What not every device has (a condition, a
-    firmware, one variant alone) is in a block of its own: where it is missing, the device refuses all of a read. Points
-    that no single read can bring (no allowed function, more words than allowed, words that are not neighbours) are in
-    no block.
+    A block covers only addresses with a readable point (also a reserved one) and none of the gaps of the bus. It holds
+    whole points, and at most as many items as the device allows. A point that some devices lack (by a condition, a
+    firmware or a variant) has a block of its own, for a device refuses a whole read if one address is missing. A point
+    that no single read can fetch (no allowed function, too many words, words that are not neighbours) is in no block.
     """
     most = profile_of(bus).most
     blocks: list[Block] = []
     for (space, function), lane in _lanes(points, variants).items():
         if function in most:
-            blocks.extend(_cut(space, function, lane, bus.gaps.get(space, ()), most[function]))
+            blocks.extend(_blocks_of_lane(space, function, lane, bus.gaps.get(space, ()), most[function]))
     order = {space: index for index, space in enumerate(SPACES)}
     blocks.sort(key=lambda block: (order[block.space], block.address, block.function))
     return tuple(blocks)
@@ -46,7 +45,7 @@ def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[
 
 def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[tuple[str, int], _Lane]:
     lanes: dict[tuple[str, int], _Lane] = {}
-    values = _values(points)
+    values = _variants_with_place(points)
     for point in points:
         place = _read_place(point)
         if place is None or place.space not in SPACES:
@@ -63,20 +62,20 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
     return lanes
 
 
-def _values(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
-    """The variants in which points of one name are read at one place."""
-    found: dict[tuple[str, Place], set[str]] = {}
+def _variants_with_place(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
+    """The variants that have a point of this name at this place."""
+    variants: dict[tuple[str, Place], set[str]] = {}
     for point in points:
         place = _read_place(point)
         if point.variant is not None and place is not None:
-            found.setdefault((point.name, place), set()).add(point.variant)
-    return found
+            variants.setdefault((point.name, place), set()).add(point.variant)
+    return variants
 
 
 def _always_there(
     point: Point, place: Place, values: Mapping[tuple[str, Place], set[str]], variants: Mapping[str, tuple[str, ...]]
 ) -> bool:
-    """Whether every device has a point at the place that it is read from."""
+    """Whether every device has this point at the place that it is read from."""
     if point.when is not None or point.since is not None or point.until is not None:
         return False
     axis = (point.variant or "").partition("=")[0]
@@ -90,8 +89,10 @@ def _read_place(point: Point) -> Place | None:
     return next((place for place in places if place.purpose == "read"), places[0] if places else None)
 
 
-def _cut(space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ...], most: int) -> Iterable[Block]:
-    """The lane's spans joined as far as holes, gaps and the largest count let them."""
+def _blocks_of_lane(
+    space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ...], most: int
+) -> Iterable[Block]:
+    """The blocks of a lane: its spans, joined as far as holes, gaps and the largest count allow."""
     crossable = {address for address in lane.crossable if not any(low <= address <= high for low, high in gaps)}
     begin = end = 0
     names: dict[str, None] = {}

@@ -25,7 +25,7 @@ FAMILY = Family(
 
 @dataclass(frozen=True, slots=True)
 class ModbusBus(Own):
-    """`pad_coil_bytes` says to what number the bytes of several coils are padded."""
+    """`pad_coil_bytes` is "even" if the bytes of several coils are padded to an even number."""
 
     pad_coil_bytes: str | None = None
 

@@ -17,10 +17,10 @@ READ_BITS = frozenset({0x01, 0x02})
 READ_WORDS = frozenset({0x03, 0x04})
 READS = READ_BITS | READ_WORDS
 SINGLE = frozenset({0x05, 0x06, 0x08})
-"""Functions that carry exactly one value and are answered with their own echo."""
+"""Functions that carry exactly one value; the answer repeats the request."""
 FUNCTIONS = (0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10)
 BROADCAST = frozenset({0x05, 0x06, 0x0F, 0x10})
-"""Functions that the protocol lets be sent to all units at once."""
+"""Functions that the protocol allows to broadcast."""
 PROTOCOL_MOST: Mapping[int, int] = {
     0x01: 2000,
     0x02: 2000,
@@ -37,7 +37,7 @@ PROTOCOL_MOST: Mapping[int, int] = {
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """Functions that reach a space: read, write one item, write several; None where there is none."""
+    """The functions of a space: read, write one item, write several items; None without one."""
 
     read: int
     write_one: int | None
@@ -81,5 +81,5 @@ def profile_of(bus: Bus) -> Profile:
 
 
 def framings_of(bus: Bus) -> tuple[str, ...]:
-    """How the device frames what it says: as the manual says, or either way where it does not."""
+    """The framings of the device: those of the manual, or both where it gives none."""
     return bus.framings or FRAMINGS

@@ -1,4 +1,4 @@
-"""The family's own facts out of the text, and what its protocol cannot do."""
+"""Reads the family's own facts from the description, and reports what the protocol cannot do."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class ModbusReading(Reading):
-    """Functions carry so much and go to so many units; reads are planned in blocks."""
+    """How Modbus functions, their counts, broadcasts and block reads are taken from a description."""
 
     def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> ModbusBus:
         """How coils are padded."""
@@ -29,7 +29,9 @@ class ModbusReading(Reading):
 
     def writes(self, space: str) -> tuple[int, ...]:
         """The functions that write into a space."""
-        return tuple(one for one in (SPACES[space].write_one, SPACES[space].write_many) if one is not None)
+        return tuple(
+            function for function in (SPACES[space].write_one, SPACES[space].write_many) if function is not None
+        )
 
     def blocks(self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
         """The reads that bring all points of a group."""
@@ -37,7 +39,7 @@ class ModbusReading(Reading):
 
 
 def _counts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
-    """No function takes more items than the protocol can carry."""
+    """Report functions with more items than the protocol can carry."""
     spans = _places(raw, "max")
     for code in functions:
         most = PROTOCOL_MOST.get(code.number)
@@ -48,17 +50,17 @@ def _counts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
 
 
 def _broadcasts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
-    """No function is said to be broadcast that the protocol always answers."""
+    """Report broadcast functions that the protocol always answers."""
     spans = _places(raw, "broadcast")
     for code in functions:
         if code.broadcast and code.number not in BROADCAST:
             message = f"function {code.number:02X}h is never broadcast: it is of no use without an answer"
-            shown = ", ".join(f"{one:02X}h" for one in sorted(BROADCAST))
+            shown = ", ".join(f"{function:02X}h" for function in sorted(BROADCAST))
             scope.report.error("not-broadcast", message, spans[code.name], f"functions that can be: {shown}")
 
 
 def _places(raw: Map, key: str) -> Mapping[str, Span]:
-    """Where each function says something, by its name."""
+    """Where each function stands in the description, by its name."""
     return {value["name"]: value.span(key) for value in raw.get("functions", {}).values() if isinstance(value, Map)}
 
 

@@ -1,4 +1,4 @@
-"""Which frame bytes are, and whether their checksum or header is right, so that a damaged frame can still be read."""
+"""Takes bytes out of their frame and checks the checksum or header; damaged frames can still be read."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ MOST_BYTES = {"rtu": 256, "tcp": 260}
 
 @dataclass(frozen=True, slots=True)
 class Wrapped:
-    """Bytes out of their frame. `checks` says how the checksum or header is; `fault` what is wrong with it, or nothing.
+    """Bytes taken out of their frame. `checks` describes the checksum or header, `fault` what is wrong with it.
 
-    `mended` is the frame as it would read without that fault; None where it is too short to be one.
+    `mended` is the frame without that fault; None where the bytes are too short for a frame.
     """
 
     framing: str
@@ -32,14 +32,14 @@ class Wrapped:
 
     @property
     def pdu(self) -> bytes:
-        """From the function on, without the checksum; may be empty."""
+        """The bytes from the function on, without the checksum; may be empty."""
         if self.mended is None:
             return b""
         return self.mended[7:] if self.framing == "tcp" else self.mended[1:-2]
 
 
 def recognise(data: bytes, framings: tuple[str, ...], forced: str | None = None) -> Wrapped:
-    """The frame that the bytes are: as forced, else by checksum or header, else by what the device speaks."""
+    """The bytes in the forced framing; else in the one that checksum or header fit, else in that of the device."""
     framing = forced or _framing(data, framings)
     return _tcp(data) if framing == "tcp" else _rtu(data)
 

@@ -1,4 +1,4 @@
-"""What is odd about a frame, and what its numbers are called: sentences for people."""
+"""Sentences about Modbus frames for people: names of their numbers, findings and notes."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def function_text(function: int) -> str:
 
 
 def exception_text(device: Device, code: int) -> str:
-    """An exception in the device's own words, else in those of the protocol."""
+    """The meaning of an exception, from the manual, else from the protocol."""
     own = numbered(device.bus.exceptions, code)
     if own is not None:
         return line(f"{hex_text(code, 2)} {own.name}: {own.title['en']}")
@@ -64,7 +64,7 @@ def exception_text(device: Device, code: int) -> str:
 
 
 def span_said(request: Request) -> str:
-    """What a request names, in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
+    """The addresses of a request in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
     if request.function == 0x08:
         return f"sub-function {hex_text(request.address)}"
     space = next(name for name, space in SPACES.items() if request.function in astuple(space))
@@ -73,7 +73,7 @@ def span_said(request: Request) -> str:
 
 
 def request_findings(device: Device, request: Request) -> Iterator[str]:
-    """What the device will not take of a request."""
+    """Why the device refuses a request."""
     profile = profile_of(device.bus)
     most = profile.most.get(request.function)
     if most is None:
@@ -89,7 +89,7 @@ def request_findings(device: Device, request: Request) -> Iterator[str]:
 
 
 def request_notes(device: Device, directory: Directory, request: Request, span: Span) -> Iterator[str]:
-    """What is good to know about a request, and what looks like a slip."""
+    """What to know about a request, and what looks like a mistake."""
     if request.unit == profile_of(device.bus).broadcast and not any(request_findings(device, request)):
         yield "broadcast: no unit answers"
     if request.function != 0x08:
@@ -104,7 +104,7 @@ def _broadcast_findings(function: int, profile: Profile) -> Iterator[str]:
 
 
 def manual_notes(device: Device, data: bytes) -> Iterator[str]:
-    """What is known of a frame that the manual prints just so, though it is wrong."""
+    """A note for a frame that the manual prints with this very error."""
     for frame in device.frames:
         if frame.printed == data and not frame.valid:
             known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
@@ -114,13 +114,13 @@ def manual_notes(device: Device, data: bytes) -> Iterator[str]:
 
 
 def framing_finding(device: Device, framing: str) -> str:
-    """Whether the device speaks the framing at all; empty if it does."""
+    """The finding that the device does not use this framing; empty if it does."""
     known = device.bus.framings
     return "" if not known or framing in known else f"the manual knows only {' and '.join(known).upper()} frames"
 
 
 def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
-    """An address that is no point, while the one below is: probably a Modicon number (counted from 1)."""
+    """A note if no point stands at the address, but one stands just below: probably a Modicon number (from 1)."""
     if span.address == 0 or directory.starting_at(span.space, span.address):
         return
     for point, place in directory.starting_at(span.space, span.address - 1):

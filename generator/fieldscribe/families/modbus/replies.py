@@ -1,4 +1,4 @@
-"""Modbus replies: what bytes say as the answer to a request. Pure functions, no I/O."""
+"""Modbus replies: reads bytes as the answer to a request. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Reply:
 
 
 def parse_reply(framing: str, request: Request, data: bytes) -> Reply:
-    """What `data` says as the answer to `request`. Any bytes at any length are safe; the first failure wins.
+    """`data` read as the answer to `request`. Any bytes at any length are safe; the first failure wins.
 
     rtu, with F the request's function and f the reply's:
     1. `short_frame`: fewer than 5 bytes;
@@ -99,7 +99,7 @@ def _parse_pdu(request: Request, pdu: bytes) -> Reply:
 
 
 def _echoed(request: Request) -> int | None:
-    """The second word of the echo: the value of a single write, else the count."""
+    """The second word that the answer repeats: the value of a single write, else the count."""
     if request.function not in SINGLE:
         return request.count
     if len(request.values) != 1:

@@ -1,4 +1,4 @@
-"""Modbus requests: building their bytes, and reading bytes back. Pure functions, no I/O."""
+"""Modbus requests: builds their bytes, and reads bytes as requests. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def crc16(data: bytes) -> int:
 
 
 def frame(framing: str, unit: int, transaction: int, pdu: bytes) -> bytes:
-    """A PDU in its frame: unit and CRC for rtu, the MBAP header for tcp."""
+    """A PDU in its frame: with unit and CRC for rtu, with the MBAP header for tcp."""
     if framing == "tcp":
         return bytes((*divmod(transaction, 256), 0, 0, *divmod(len(pdu) + 1, 256), unit)) + pdu
     body = bytes((unit,)) + pdu
@@ -115,7 +115,7 @@ def _pdu(profile: Profile, request: Request) -> bytes:
 
 
 def parse_request(framing: str, data: bytes) -> Request | str:
-    """The request that the bytes are, or a sentence that says what is wrong with them. Any bytes are safe."""
+    """The request in the bytes, or a sentence about what is wrong with them. Any bytes are safe."""
     unframed = _unframe_tcp(data) if framing == "tcp" else _unframe_rtu(data)
     if isinstance(unframed, str):
         return unframed
@@ -154,7 +154,7 @@ def _unframe_tcp(data: bytes) -> tuple[int, int, bytes] | str:
 
 
 def _short_request(head: Request) -> Request | str:
-    """A read or a single write, whose last two bytes `head.count` holds."""
+    """A read or a single write; `head.count` holds its last two bytes."""
     if head.function in READS:
         if not 1 <= head.count <= PROTOCOL_MOST[head.function]:
             return f"a count of {head.count} is outside 1 to {PROTOCOL_MOST[head.function]}"

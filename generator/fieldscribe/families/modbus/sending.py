@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
     """The request that writes a raw number. Raises RefusedError."""
-    del settings  # a request carries nothing but the point
+    del settings  # a request carries only the point
     return Sent((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
 
 

@@ -1,4 +1,4 @@
-"""Modbus frames taken apart: requests, replies, echoes and exceptions, each reply read by the request before it."""
+"""Decodes Modbus frames: requests, replies, echoes and exceptions; the request before a reply tells what it means."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _SPACE_OF = {
 
 
 class ModbusSpeech:
-    """Takes the frames of one device apart."""
+    """Decodes the frames of one device."""
 
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
@@ -52,7 +52,7 @@ class ModbusSpeech:
         return [typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2)]
 
     def space_of(self, place: Place) -> str:
-        """The space that the place's own function reaches."""
+        """The space that the function of the place reads or writes."""
         return _SPACE_OF.get(place.function or 0, place.space)
 
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
@@ -84,7 +84,7 @@ class ModbusSpeech:
         parsed = parse_request(wrapped.framing, data)
         if isinstance(parsed, Request) and not fixed:
             return self._request(wrapped, parsed, directory)
-        return _stray(wrapped, parsed, asked, reply.status)
+        return _unmatched_reply(wrapped, parsed, asked, reply.status)
 
     def _request(self, wrapped: Wrapped, request: Request, directory: Directory) -> Spoken:
         silent = request.unit == self._device.bus.broadcast
@@ -112,7 +112,7 @@ class ModbusSpeech:
 
 
 def speech_of(device: Device, options: Options) -> ModbusSpeech:
-    """How frames of the device are taken apart."""
+    """The decoder for the frames of the device."""
     return ModbusSpeech(device, options.framing)
 
 
@@ -123,26 +123,26 @@ def _reply(wrapped: Wrapped, asked: Request, reply: Reply) -> Spoken:
     return Spoken(_heard(wrapped, "reply", f"reply{done}, {span_said(asked)}"), _carried(asked, span), answers=True)
 
 
-def _stray(wrapped: Wrapped, parsed: Request | str, asked: Request | None, status: str) -> Spoken:
-    """A reply that fits no request, or not quite: what it brings, as far as that can be said."""
+def _unmatched_reply(wrapped: Wrapped, parsed: Request | str, asked: Request | None, status: str) -> Spoken:
+    """The result for a reply that does not fit the open request: what it carries, as far as that is known."""
     pdu = wrapped.pdu
     function = pdu[0]
     faults = (no_answer_text(status),) if asked else ()
     if function in READS and len(pdu) >= 2 and pdu[1] == len(pdu) - 2:
         same = asked is not None and asked.function == function
-        return _stray_read(wrapped, asked if same else None, faults)
+        return _unmatched_read(wrapped, asked if same else None, faults)
     if isinstance(parsed, Request):
         request = parsed
     elif function in (0x0F, 0x10) and len(pdu) == 5:
         request = Request(0, function, int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big"))
     else:
-        return _unreadable(wrapped, _neither(pdu, parsed))
+        return _unreadable(wrapped, _why_unreadable(pdu, parsed))
     carried = _carried(request, _span(request)) if 0 < request.count <= PROTOCOL_MOST[function] else ()
     heard = _heard(wrapped, "reply", f"reply, the device has taken the request, {span_said(request)}")
     return Spoken(replace(heard, faults=faults), carried)
 
 
-def _stray_read(wrapped: Wrapped, asked: Request | None, faults: tuple[str, ...]) -> Spoken:
+def _unmatched_read(wrapped: Wrapped, asked: Request | None, faults: tuple[str, ...]) -> Spoken:
     values, data = _data_of(wrapped.pdu), wrapped.pdu[2:]
     if asked is None:
         said = f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
@@ -156,7 +156,7 @@ def _stray_read(wrapped: Wrapped, asked: Request | None, faults: tuple[str, ...]
 
 
 def _span(request: Request) -> Span:
-    """The addresses that a request names, with what it writes to them."""
+    """The addresses of a request, with the values that it writes."""
     count = min(request.count, 0x10000 - request.address)
     written = request.function not in READS
     return Span(_SPACE_OF.get(request.function, ""), request.address, count, request.values or None, written)
@@ -182,8 +182,8 @@ def _unreadable(wrapped: Wrapped, why: str) -> Spoken:
     return Spoken(replace(_heard(wrapped, "unreadable", "not readable"), faults=(why,) if why else ()))
 
 
-def _neither(pdu: bytes, problem: str) -> str:
-    """Why a PDU is no request, and why a read is no reply either."""
+def _why_unreadable(pdu: bytes, problem: str) -> str:
+    """Why a PDU is no request, and if it is a read, why it is no reply either."""
     if pdu[0] not in READS or len(pdu) < 2:
         return problem
     return f"as a request: {problem}; as a reply: it says that {pdu[1]} bytes of data follow, here are {len(pdu) - 2}"

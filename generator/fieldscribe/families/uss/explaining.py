@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def read_text(device: Device, point: Point) -> str:
-    """How to read the point: by which task, or in which word of process data; empty if it cannot be read."""
+    """How to read the point: the task, or the word of process data; empty if it cannot be read."""
     link, unit = default_link(device.bus), device.bus.usual_unit
     data = read_request(device, point, link, unit)
     if point.telegram is not None:
@@ -52,7 +52,7 @@ def _written(device: Device, point: Point, raw: int) -> str:
 
 
 def _sent(device: Device, point: Point, raw: int) -> str:
-    """A telegram with the other words of process data 0, if the point is in the usual length."""
+    """A telegram with the other process data 0; empty if the usual telegram is too short for the point."""
     link, unit = default_link(device.bus), device.bus.usual_unit
     if max(point.addresses) >= link.pzd or point.words != 1:
         return ""

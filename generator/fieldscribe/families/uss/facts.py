@@ -51,7 +51,7 @@ FAMILY = Family(
 
 @dataclass(frozen=True, slots=True)
 class UssBus(Own):
-    """What telegrams need: the response ids, and how long the parts may be.
+    """The response ids, and the lengths that the parts of a telegram may have.
 
     `pkw` are the lengths in words that the parameter part may have (127 is variable), `pzd` how many words of process
     data there may be; `variant_pzd` names variants ("axis=value") that take at most so many.

@@ -1,4 +1,4 @@
-"""How a link is set: what was asked for, held against what the device knows."""
+"""The settings of a link: the options of the person, checked against the device."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _USUAL_PZD = 2
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """The options of the family, as far as they were said."""
+    """The options of the family; None for those that were not given."""
 
     pkw: int | None = None
     pzd: int | None = None
@@ -28,7 +28,7 @@ class Asked:
 
 
 def asked(options: Options) -> Asked:
-    """What was said of the link and of the telegrams."""
+    """The options for the link and the telegrams."""
     return Asked(**options.own)
 
 
@@ -40,7 +40,7 @@ def default_link(bus: Bus) -> Link:
 
 
 def link_of(device: Device, options: Options) -> Link:
-    """The link that was asked for. Raises UnclearError."""
+    """The link that the options choose. Raises UnclearError."""
     usual, own, said = default_link(device.bus), of_bus(device.bus), asked(options)
     if said.pkw is not None and said.pkw not in own.pkw:
         known = ", ".join(map(str, own.pkw))

@@ -1,4 +1,4 @@
-"""The family's own facts out of the text, and what its telegrams cannot carry."""
+"""Reads the family's own facts from the description, and reports what its telegrams cannot carry."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class UssReading(Reading):
         return UssFrame(None if framing in ("pzd", "broadcast") else raw.get("pkw", VARIABLE))
 
     def refuses(self, scope: Scope, bus: Bus, raw: Map) -> bool:
-        """Whether the parameter part cannot have the length that is said; a finding if so."""
+        """Report a length that the parameter part cannot have; whether there was one."""
         lengths = of_bus(bus).pkw
         if not lengths or raw.get("pkw", lengths[0]) in lengths:
             return False
@@ -51,7 +51,7 @@ class UssReading(Reading):
         return True
 
     def telegram(self, scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
-        """Findings for what process data cannot be."""
+        """Report process data that cannot exist."""
         _known_way(scope, raw, before)
         bus = scope.bus
         ends = None if bus is None or "pzd" not in bus else interval(str(bus["pzd"]), bus.span("pzd"), Report())
@@ -61,7 +61,7 @@ class UssReading(Reading):
 
 
 def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
-    """Process data go one way or the other, once each, in frames that are known."""
+    """Report process data with an unknown direction, or a second telegram of one direction."""
     name, direction = str(raw["name"]), raw["direction"]
     if "message" in raw:
         hint = "leave it out: the frames of uss are known"
@@ -69,7 +69,7 @@ def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
     if direction not in ("request", "response"):
         hint = "write `direction: request` for what the master sends, `response` for what the device sends"
         scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
-    other = next((one for one in before if one.direction == direction), None)
+    other = next((telegram for telegram in before if telegram.direction == direction), None)
     if other is not None:
         text = f"`{other.name}` and `{name}` are both of direction {direction}"
         hint = "a telegram has process data once in each direction: make them one, or points with `when`"
@@ -77,7 +77,7 @@ def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
 
 
 def _variant_pzd(scope: Scope) -> Iterator[tuple[str, int]]:
-    """The variants whose property `pzd` says that they take fewer words of process data than the product as a whole."""
+    """The variants that take fewer words of process data than the whole product, by their property `pzd`."""
     for axis, entry in scope.axes.items():
         for value, properties in entry["values"].items():
             if "pzd" not in properties:

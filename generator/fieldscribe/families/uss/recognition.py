@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
 RESPONSE_WIDTHS = {1: 1, 2: 2, 4: 1, 5: 2, 6: 1}
-"""The same of the responses that bring a value; response 6 brings a count."""
+"""How many words of value the responses carry; response 6 carries a count."""
 KEEPING_TASKS = frozenset({11, 12, 13, 14})
-"""The tasks that write to the EEPROM too."""
+"""The tasks that also write to the EEPROM."""
 _PAGES = ((15, 1), (12, 2), (13, 4), (14, 8))
 """The bits of the index word that hold the page of the parameter number, with their weights."""
 _PAGE = 2000
@@ -25,7 +25,7 @@ _LEAST_BYTES = 4
 
 @dataclass(frozen=True, slots=True)
 class Wrapped:
-    """Bytes out of their telegram; `words` is None where they are none. `checks` says how the check byte is."""
+    """Bytes taken out of their telegram; `words` is None if they cannot be read. `checks` describes the check byte."""
 
     framing: str
     data: bytes
@@ -37,7 +37,7 @@ class Wrapped:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A parameter part: task or response, which element of which parameter, and the words of the value."""
+    """A parameter part: the task or response, the parameter and its index, and the words of the value."""
 
     code: int
     parameter: int
@@ -54,7 +54,7 @@ class Part:
 
 
 def recognise(data: bytes, framing: str) -> Wrapped:
-    """The words that bytes are, as a whole telegram or as a part of one alone."""
+    """The words in the bytes of a whole telegram, or of a single part."""
     if framing == "uss":
         return _telegram(data)
     if not data or len(data) % 2:
@@ -64,7 +64,7 @@ def recognise(data: bytes, framing: str) -> Wrapped:
 
 
 def part_of(words: Sequence[int]) -> Part | None:
-    """The parameter part that words are; None for fewer than two."""
+    """The parameter part in these words; None for fewer than two."""
     if len(words) < 2:
         return None
     identification, place = words[:2]
@@ -74,16 +74,13 @@ def part_of(words: Sequence[int]) -> Part | None:
 
 
 def split(words: tuple[int, ...], link: Link, *, request: bool) -> tuple[tuple[int, ...], tuple[int, ...], str]:
-    """The words of the parameter part, those of process data, and what is wrong with their count (may be empty)."""
+    """The words of the parameter part, those of process data, and what is wrong with their count (or empty)."""
     left = len(words) - link.pzd
     if link.pkw != VARIABLE:
         part, rest = words[: link.pkw], words[link.pkw :]
         if left != link.pkw:
-            return (
-                part,
-                rest,
-                f"{_count(len(words))}; a parameter part of {link.pkw} and {_data(link)} make {link.pkw + link.pzd}",
-            )
+            needed = f"{_count_text(len(words))}; a parameter part of {link.pkw} and {_pzd_text(link)}"
+            return part, rest, f"{needed} make {link.pkw + link.pzd}"
         return part, rest, ""
     if left < 3 or (request and left > 4):
         most = 4 if request else left
@@ -92,16 +89,16 @@ def split(words: tuple[int, ...], link: Link, *, request: bool) -> tuple[tuple[i
         return (
             part,
             words[len(part) :],
-            f"{_count(len(words))}; a parameter part of variable length and {_data(link)} make {least}",
+            f"{_count_text(len(words))}; a parameter part of variable length and {_pzd_text(link)} make {least}",
         )
     return words[:left], words[left:], ""
 
 
-def _count(words: int) -> str:
+def _count_text(words: int) -> str:
     return f"it has {counted(words, 'word')}"
 
 
-def _data(link: Link) -> str:
+def _pzd_text(link: Link) -> str:
     return f"{counted(link.pzd, 'word')} of process data"
 
 

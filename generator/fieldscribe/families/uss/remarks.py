@@ -1,4 +1,4 @@
-"""What tasks, responses and errors are called, and what is odd about a telegram: sentences for people."""
+"""Sentences about USS telegrams for people: names of their numbers, findings and notes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
 
 
 def error_text(device: Device, error: int) -> str:
-    """An error value in the manual's words."""
+    """The meaning of an error value, from the manual."""
     code = numbered(device.bus.exceptions, error)
     if code is None:
         return f"error {error}, which the manual does not list"
@@ -31,7 +31,7 @@ def error_text(device: Device, error: int) -> str:
 
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
-    """What the device will not take of a request."""
+    """Why the device refuses a request."""
     if unit is not None and (strange := strange_unit(device.bus, unit)):
         yield strange
     code = numbered(device.bus.functions, part.code)
@@ -47,7 +47,7 @@ def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[s
 
 
 def request_notes(part: Part, link: Link) -> Iterator[str]:
-    """What is good to know about a request."""
+    """What to know about a request."""
     if TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1:
         yield from _misplaced(part, link)
     if part.code in KEEPING_TASKS:
@@ -64,7 +64,7 @@ def _misplaced(part: Part, link: Link) -> Iterator[str]:
 
 
 def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:
-    """That the error is not one of the task."""
+    """The finding that this task cannot have this error."""
     error = part.values[0]
     code = numbered(device.bus.exceptions, error)
     if task is not None and code is not None and code.answers and task not in code.answers:
@@ -72,7 +72,7 @@ def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str
 
 
 def error_notes(part: Part, link: Link) -> Iterator[str]:
-    """That the error may stand in another word."""
+    """The note that the error may stand in another word."""
     if link.single_last and len(part.values) > 1:
         yield (
             "the error value is taken from the first value word; over this link single words stand in the second, "

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
-    """The telegram that writes a raw number, or the words of its part. Raises RefusedError, UnclearError."""
+    """The telegram that writes a raw number, or only its words. Raises RefusedError, UnclearError."""
     framing = options.framing or "uss"
     if framing == "broadcast":
         raise UnclearError("a broadcast is not built here", "take uss, pkw or pzd")
@@ -48,14 +48,14 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 def process_words(
     device: Device, link: Link, settings: Settings, own: dict[int, int] | None = None
 ) -> tuple[tuple[int, ...], list[str]]:
-    """The words of process data that a telegram takes along, from what is known; all others 0, and what that means."""
+    """The process data of a telegram: known values, all other words 0; and notes on what these 0 mean."""
     words = dict(own or {})
     notes: list[str] = []
-    telegrams = {one.name for one in device.telegrams if one.direction == "request"}
+    telegrams = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
     for point in device.points:
-        given = settings.get(point.name)
-        if point.telegram in telegrams and isinstance(given, int):
-            for place, word in zip(point.addresses, words_of(point, given), strict=False):
+        raw = settings.get(point.name)
+        if point.telegram in telegrams and isinstance(raw, int):
+            for place, word in zip(point.addresses, words_of(point, raw), strict=False):
                 words.setdefault(place, insert(point, word, word) if point.bits is None else word)
     for point in device.points:
         place = point.addresses[0] if point.addresses else link.pzd

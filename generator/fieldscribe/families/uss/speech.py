@@ -1,4 +1,4 @@
-"""USS telegrams taken apart: requests, the answers to them, broadcasts, or the words of one part alone."""
+"""Decodes USS telegrams: requests, answers, broadcasts, or only the words of one part."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _PARTS = "the words of the parameter part alone are read with --framing pkw, pro
 
 
 class UssSpeech:
-    """Takes the telegrams of one device apart, as its link is set."""
+    """Decodes the telegrams of one device, with the settings of its link."""
 
     def __init__(self, device: Device, link: Link, framing: str = "uss", direction: str | None = None) -> None:
         self._device = device
@@ -90,7 +90,7 @@ class UssSpeech:
         if asked is not None and direction != "request":
             status = parse(self._device.bus, self._link, asked, telegram(asked.unit, words)).status
         if direction == "response" or (direction is None and status in _ANSWERS):
-            # a request that is fixed and not open was one to another unit
+            # the person fixed a request, but this unit has none open: that request went to another unit
             return self._reply(
                 base, words, asked, "wrong_unit" if course.fixed and asked is None else status, directory
             )
@@ -100,7 +100,7 @@ class UssSpeech:
         return spoken
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
-        """Whether words that were read as a request, none being open, bring what only an answer or a change brings."""
+        """Whether these words, read as a request, carry values, so that they could be an answer instead."""
         part = part_of(split(words, self._link, request=True)[0])
         return part is not None and any(part.values) and part.code != 0
 
@@ -148,14 +148,14 @@ class UssSpeech:
         return Spoken(heard, carried, base.unit, answers=status != "no_answer")
 
     def _element(self, part: Part) -> Element:
-        """What an answer brings of an element."""
+        """The element in an answer, with its value."""
         width = RESPONSE_WIDTHS.get(part.code, 0)
         value = part.value(width, self._link) if width else None
         refused, counts = part.code in (_REFUSED, _NO_RIGHTS), part.code == _SIZE
         return Element(part.parameter, part.index, width, value, part.values, refused=refused, counts=counts)
 
     def _refusal(self, base: Heard, part: Part, task: int | None) -> Heard:
-        """An answer that the device cannot or may not do what was asked."""
+        """The result for an answer that refuses the request."""
         base = replace(base, kind="exception")
         if part.code == _NO_RIGHTS or not part.values:
             return base
@@ -180,12 +180,12 @@ class UssSpeech:
 
 
 def speech_of(device: Device, options: Options) -> UssSpeech:
-    """How telegrams of the device are taken apart. Raises UnclearError."""
+    """The decoder for the telegrams of the device. Raises UnclearError."""
     return UssSpeech(device, link_of(device, options), options.framing or "uss", said_of(options).direction)
 
 
 def _about(base: Heard, said: str, part: Part, key: str, directory: Directory) -> Heard:
-    """A telegram with its parameter part."""
+    """The telegram, with the parameter part in its summary and details."""
     details: dict[str, object] = {key: part.code}
     if part.code:
         points = directory.at("parameter", part.parameter, part.index)
@@ -196,7 +196,7 @@ def _about(base: Heard, said: str, part: Part, key: str, directory: Directory) -
 
 
 def _broadcast(base: Heard, words: tuple[int, ...]) -> Spoken:
-    """Four words of masks, then process data; nobody answers."""
+    """The result for a broadcast: four words of masks, then process data."""
     heard = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
     if len(words) < _MASKS:
         fault = f"a broadcast starts with {_MASKS} words of masks, here are {len(words)}"

@@ -1,4 +1,4 @@
-"""USS telegrams: building their bytes, and reading bytes back. Pure functions, no I/O."""
+"""USS telegrams: builds their bytes, and reads bytes as answers. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 START = 0x02
 VARIABLE = 127
-"""The setting of the parameter part that lets its length follow from the request."""
+"""The setting of the parameter part whose length depends on the request."""
 LAST_PARAMETER = FAMILY.last_address
 READ_TASK = 1
 DOUBLE_RESPONSES = frozenset({2, 5})
@@ -26,7 +26,7 @@ _PAGE_BITS = (15, 12, 13, 14)
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """How the link is set: words of the parameter part, words of process data.
+    """The settings of a link: the words of the parameter part and of process data.
 
     `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
     """
@@ -48,7 +48,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is asked: a task for one element of a parameter, with a value of `width` words."""
+    """A request: a task for one element of a parameter, with a value of `width` words."""
 
     unit: int
     task: int
@@ -94,7 +94,7 @@ def parameter_words(task: int, parameter: int, index: int) -> tuple[int, int]:
 
 
 def write_task(width: int, *, array: bool, keep: bool) -> int:
-    """The task that changes a value of that many words, in the RAM or (`keep`) in the EEPROM too."""
+    """The task that writes a value of this many words: into the RAM, with `keep` also into the EEPROM."""
     tasks = {(1, False): (2, 14), (2, False): (3, 13), (1, True): (7, 12), (2, True): (8, 11)}
     return tasks[width, array][keep]
 
@@ -151,33 +151,33 @@ def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...
 
 
 def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
-    """What `data` says as the answer to `request`. Any bytes at any length are safe; the first failure wins.
+    """`data` read as the answer to `request`. Any bytes at any length are safe; the first failure wins.
 
     `wrong_start`, `wrong_length`, `wrong_check`, `wrong_unit`, `wrong_parameter`, `no_answer`, `refused` (with the
     error), `no_rights`, `wrong_response` (one that does not belong to the task), `wrong_length` (a double value in too
     few words).
     """
-    found = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(3, len(data) - 1, 2))
-    pkw = len(found) - link.pzd
+    received = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(3, len(data) - 1, 2))
+    pkw = len(received) - link.pzd
     fault = _envelope_fault(link, request, data, pkw)
     if fault is not None:
         return Reply(fault)
-    words = found[pkw:]
+    words = received[pkw:]
     if link.pkw == 0:
         return Reply("ok", words=words)
-    response = found[0] >> 12
+    response = received[0] >> 12
     if request.task == 0:
         return Reply("ok", response, words=words)
-    fault = _answer_fault(bus, request, found[:pkw])
+    fault = _answer_fault(bus, request, received[:pkw])
     if fault is not None:
-        return Reply(fault, response, error=found[2]) if fault == "refused" else Reply(fault)
+        return Reply(fault, response, error=received[2]) if fault == "refused" else Reply(fault)
     if response in DOUBLE_RESPONSES:
-        return Reply("ok", response, 2, found[2] << 16 | found[3], words=words)
-    return Reply("ok", response, 1, found[3 if link.single_last else 2], words=words)
+        return Reply("ok", response, 2, received[2] << 16 | received[3], words=words)
+    return Reply("ok", response, 1, received[3 if link.single_last else 2], words=words)
 
 
 def _envelope_fault(link: Link, request: Request, data: bytes, pkw: int) -> str | None:
-    """What is wrong with the bytes as a telegram of this link; `pkw` words are left for the parameter part."""
+    """What is wrong with the bytes as a telegram whose parameter part has `pkw` words."""
     if not data or data[0] != START:
         return "wrong_start"
     whole = len(data) >= 4 and data[1] + 2 == len(data) and len(data) % 2 == 0

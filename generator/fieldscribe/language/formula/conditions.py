@@ -79,7 +79,7 @@ def parse_condition(text: str) -> Condition:
 
 
 def read_condition(text: str) -> Condition:
-    """The same, without a guess at what else could be meant."""
+    """A condition; errors carry no guess at what was meant. Raises FormulaError."""
     parser = Parser(text)
     condition = _any(parser)
     parser.finish(_NO_ARITHMETIC)
@@ -95,17 +95,17 @@ def parse_case(text: str) -> tuple[Name, int]:
         raise FormulaError("a case compares the raw number", parser.token.column, how)
     case = _comparison(parser)
     parser.finish(how)
-    given = case.constants[0]
+    constant = case.constants[0]
     if case.op != "==":
         raise FormulaError(f"a case knows ==, not {case.op}", case.column, how)
-    if isinstance(given.value, str) or given.value.denominator != 1:
-        raise FormulaError("a case compares with a whole number", given.column, how)
-    return Name(case.name.name, "raw", case.name.column), given.value.numerator
+    if isinstance(constant.value, str) or constant.value.denominator != 1:
+        raise FormulaError("a case compares with a whole number", constant.column, how)
+    return Name(case.name.name, "raw", case.name.column), constant.value.numerator
 
 
 def condition_names(condition: Condition) -> tuple[Name, ...]:
     """All names that a condition compares, in the order of the text, each time they occur."""
-    return tuple(one.name for one in _comparisons(condition))
+    return tuple(comparison.name for comparison in _comparisons(condition))
 
 
 def _comparisons(condition: Condition) -> Iterator[Comparison]:
@@ -197,16 +197,16 @@ def _constant(parser: Parser) -> Constant:
         parser.refuse("a constant", _NO_ARITHMETIC)
     token = parser.take()
     try:
-        given = number(token)
+        value = number(token)
     except FormulaError:
         if negative or not _NAME.fullmatch(token.text):
             raise
         return Constant(token.text, column, token.text)  # `400V` may name the value of a variant
-    return Constant(-given if negative else given, column, f"-{token.text}" if negative else token.text)
+    return Constant(-value if negative else value, column, f"-{token.text}" if negative else token.text)
 
 
 def wrong_number(text: str, column: int) -> FormulaError:
-    """What is wrong with a word that begins with a digit, where no name of that kind can stand."""
+    """The error for a word that begins with a digit, where it can be no name."""
     try:
         number(Token("number", text, "", column))
     except FormulaError as error:
@@ -215,22 +215,22 @@ def wrong_number(text: str, column: int) -> FormulaError:
 
 
 def clauses_of(condition: Condition) -> tuple[tuple[Comparison, ...], ...]:
-    """The condition as any of clauses, each of comparisons that hold together. Raises FormulaError for too many."""
+    """The condition as an `or` of clauses; each clause is an `and` of comparisons. Raises FormulaError for too many."""
     return _clauses(condition, turned=False)
 
 
 def _clauses(condition: Condition, *, turned: bool) -> tuple[tuple[Comparison, ...], ...]:
-    """The clauses of the condition, or of its opposite."""
+    """The clauses of the condition, or of its opposite if `turned`."""
     match condition:
         case Comparison():
             return _turned(condition) if turned else ((condition,),)
         case Not(operand):
             return _clauses(operand, turned=not turned)
         case AllOf(parts) | AnyOf(parts):
-            found = [_clauses(part, turned=turned) for part in parts]
+            parts_clauses = [_clauses(part, turned=turned) for part in parts]
             if isinstance(condition, AnyOf) != turned:
-                return tuple(clause for clauses in found for clause in clauses)
-            return _all_of(found)
+                return tuple(clause for clauses in parts_clauses for clause in clauses)
+            return _all_of(parts_clauses)
 
 
 def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comparison, ...], ...]:
@@ -243,8 +243,8 @@ def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comp
     return clauses
 
 
-def _turned(one: Comparison) -> tuple[tuple[Comparison, ...], ...]:
-    """The opposite of a comparison: of `in` that none of its constants is equal."""
-    if one.op == "in":
-        return (tuple(replace(one, op="!=", constants=(each,)) for each in one.constants),)
-    return ((replace(one, op=_OPPOSITES[one.op]),),)
+def _turned(comparison: Comparison) -> tuple[tuple[Comparison, ...], ...]:
+    """The opposite of a comparison; the opposite of `in` is that no constant is equal."""
+    if comparison.op == "in":
+        return (tuple(replace(comparison, op="!=", constants=(each,)) for each in comparison.constants),)
+    return ((replace(comparison, op=_OPPOSITES[comparison.op]),),)

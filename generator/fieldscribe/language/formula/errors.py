@@ -1,4 +1,4 @@
-"""What a wrong formula raises."""
+"""The error of a wrong formula."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a formula of known numbers gives."""
+"""Works out formulas whose numbers are all known."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MOST_BITS = 4096
-"""The widest numerator or denominator of a result: what is larger has no place in a device, and cannot be printed."""
+"""The most bits of a numerator or denominator: larger results mean nothing to a device and cannot be printed."""
 
 
 def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction:
-    """The number of an expression; `values` has a number for each (key `name.raw` for `.raw`). Raises FormulaError."""
+    """The result of an expression; `values` maps names to numbers (key `name.raw` for `.raw`). Raises FormulaError."""
     return bounded(_evaluate(expression, values), start(expression))
 
 
@@ -29,7 +29,7 @@ def start(expression: Expression) -> int:
 
 
 def bounded(result: Fraction, column: int) -> Fraction:
-    """The result itself. Raises FormulaError if it is too large to be meant."""
+    """The result unchanged. Raises FormulaError if it is too large to make sense."""
     if result.numerator.bit_length() > MOST_BITS or result.denominator.bit_length() > MOST_BITS:
         raise FormulaError("the numbers of this formula are too large", column)
     return result

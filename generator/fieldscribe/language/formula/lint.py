@@ -1,4 +1,4 @@
-"""A warning for numbers that someone cut off, with the fraction that was meant."""
+"""Warns about decimals that were cut off, and finds the fraction that was meant."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LONGEST_TEXT = 2000
 
 
 class CutOff(NamedTuple):
-    """A decimal in a formula that is almost, but not quite, a simple fraction; `line` is the formula with that."""
+    """A decimal that is almost a simple fraction; `line` is the formula with the fraction in its place."""
 
     typed: str
     exact: str
@@ -35,41 +35,41 @@ class CutOff(NamedTuple):
 def cut_off(text: str) -> CutOff | None:
     """The first decimal of a formula that is almost n / 2^k * 10^m, or a repeating fraction such as 2 / 3.
 
-    Almost is within half a unit of the last digit typed; fewer than five digits could be anything.
+    "Almost" is within half a unit of the last digit; decimals with fewer than five digits are left alone.
     """
     if "." not in text:
         return None
-    for found, exact in _cut(text[:_LONGEST_TEXT]):
-        return CutOff(found[0], exact, exact_scale(text))
+    for decimal, exact in _cut(text[:_LONGEST_TEXT]):
+        return CutOff(decimal[0], exact, exact_scale(text))
     return None
 
 
 def exact_scale(text: str) -> str:
     """The formula with fractions in place of its decimals that were cut off."""
-    for found, exact in reversed(list(_cut(text[:_LONGEST_TEXT]))):
-        text = _replaced(text, found, exact)
+    for decimal, exact in reversed(list(_cut(text[:_LONGEST_TEXT]))):
+        text = _replaced(text, decimal, exact)
     return text
 
 
 def _cut(text: str) -> Iterator[tuple[re.Match[str], str]]:
-    for found in _DECIMAL.finditer(text):
-        typed = found[0]
+    for decimal in _DECIMAL.finditer(text):
+        typed = decimal[0]
         if len(typed) <= LONGEST and len(typed.replace(".", "").lstrip("0")) >= _FEWEST_DIGITS:
             exact = _almost(typed)
             if exact is not None:
-                yield found, exact
+                yield decimal, exact
 
 
-def _replaced(text: str, found: re.Match[str], exact: str) -> str:
+def _replaced(text: str, decimal: re.Match[str], exact: str) -> str:
     """The text with the fraction in the place of the decimal: `raw * 0.33333` becomes `raw / 3`."""
-    before, behind = text[: found.start()].rstrip(), text[found.end() :]
+    before, behind = text[: decimal.start()].rstrip(), text[decimal.end() :]
     top, _, bottom = exact.partition(" / ")
     if before.endswith("/"):
         product = f"* {bottom}" + ("" if top == "1" else f" / {top}")
         return f"{before[:-1].rstrip()} {product}{behind}"
     if before.endswith("*") and top == "1":
         return f"{before[:-1].rstrip()} / {bottom}{behind}"
-    return f"{text[: found.start()]}{exact}{behind}"
+    return f"{text[: decimal.start()]}{exact}{behind}"
 
 
 def _almost(typed: str) -> str | None:
@@ -100,10 +100,10 @@ def _binary() -> tuple[list[Fraction], list[str]]:
 
 @cache
 def _repeating() -> tuple[list[Fraction], list[str]]:
-    """The same for fractions whose decimals never end."""
+    """Fractions whose decimals never end, in ascending order, each with its writing."""
     fractions, _ = _table(list(_THIRDS))
-    kept = [one for one in fractions if one.denominator % 3 == 0]
-    return kept, [f"{one.numerator} / {one.denominator}" for one in kept]
+    kept = [fraction for fraction in fractions if fraction.denominator % 3 == 0]
+    return kept, [f"{fraction.numerator} / {fraction.denominator}" for fraction in kept]
 
 
 def _table(bottoms: list[int]) -> tuple[list[Fraction], list[str]]:

@@ -1,4 +1,4 @@
-"""What a scale that cannot be read was meant to be: whole lines for hints, each of which can be read."""
+"""Guesses what an unreadable scale or condition was meant to be; each guess is itself readable."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ _REWRITTEN = (
 
 
 def scale_meant(text: str) -> str | None:
-    """The scale that a text means, as the language writes it; None where that is not known."""
+    """The scale that a text probably means, in our notation; None if there is no guess."""
     if len(text) > _LONGEST:
         return None
     plain = _plain(text)
     for pattern, ours in (*_REWRITTEN, (r"(.*=.*)", r"\1")):
-        found = re.fullmatch(pattern, plain)
-        line = None if found is None else _readable(found.expand(ours))
+        match = re.fullmatch(pattern, plain)
+        line = None if match is None else _readable(match.expand(ours))
         if line is not None:
             return line
     return None
 
 
 def _plain(text: str) -> str:
-    """The text with our signs and our names of the two sides."""
+    """The text with our signs, and with `raw` and `value` for the two sides."""
     plain = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text.translate(_SIGNS).strip())
     plain = re.sub(r"(?<=[\w)])\s+[xX]\s+(?=[\w(])", " * ", plain)
     plain = re.sub(r"(?<=10)\s*\^\s*", " ** ", plain).replace("==", "=").replace(":=", "=")
@@ -54,7 +54,7 @@ def _plain(text: str) -> str:
 
 
 def _readable(line: str) -> str | None:
-    """The line, with cut decimals made exact, if it is a scale; None if it is none."""
+    """The line with its cut decimals made exact; None if it is no readable scale."""
     try:
         parse_scale(line)
     except FormulaError:
@@ -74,7 +74,7 @@ _CONDITION = (
 
 
 def condition_meant(text: str) -> str | None:
-    """The condition that a text means, as the language writes it; None where that is not known."""
+    """The condition that a text probably means, in our notation; None if there is no guess."""
     from fieldscribe.language.formula.conditions import read_condition
 
     plain = text[:_LONGEST]

@@ -1,4 +1,4 @@
-"""Formulas as the model keeps them: result = argument * ratio * product(factors) + offset. Exact, or refused."""
+"""Turns formulas into the form of the model: result = argument * ratio * product(factors) + offset. Always exact."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Affine(NamedTuple):
 
 
 Resolve = Callable[[str, Part], Affine]
-"""Name and part to meaning. May raise FormulaError, whose column is then replaced by that of the name."""
+"""Gives the meaning of a name and its part. A FormulaError that it raises gets the column of the name."""
 
 
 def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
@@ -38,27 +38,27 @@ def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
 
 
 def limit_rule(expression: Expression, resolve: Resolve) -> Linear:
-    """The normal form of a limit, to be applied to 1; a constant is all ratio. Raises FormulaError."""
+    """The normal form of a limit, whose argument is always 1; a constant becomes the ratio. Raises FormulaError."""
     term = _term(expression, "", resolve)
     return _linear(Term(term.offset, Fraction(0)) if term.constant else term, expression)
 
 
 def scale_rule(scale: Scale, resolve: Resolve) -> Linear:
-    """The rule from value to raw of a scale written from either side. Raises FormulaError."""
+    """The rule from value to raw; the scale may be written for either side. Raises FormulaError."""
     if not scale.uses:
         return _static_rule(scale)
     return _rule(scale, resolve)
 
 
 def invert(rule: Linear) -> Linear:
-    """The rule the other way round. Raises FormulaError (column 0) where its offset would depend on a point."""
+    """The inverse rule. Raises FormulaError (column 0) if its offset would depend on a point."""
     if rule.ratio == 0:
         raise FormulaError("a rule without slope cannot be inverted", 0)
     if rule.factors and rule.offset:
         points = " and ".join(f"`{point}`" for point in dict.fromkeys(factor.point for factor in rule.factors))
         message = f"the inverse has an offset that depends on {points}"
         raise FormulaError(message, 0, "a rule with run-time factors has an offset only where it is written raw = ...")
-    factors = tuple(replace(one, power=-one.power) for one in rule.factors)
+    factors = tuple(replace(factor, power=-factor.power) for factor in rule.factors)
     return Linear(1 / rule.ratio, -rule.offset / rule.ratio, factors)
 
 

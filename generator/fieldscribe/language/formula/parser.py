@@ -1,4 +1,4 @@
-"""Recursive descent over the tokens of an expression, with a bound on everything that nests."""
+"""A recursive descent parser for expressions; nesting is bounded."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ MOST_OPERATIONS = 50
 """The most signs and parentheses in one expression: bounds its depth too."""
 
 VARIABLES = ("value", "raw")
-"""Names that mean the two sides of a scale, and never a point."""
+"""Names of the sides of a scale; they never name a point."""
 
 
 class Parser:
-    """A position in the tokens of a text, and the rules that read expressions from there."""
+    """The tokens of a text and a position in them, with the rules of the grammar as methods."""
 
     def __init__(self, text: str, column0: int = 0) -> None:
         self._tokens = tokens(text, column0)
@@ -38,7 +38,7 @@ class Parser:
         return self.token[:3] == ("name", word, "")
 
     def take(self) -> Token:
-        """The next token; the position moves behind it, but never behind the end."""
+        """The next token; the position moves on, but never past the end."""
         token = self.token
         if token.kind != "end":
             self._at += 1
@@ -52,7 +52,7 @@ class Parser:
         return False
 
     def finish(self, hint: str = "") -> None:
-        """Refuse what is left."""
+        """Refuse any tokens that are left."""
         if self.token.kind != "end":
             self.refuse("", hint or self._hint_for_rest())
 
@@ -69,7 +69,7 @@ class Parser:
             raise FormulaError(f"an expression has at most {MOST_OPERATIONS} operations", column, "simplify it")
 
     def fresh_expression(self) -> Expression:
-        """An expression with a bound of its own: one of several in a text."""
+        """One of several expressions in a text; each has its own bound on nesting."""
         self._operations = 0
         return self.expression()
 
@@ -143,7 +143,7 @@ class Parser:
         return Name(token.text, "raw" if token.part == "raw" else "value", token.column)
 
     def _hint_for_rest(self) -> str:
-        """What may be meant when an expression is over and the text is not."""
+        """The hint for text that follows a complete expression."""
         previous = self._tokens[self._at - 1] if self._at else None
         if self.sees(","):
             return "a decimal number has a point, not a comma"

@@ -1,4 +1,4 @@
-"""What stands in a description as a formula: expressions, scales and ranges. All pure: cached by their text."""
+"""Parses the formulas of descriptions: expressions, scales and ranges. Pure functions, cached by their text."""
 
 from __future__ import annotations
 
@@ -75,5 +75,5 @@ def _hint_for_range(parser: Parser) -> str:
 
 
 def constant(expression: Expression) -> bool:
-    """Whether an expression is a number whatever the points hold."""
+    """Whether an expression depends on no point."""
     return isinstance(expression, Number) or not names(expression)

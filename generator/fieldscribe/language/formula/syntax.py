@@ -23,7 +23,7 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """A point by code or name, or a variable of the rule (`raw`, `wire`, `base`); `part` is `value` if not said."""
+    """A point by code or name, or a variable of the rule (`raw`, `wire`, `base`); `part` defaults to `value`."""
 
     name: str
     part: Part
@@ -70,7 +70,7 @@ class Scale:
 
     @property
     def variable(self) -> Part:
-        """The side that the expression is made of."""
+        """The name of the other side, which the expression uses."""
         return "value" if self.side == "raw" else "raw"
 
 

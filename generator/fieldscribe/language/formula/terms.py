@@ -1,4 +1,4 @@
-"""Algebra of the one supported shape: coefficient * variable * product of run-time factors + offset, all exact."""
+"""Calculates with terms of one shape: coefficient * variable * product of run-time factors + offset, all exact."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
 
 class Symbol(NamedTuple):
-    """An indivisible run-time number: raw * slope + intercept of a point, or ten to that; coprime, slope positive."""
+    """A run-time number: raw * slope + intercept of a point, or ten to this power. Slope > 0, no common divisor."""
 
     point: str
     slope: int
@@ -27,9 +27,10 @@ class Symbol(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """coefficient * variable ** variable * product + offset; a constant is all offset, with coefficient 0.
+    """A term; `variable` is 0 or 1: coefficient * (the variable) ** variable * product + offset.
 
-    A lone point stays open (its slope and intercept are in coefficient and offset), so that sums over one point add up.
+    A constant has coefficient 0. If the product is a single point, the term is open: slope and intercept of the point
+    are part of coefficient and offset, so that terms with the same point can be added.
     """
 
     coefficient: Fraction
@@ -39,7 +40,7 @@ class Term:
 
     @property
     def constant(self) -> bool:
-        """Whether nothing is left that is known only at run time."""
+        """Whether the term is a known number."""
         return self.coefficient == 0
 
     @property
@@ -61,7 +62,7 @@ def scaled(term: Term, by: Fraction) -> Term:
 
 
 def add(left: Term, right: Term, column: int) -> Term:
-    """The sum of two terms of one kind, or of a term and a constant. Raises FormulaError."""
+    """The sum of two terms with the same variable and product, or of a term and a constant. Raises FormulaError."""
     if not (left.constant or right.constant) and (left.variable, left.product) != (right.variable, right.product):
         _refuse_sum(left, right, column)
     coefficient, offset = left.coefficient + right.coefficient, left.offset + right.offset
@@ -102,11 +103,11 @@ def reciprocal(term: Term, column: int) -> Term:
 
 
 def _closed(term: Term, column: int) -> Term:
-    """The term with its offset drawn into a factor; a term without offset as it is."""
+    """The same term without an offset: the offset becomes the intercept of its point."""
     if term.offset == 0:
         return term
-    (symbol, power), *more = term.product.items()
-    if more or symbol.ten_to or power != 1:
+    (symbol, power), *others = term.product.items()
+    if others or symbol.ten_to or power != 1:
         raise FormulaError("a sum of points and numbers is a factor only if it has one point", column, SHAPE)
     common = lcm(term.coefficient.denominator, term.offset.denominator)
     slope, intercept = int(term.coefficient * common), int(term.offset * common)
@@ -116,7 +117,7 @@ def _closed(term: Term, column: int) -> Term:
 
 
 def _opened(coefficient: Fraction, variable: int, product: dict[Symbol, int]) -> Term:
-    """The term of a product; a lone point is opened."""
+    """The term with this product; if that is a single point, the term is open (see `Term`)."""
     if not variable and len(product) == 1:
         (symbol, power) = next(iter(product.items()))
         if power == 1 and not symbol.ten_to:

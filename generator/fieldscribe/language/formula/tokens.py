@@ -1,4 +1,4 @@
-"""A formula's text cut into tokens, each with its column.
+"""Splits the text of a formula into tokens, each with its column.
 
 A word that begins with a digit is a number (`12h` is 18) or an error. One that begins with a letter is a name (`b082`,
 `F004`, `A020`), but for hexadecimal in capitals with a small h (`FFFFh`). `ffh` is a name; as a number it is `0ffh`.
@@ -57,7 +57,7 @@ _STRANGE = {
 
 
 class Token(NamedTuple):
-    """A piece of text; `part` is what follows a name behind a point, else empty."""
+    """A piece of text; `part` is the word after the point in `NAME.part`, else empty."""
 
     kind: Literal["number", "name", "sign", "end"]
     text: str
@@ -82,7 +82,7 @@ def tokens(text: str, column0: int = 0) -> list[Token]:
 def _tokens(text: str) -> list[Token]:
     if len(text) > LONGEST:
         raise FormulaError(f"a formula has at most {LONGEST} characters", LONGEST, "split it")
-    found: list[Token] = []
+    tokens: list[Token] = []
     offset = 0
     while True:
         match = _TOKEN.match(text, offset)
@@ -90,16 +90,16 @@ def _tokens(text: str) -> list[Token]:
             _refuse(text, offset)
         kind = match.lastgroup
         if kind == "end":
-            found.append(Token("end", "", "", len(text.rstrip(" \t"))))
-            return found
-        found.append(_token(match))
-        if found[-1].text == "," and _COMMA.match(text, max(0, match.end() - 2)):
-            _refuse_comma(found, text, match.end())
+            tokens.append(Token("end", "", "", len(text.rstrip(" \t"))))
+            return tokens
+        tokens.append(_token(match))
+        if tokens[-1].text == "," and _COMMA.match(text, max(0, match.end() - 2)):
+            _refuse_comma(tokens, text, match.end())
         offset = match.end()
 
 
 def number(token: Token) -> Fraction:
-    """The number that a token of that kind means. Raises FormulaError."""
+    """The number of a number token. Raises FormulaError."""
     try:
         return parse_number(token.text)
     except NumberError as error:
@@ -121,9 +121,9 @@ def _refuse(text: str, offset: int) -> NoReturn:
     raise FormulaError(f"{what} is not part of a formula", column, _STRANGE.get(char, ""))
 
 
-def _refuse_comma(found: list[Token], text: str, end: int) -> None:
-    """Refuse `0,5`, which could be a decimal or a list; behind a code or a hexadecimal number there is no doubt."""
-    before = found[-2]
+def _refuse_comma(tokens: list[Token], text: str, end: int) -> None:
+    """Refuse `0,5`, which could be a decimal or a list; after a code or a hexadecimal number it is a list."""
+    before = tokens[-2]
     if before.kind == "number" and before.text.isdigit():
         after = re.match(r"[0-9]+", text[end:])
         digits = after[0] if after else ""

@@ -1,4 +1,4 @@
-"""The one table of keys: JSON Schema, KEYS.md and the front end's own shapes follow, and lists of keys are asked of it.
+"""The one table of keys; JSON Schema, KEYS.md, the checks of files and all lists of keys come from it.
 
 A new key is one `Key` in one of the modules here, or in the part `keys` of a family that alone has it. What it is
 written in stands in `fieldscribe/kinds.py`.
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from fieldscribe.kinds import Key
 
 
-def keys_of_family(one: Family) -> tuple[Key, ...]:
+def keys_of_family(bus_family: Family) -> tuple[Key, ...]:
     """The keys that only this family has."""
-    part = one.part("keys")
+    part = bus_family.part("keys")
     return () if part is None else tuple(part.KEYS)
 
 
@@ -32,7 +32,7 @@ TABLE: tuple[Key, ...] = (
     *within.KEYS,
     *bus.KEYS,
     *frames.KEYS,
-    *(key for one in families() for key in keys_of_family(one)),
+    *(key for bus_family in families() for key in keys_of_family(bus_family)),
 )
 """All keys, in the order of each table of KEYS.md; those that only one family has are the last."""
 
@@ -43,7 +43,7 @@ for _key in TABLE:
 
 
 def keys_of(place: Place) -> dict[str, Key]:
-    """The keys that stand in a place, by name."""
+    """The keys that may stand in a place, by name."""
     own_keys = _AT.get(place, {})
     return own_keys if place.may_be is None else keys_of(place.may_be) | own_keys
 
@@ -56,20 +56,20 @@ def required(place: Place) -> tuple[str, ...]:
 def needs(place: Place) -> dict[str, list[str]]:
     """The keys of a place that need others beside them."""
     known = keys_of(place)
-    found = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
+    needed_by = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
     if place.may_be is not None:
         first, *others = required(place.may_be)
-        found |= {name: [first, *found[name]] for name in keys_of(place.may_be)} | {first: others}
-    return {name: needed for name, needed in found.items() if needed}
+        needed_by |= {name: [first, *needed_by[name]] for name in keys_of(place.may_be)} | {first: others}
+    return {name: needed for name, needed in needed_by.items() if needed}
 
 
 def inherited(place: Place) -> tuple[str, ...]:
-    """The keys that a place says for the points below it."""
+    """The keys of a place that apply to all points below it."""
     return tuple(name for name, key in keys_of(place).items() if place in key.inherited)
 
 
 def facts_of(place: Place, *subjects: str) -> tuple[str, ...]:
-    """The keys of a place that are about these: WHOLE_NUMBERS, NUMBERS, TEXTS."""
+    """The keys of a place whose values are facts of one sort: WHOLE_NUMBERS, NUMBERS or TEXTS."""
     return tuple(name for name, key in keys_of(place).items() if key.of in subjects)
 
 

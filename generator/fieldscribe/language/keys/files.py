@@ -16,7 +16,7 @@ _PROPERTY = Shape(
     [3],
     *(Text(200), NUMBER),
 )
-_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], more={forms.ANY: _PROPERTY})
+_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY})
 
 HEADS = (
     Key("fieldscribe", DEVICE, "The version of the language.", [1], Whole(choices=(1,)), required=True),
@@ -95,7 +95,7 @@ HEADS = (
     ),
     Key("source", (GROUP, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
 )
-"""What stands first: the device, the group."""
+"""The keys at the top of a file: those of the device and of groups."""
 
 SECTIONS = (
     Key(
@@ -220,4 +220,4 @@ SECTIONS = (
         Items(places.LOOKED_THROUGH.shape),
     ),
 )
-"""What a file declares."""
+"""The sections in which a file declares things."""

@@ -52,7 +52,7 @@ WRITTEN = Form(
 LANGUAGE = Form("^[a-z]{2}$", "a language", "languages have two letters: en, de, fr", "<language>")
 PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<anything>")
 ANY = Form("", "a word", "any word is fine", "<any>")
-"""Whatever is no key of the table and of no other form."""
+"""Any key that the table does not list and no other form fits."""
 
 _LONG = _WHOLE.replace("{1,5}", "{1,18}")
 WHOLE = Form(f"^[-+]?{_LONG}$", "a whole number", "write a whole number: 4136, 0x1028, 1028h, H'33F, 0b0101")

@@ -34,7 +34,7 @@ KEYS = (
         "The framing: the device's first of modbus, `can` or `uss` unless said. Of USS also the words of one part "
         "alone: `pkw`, `pzd`, or `broadcast` (mask words, then process data).",
         ["rtu"],
-        one_of(*(way for one in families() for way in one.framings)),
+        one_of(*(way for bus_family in families() for way in bus_family.framings)),
     ),
     Key("direction", FRAME, "Who sends it; a response is also recognised by `answers`.", ["request"], DIRECTION),
     Key("answers", FRAME, "The request that this response answers.", ["write_base_frequency"], NAMED),

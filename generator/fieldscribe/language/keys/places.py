@@ -25,7 +25,7 @@ DEVICE = Place(
             "documents": {"manual": {"title": "ModBus", "language": "de"}},
         }
     ],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 GROUP = Place(
     "group",
@@ -40,7 +40,7 @@ GROUP = Place(
             "points": [],
         }
     ],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 PART = Place(
     "part_file",
@@ -51,11 +51,11 @@ PART = Place(
         {"group": "standard_a", "space": "holding", "points": []},
         {"enums": {"contact": {"0": "open", "1": "closed"}}},
     ],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
     may_be=GROUP,
 )
 POINT = Place(
-    "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], more=_PRIVATE
+    "point", "A point", "One point.", [{"code": "A020", "name": "base_frequency", "at": "1028h"}], by_form=_PRIVATE
 )
 SET = Place(
     "set",
@@ -78,7 +78,7 @@ USE = Place(
     "Different points that repeat together: what is said here holds for all of them, single ones stand under "
     "`members`.",
     [{"name": "trip_1", "record": "trip", "at": "0012h"}],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 MEMBER = Place(
     "member",
@@ -97,7 +97,7 @@ FIXED = Place(
     "Fixed bits, under `fixed`",
     "Bits of the word that are always written as this constant, `7..3` for several.",
     [{"10": 1}],
-    more={forms.BITS: Shape("What the bits are written as.", [1], Whole(), Text(40))},
+    by_form={forms.BITS: Shape("What the bits are written as.", [1], Whole(), Text(40))},
     least=1,
 )
 DIGITS = Place(
@@ -131,7 +131,7 @@ ENTRY = Place(
     "A name for this number, or a name with titles by language and a quantity.",
     ["terminal", {"name": "terminal", "en": "Terminal", "de": "Eingang"}],
     before=(A_NAME,),
-    more={forms.LANGUAGE: in_language("Eingang")},
+    by_form={forms.LANGUAGE: in_language("Eingang")},
 )
 SPECIAL_CODE = Place(
     "special_code",
@@ -141,7 +141,7 @@ SPECIAL_CODE = Place(
     ["transducer_fault", {"name": "not_available", "no_value": "yes", "en": "Not available"}],
     before=(A_NAME,),
     after=(NOTHING,),
-    more={forms.LANGUAGE: in_language("Eingang")},
+    by_form={forms.LANGUAGE: in_language("Eingang")},
 )
 TYPES = Place(
     "types",
@@ -170,7 +170,7 @@ PRINTED = Place(
     "What the manual prints redundantly: each number in every numbering (one or a list of notations), ranges, "
     "resolution, number of choices. It must agree with the facts, or an erratum says why not.",
     [{"modicon": ["1029h", 4137], "wire": ["1028h", 4136], "range_in_units": "0.0..400.0"}],
-    more={
+    by_form={
         forms.ANY: Shape(
             "A printed number in the numbering of this name (`wire`, those of `numbering`, and `low_` before them for "
             "the second word).",
@@ -203,7 +203,7 @@ BUS = Place(
     "The bus",
     "What the family's frames need to know of this device.",
     [{"framings": ["rtu"], "units": "1..32", "functions": {"03h": "read_holding_registers"}}],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 CODE = Place(
     "code_entry",
@@ -212,14 +212,14 @@ CODE = Place(
     "may be broadcast; of USS codes what belongs to them.",
     [{"name": "read_holding_registers", "max": 4}],
     before=(A_NAME,),
-    more={forms.LANGUAGE: in_language("Adresse unbekannt")},
+    by_form={forms.LANGUAGE: in_language("Adresse unbekannt")},
 )
 TELEGRAM = Place(
     "telegram",
     "A telegram",
     "A layout of words that is sent again and again.",
     [{"name": "visualisation", "direction": "cyclic", "length": 69, "message": "visualisation"}],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 MESSAGE = Place(
     "message",
@@ -233,21 +233,21 @@ MESSAGE = Place(
             "layout": {"0": "FFh", "1": "unit", "2..3": "address", "4..5": 0, "6..7": "xor 0..5"},
         }
     ],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 COMMAND = Place(
     "command",
     "A command",
     "A named constant write.",
     [{"name": "enter", "at": "0900h", "function": "06h", "value": "any"}],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 FRAME = Place(
     "frame",
     "A frame",
     "A worked example of the manual.",
     [{"name": "write_base_frequency", "direction": "request", "bytes": "05 06 10 28 01 F4 0C 91"}],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 ERRATUM = Place(
     "erratum",
@@ -263,17 +263,17 @@ ERRATUM = Place(
             "certainty": "certain",
         }
     ],
-    more=_PRIVATE,
+    by_form=_PRIVATE,
 )
 
 FILES = (DEVICE, PART)
 REPEATED = (SET, ELEMENT, VARIANT, MEMBER)
-"""The point once more: only what differs."""
+"""The places that repeat a point and only say what differs."""
 POINTS = (POINT, *REPEATED)
 FACTS = (FORMAT, *POINTS)
-"""Where it is said what a point means."""
+"""The places whose keys say what a point means."""
 CITED = (COMMAND, FRAME, MESSAGE, TELEGRAM)
-"""What has a place in the manual beside points."""
+"""The places, other than points, that cite the manual."""
 
 PLACES = (
     *(DEVICE, PART, GROUP, POINT, SET, ELEMENT, VARIANT, USE, MEMBER, FORMAT, FIXED, DIGITS, DISPLAY, RECORD, CASE),

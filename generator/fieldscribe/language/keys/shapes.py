@@ -1,4 +1,4 @@
-"""What stands at several keys alike."""
+"""Shapes that several keys share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ LAST_LINE = 1_000_000_000
 
 A_NAME = Text(80, forms.NAME)
 NAMED = Text(form=forms.NAME)
-"""The name of what is declared elsewhere."""
+"""A name that is declared elsewhere."""
 
 NAME = Shape(
     "A name in English and snake_case. It becomes the identifier in every language and is never reused for something "
@@ -24,7 +24,7 @@ ANYTHING = Shape("Yours: nothing reads it.", ())
 
 
 def in_language(example: str) -> Shape:
-    """One text of several languages."""
+    """The text in one of several languages."""
     return Shape("The text in this language.", [example], Text(2000))
 
 

@@ -48,12 +48,19 @@ pub fn decode_count<P: FixedScale, C: Count>(raw: P::Raw, (): ()) -> C {
     C::truncated(Settled::<P, C>::DECODE.run(raw.to_i64()))
 }
 
+/// What is settled for what people see of a point.
+struct Told<P>(PhantomData<P>);
+
+impl<P: FixedScale> Told<P> {
+    const LINE: Line = P::SCALE.decoding(display::per_unit::<P>() as i128);
+}
+
 /// What people see of the value, rounded from the exact one.
 ///
 /// # Errors
 /// [`Error::Overflow`], which no raw number of a point comes upon whose decimals were checked.
 pub fn shown<P: FixedScale>(raw: P::Raw, (): ()) -> Result<Shown, Error> {
-    let line = P::SCALE.decoding(i128::from(display::per_unit::<P>()));
+    let line = Told::<P>::LINE;
     let product = raw.to_i128().checked_mul(line.multiply);
     let sum = product.and_then(|product| product.checked_add(line.add));
     let sum = sum.ok_or(Error::Overflow(Some(P::NAME)))?;

@@ -64,7 +64,7 @@ class TelegramView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one point is asked and told with, or heard by, and which vectors that answers."""
+    """The frames that read, write or receive one point, and the vectors that they are tested with."""
 
     descriptor: Descriptor
     function: str
@@ -80,7 +80,7 @@ class FrameView:
 
 @dataclass(frozen=True, slots=True)
 class GroupView:
-    """The parameters that a group reads, each word once."""
+    """The addresses that reading a group takes, each word once."""
 
     title: str
     array: str
@@ -90,7 +90,7 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class BusView:
-    """The CAN header of a device; the four messages are names of arrays, or empty."""
+    """The CAN header of a device; the four message fields are names of arrays, or empty."""
 
     guard: str
     units: tuple[int, int]
@@ -114,9 +114,11 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places]
-    messages = {one.name: one for one in device.messages}
-    cyclic = {one.name: messages[one.message] for one in device.telegrams if one.message in messages}
-    reading, writing = _dialogue(device, writes=False), _dialogue(device, writes=True)
+    messages = {message.name: message for message in device.messages}
+    cyclic = {
+        telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
+    }
+    reading, writing = _request_and_answer(device, writes=False), _request_and_answer(device, writes=True)
     layouts = Layouts(scope)
     asked = (reading[0] is not None, writing[0] is not None)
     parameters = [
@@ -134,11 +136,11 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         units=device.bus.units,
         identifier_bits=identifier_bits(device.bus),
         bitrate=of_bus(device.bus).bitrate,
-        messages=tuple(_message(one, scope) for one in device.messages),
+        messages=tuple(_message(message, scope) for message in device.messages),
         telegrams=tuple(
-            _telegram(one, cyclic[one.name], scope)
-            for one in device.telegrams
-            if one.name in cyclic and cyclic[one.name].words
+            _telegram(telegram, cyclic[telegram.name], scope)
+            for telegram in device.telegrams
+            if telegram.name in cyclic and cyclic[telegram.name].words
         ),
         read_request=_array(reading[0], scope),
         read_answer=_array(reading[1], scope),
@@ -147,14 +149,14 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         exceptions=exceptions_of(device, scope),
         groups=tuple(_groups(device, scope)),
         layouts=layouts.descriptors,
-        parameters=tuple(one for one in parameters if one is not None),
+        parameters=tuple(parameter for parameter in parameters if parameter is not None),
         cyclic=heard,
-        aliases=aliases_of((one.descriptor for one in (*filter(None, parameters), *heard)), device, scope),
+        aliases=aliases_of((reachable.descriptor for reachable in (*filter(None, parameters), *heard)), device, scope),
     )
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     for message in bus.messages:
@@ -164,12 +166,12 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
         yield Owner("group", group.title), (group.array, group.count_name)
-    yield from names_of(bus.layouts, (one.descriptor for one in (*bus.parameters, *bus.cyclic)))
+    yield from names_of(bus.layouts, (reachable.descriptor for reachable in (*bus.parameters, *bus.cyclic)))
     yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How points of telegrams, and parameters, answer conformance vectors."""
+    """The code by which points of telegrams and parameters run the conformance vectors."""
     for each in (*bus.parameters, *bus.cyclic):
         if not each.text:
             yield each.function, f"LIES({each.descriptor.name}, {each.lies})"
@@ -177,15 +179,19 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
         name = heard.descriptor.name
         how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
         yield heard.function, f"RECEIVED{'_' if heard.text else ''}{how})"
-    for one in bus.parameters:
-        name = one.descriptor.name
-        read = one.read and bus.read_answer
-        how = f"{name}, {one.function}, {one.macro}" if one.text else f"{name}, {one.kind}, {one.raw_type}"
+    for parameter in bus.parameters:
+        name = parameter.descriptor.name
+        read = parameter.read and bus.read_answer
+        how = (
+            f"{name}, {parameter.function}, {parameter.macro}"
+            if parameter.text
+            else f"{name}, {parameter.kind}, {parameter.raw_type}"
+        )
         if read:
-            yield one.function, f"READ{'_TEXT' if one.text else ''}({how})"
-        if one.write and bus.write_answer and (read or not one.shares):
-            tail = "_TEXT" if one.text else "_SHARED" if one.shares else ""
-            yield one.function, f"WRITE{tail}({how})"
+            yield parameter.function, f"READ{'_TEXT' if parameter.text else ''}({how})"
+        if parameter.write and bus.write_answer and (read or not parameter.shares):
+            tail = "_TEXT" if parameter.text else "_SHARED" if parameter.shares else ""
+            yield parameter.function, f"WRITE{tail}({how})"
 
 
 def _array(message: Message | None, scope: HeaderScope) -> str:
@@ -220,12 +226,12 @@ def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> Teleg
     )  # fmt: skip
 
 
-def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
-    """The message that reads (or writes) one parameter, and the one that answers it."""
+def _request_and_answer(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
+    """The request that reads or writes a parameter, and its answer; None for what the device lacks."""
     for request in device.messages:
         kinds = {role.kind for role in request.roles}
         if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
-            return request, next((one for one in device.messages if one.answers == request.name), None)
+            return request, next((message for message in device.messages if message.answers == request.name), None)
     return None, None
 
 
@@ -242,7 +248,7 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
 
 
 def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[bool, bool]) -> FrameView | None:
-    """The frames of a point whose every word travels in a message of its own; None where no message does."""
+    """The frames of a parameter, one for each word; None where the device has no message for it."""
     read, write = (asked[0] and point.readable), (asked[1] and point.writable)
     if not read and not write:
         return None
@@ -254,7 +260,7 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[boo
 
 
 def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
-    """Where a point is heard in its telegram."""
+    """Where a point stands in its telegram."""
     if point.text is not None:
         return _frame(point, view, "h", [f"{{{view.function}_addresses, {point.words}U}}"])
     where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
@@ -262,7 +268,7 @@ def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
 
 
 def _frame(point: Point, view: PointView, ways: str, parts: list[str]) -> FrameView:
-    """The frames in which a point is read (`r`), written (`w`), updated (`u`) or heard (`h`)."""
+    """The frames of a point; the letters are r (read), w (write), u (update) and h (receive)."""
     value, text = f"{{{', '.join(parts)}}}", point.text is not None
     return FrameView(
         descriptor=Descriptor(

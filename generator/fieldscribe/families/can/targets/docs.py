@@ -1,4 +1,4 @@
-"""What the documentation says of the family's line."""
+"""What the documentation says about the bus line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """What people must know of the line, with what it is called."""
+    """Label and text of each fact that people must know about the line."""
     own = of_bus(bus)
     if own.bitrate is not None:
         yield "Bit rate", f"{own.bitrate} bit/s"
@@ -24,6 +24,6 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function goes to all units at once where the description does not say it."""
+    """Whether a function may be broadcast where the description does not say so."""
     del function  # there are no functions
     return False

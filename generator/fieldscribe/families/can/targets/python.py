@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """What the device says and hears."""
+    """The profile: the messages and telegrams of the device."""
     scope.used.add("Profile")
     bus = device.bus
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
         f"identifier_bits={identifier_bits(bus)}",
-        Group("messages=(", tuple([_message(one, scope) for one in device.messages])),
+        Group("messages=(", tuple([_message(message, scope) for message in device.messages])),
     ]
     if device.telegrams:
         arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))

@@ -1,4 +1,4 @@
-"""What a crate of a CAN device says of its bus: messages, telegrams, which points are in them."""
+"""CAN in generated Rust: messages, telegrams, and the points that they carry."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class MessageView:
 
 @dataclass(frozen=True, slots=True)
 class TelegramView:
-    """A telegram: final name, the lines that say its name, its sizes, the constant of its message."""
+    """A telegram: its final name, the lines of its name, its sizes, and the constant of its message."""
 
     doc: str
     name: str
@@ -46,7 +46,7 @@ class TelegramView:
 
 
 def context(device: Device) -> dict[str, object]:
-    """What the template of the family's items sees."""
+    """The names that the family's template uses."""
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
@@ -56,14 +56,14 @@ def context(device: Device) -> dict[str, object]:
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "identifier_bits": identifier_bits(bus),
         "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
-        "dialogues": tuple(_dialogues(device.messages)),
+        "dialogues": tuple(_request_and_answer_constants(device.messages)),
         "messages": tuple(map(_message, device.messages)),
         "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
         "telegrams": tuple(
-            _telegram(one, carriers[one.message])
-            for one in device.telegrams
-            if one.message in carriers and carriers[one.message].words
+            _telegram(telegram, carriers[telegram.message])
+            for telegram in device.telegrams
+            if telegram.message in carriers and carriers[telegram.message].words
         ),
     }
 
@@ -78,7 +78,7 @@ def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 
 def _received(subject: CratePoint, scope: CrateScope) -> str | None:
-    """The telegram in whose frames a point comes; None where nobody can tell that its words belong together."""
+    """The telegram whose frames carry a point; None where its words cannot be matched to each other."""
     point = subject.point
     _, message = scope.telegrams.get(point.telegram or "", (None, None))
     if not point.readable or message is None or not message.words:
@@ -95,12 +95,14 @@ def identifiers(device: Device) -> Iterator[Names]:
         yield Names("Rust, module `telegrams`", Owner("telegram", telegram.name), (type_name(telegram.name),))
 
 
-def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
-    """The constants of the messages that read and write a parameter: names and answers, empty if there are none."""
-    requests = [one for one in messages if one.direction == "request" and _carries(one, "address")]
+def _request_and_answer_constants(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
+    """The constants of the messages that read and write a parameter, and of their answers; empty without one."""
+    requests = [message for message in messages if message.direction == "request" and _carries(message, "address")]
     for name, writes in (("READ", False), ("WRITE", True)):
-        request = next((one for one in requests if _carries(one, "raw") is writes), None)
-        answer = next((one for one in messages if request is not None and one.answers == request.name), None)
+        request = next((message for message in requests if _carries(message, "raw") is writes), None)
+        answer = next(
+            (message for message in messages if request is not None and message.answers == request.name), None
+        )
         if request is None or (answer is None and not writes):
             yield name, "", ""
         else:
@@ -115,7 +117,7 @@ def _message(message: Message) -> MessageView:
     width = "u16" if message.identifier <= 0xFFFF else "u32"
     roles = (f"        Role::{_role(role)}," for role in message.roles)
     adds_unit = "true" if message.adds_unit else "false"
-    head = (f"    {one}," for one in (rust_string(message.name), mask(message.identifier, width), adds_unit))
+    head = (f"    {field}," for field in (rust_string(message.name), mask(message.identifier, width), adds_unit))
     literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
     return MessageView(sentence(message.name), assignment(4, f"pub const {message.name.upper()}: Message", literal))
 
@@ -139,37 +141,37 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
 
 
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
-    """The points that come in frames of a telegram."""
-    heard = [one for one in scope.subjects if one.form != "text" and _received(one, scope) is not None]
+    """The table of points that come in frames of a telegram."""
+    heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
-        yield Table("can_telegram", "can_telegram", tuple(row_of(one, ("(frames)",)) for one in heard))
+        yield Table("can_telegram", "can_telegram", tuple(row_of(subject, ("(frames)",)) for subject in heard))
 
 
 def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
-    """The first telegram with a point that needs no other, and how its points are told."""
-    come = {one.point.item: one for one in scope.subjects if _received(one, scope) is not None}
-    plain = [one for one in come.values() if not one.factors and not one.point.specials]
+    """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
+    come = {subject.point.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
+    plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
         return "", ()
-    first = next((one for one in plain if one.form == "scaled"), plain[0])
+    first = next((subject for subject in plain if subject.form == "scaled"), plain[0])
     lines = [f"let value = client.receive::<p::{first.name}>()?; // waits for its next frame"]
     lines.append('println!("it is {value:?}");')
-    needy = (one for one in come.values() if one.factors and one.point.telegram == first.point.telegram)
-    for one in (one for one in needy if all(name in come for name in one.factors)):
-        fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in one.factors)
+    needy = (subject for subject in come.values() if subject.factors and subject.point.telegram == first.point.telegram)
+    for subject in (subject for subject in needy if all(name in come for name in subject.factors)):
+        fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in subject.factors)
         lines += ["let heard = client.listener(); // what came so far"]
-        lines += [f"let with = with::{one.factors_struct} {{ {fields} }};"]
-        lines += [f'println!("it is {{:?}}", heard.value_with::<p::{one.name}>(with)?);']
+        lines += [f"let with = with::{subject.factors_struct} {{ {fields} }};"]
+        lines += [f'println!("it is {{:?}}", heard.value_with::<p::{subject.name}>(with)?);']
         break
     return f"telegrams::{type_name(first.point.telegram or '')}", tuple(lines)
 
 
 def tables_of_frames(device: Device) -> Iterator[Table]:
-    """The telegrams that come in frames."""
-    carriers = {one.name for one in device.messages if one.words}
-    heard = [one for one in device.telegrams if one.message in carriers]
+    """The table of telegrams that come in frames."""
+    carriers = {message.name for message in device.messages if message.words}
+    heard = [telegram for telegram in device.telegrams if telegram.message in carriers]
     if heard:
-        rows = tuple(item_row(one.name, "telegrams", "telegram", type_name(one.name)) for one in heard)
+        rows = tuple(item_row(telegram.name, "telegrams", "telegram", type_name(telegram.name)) for telegram in heard)
         yield Table("can_taken", "can_taken", rows)
         yield Table("can_carrier", "can_carrier", rows)
 

@@ -27,7 +27,7 @@ KINDS = {
     "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
     "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
 }
-"""Frames of a maker's own protocol."""
+"""The kinds of vectors for frames of a maker's own protocol."""
 
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
@@ -38,7 +38,7 @@ class CanWire:
     def __init__(self, device: Device) -> None:
         self.units = device.bus.units
         self.unit = device.bus.units[0]
-        self.asks = {writes: _dialogue(device, writes=writes) for writes in (False, True)}
+        self.asks = {writes: _request_and_answer(device, writes=writes) for writes in (False, True)}
 
     def opens(self, lines: Lines) -> None:
         """The unit."""
@@ -66,7 +66,7 @@ class CanWire:
         return whole_frame(build(message, self.units, self.unit, address, raw)[1])
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """No answer, or for a write another number than the one written."""
+        """The exchange without its answer; for a write also with another number in the answer."""
         answer = self.asks[writes][1]
         [(sent, good)] = script
         yield "timeout", [(sent, b"")]
@@ -77,7 +77,7 @@ class CanWire:
 
 
 def wires(device: Device) -> list[CanWire]:
-    """Parameters travel in one way."""
+    """The one way in which parameters travel."""
     return [CanWire(device)]
 
 
@@ -86,17 +86,17 @@ def whole_frame(frame: CanFrame) -> bytes:
     return frame.id.to_bytes(4, "big") + frame.data
 
 
-def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
+def _request_and_answer(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
     """The message that reads or writes a parameter, and its answer."""
     for request in device.messages:
         kinds = {role.kind for role in request.roles}
         if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
-            return request, next((one for one in device.messages if one.answers == request.name), None)
+            return request, next((message for message in device.messages if message.answers == request.name), None)
     return None, None
 
 
 def frames(lines: Lines, device: Device) -> None:
-    """Everything about the frames of a device with messages of its own."""
+    """All vectors for the frames of a device with messages of its own."""
     for message in device.messages:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
@@ -104,9 +104,9 @@ def frames(lines: Lines, device: Device) -> None:
     lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
-        members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
-        addresses = [address for one in members if one.space == "parameter" for address in one.addresses]
-        if addresses and _dialogue(device, writes=False)[0] is not None:
+        members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
+        addresses = [address for point in members if point.space == "parameter" for address in point.addresses]
+        if addresses and _request_and_answer(device, writes=False)[0] is not None:
             lines.add("group", group.name, list(dict.fromkeys(addresses)))
     for telegram in device.telegrams:
         _telegram(lines, device, telegram)
@@ -137,7 +137,7 @@ def _parses(lines: Lines, units: tuple[int, int], message: Message) -> None:
 
 
 def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
-    """Other identifiers, every length, every single bit turned."""
+    """Frames with another identifier, of every length, and with every single bit flipped."""
     for number in (good.id ^ 1, good.id + 1, 0, 0x7FF):
         yield CanFrame(number, good.data)
     for length in range(len(good.data)):
@@ -149,28 +149,28 @@ def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
 
 
 def _parsed(lines: Lines, message: Message, unit: int, frame: CanFrame) -> None:
-    found = parse(message, unit, frame)
+    parsed = parse(message, unit, frame)
     lines.set("message", message.name)
-    read = (found.address, found.raw) if found.status == "ok" else ()
-    lines.add("can_parse", unit, frame.id, frame.data, found.status, *read)
+    read = (parsed.address, parsed.raw) if parsed.status == "ok" else ()
+    lines.add("can_parse", unit, frame.id, frame.data, parsed.status, *read)
 
 
 def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
-    message = next((one for one in device.messages if one.name == telegram.message), None)
+    message = next((message for message in device.messages if message.name == telegram.message), None)
     if message is None:
         return
     unit = device.bus.units[0]
     for point in device.points:
         if point.telegram == telegram.name and point.generated:
-            (_heard if point.form != "text" else _heard_text)(lines, telegram, message, point, unit)
+            (_received_point if point.form != "text" else _received_text)(lines, telegram, message, point, unit)
     if message.words:
         lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
-        for one in dict.fromkeys(device.bus.units):
-            _misheard(lines, telegram, message, one)
+        for sender in dict.fromkeys(device.bus.units):
+            _damaged_frames(lines, telegram, message, sender)
 
 
-def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
-    """Good frames, and one in which each byte that is no word is wrong; so once a telegram every role of a byte."""
+def _damaged_frames(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
+    """Good frames, and for each byte that holds no word a frame in which this byte is wrong."""
     data = bytearray({"constant": role.number, "unit": unit & 0xFF}.get(role.kind, 0) for role in message.roles)
     for place, role in enumerate(message.roles):
         if role.kind == "word":
@@ -186,11 +186,13 @@ def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> 
     receiver = Receiver(telegram, message, unit)
     lines.set("telegram", telegram.name, unit)
     lines.add("can_carrier", message.name)
-    lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
+    lines.add(
+        "can_taken", [(frame.id, frame.data) for frame in frames], [int(receiver.take(frame)) for frame in frames]
+    )
 
 
-def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
-    """One point of a telegram: missing, then there; of two frames also torn, in every order that can happen."""
+def _received_point(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+    """One point of a telegram, missing and complete; if it spans two frames, also torn, in every possible order."""
     slots = [position // message.words for position in point.addresses]
     ask = _Asking(lines, telegram, message, point, unit)
     first = ask.frame(slots[0], 0x1234)
@@ -204,29 +206,29 @@ def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, uni
         return
     high, low = slots[0], slots[-1]
     h1, h2, l1, l2 = (high, 0x0001), (high, 0x0002), (low, 0xFFFF), (low, 0x0000)
-    h0 = (high, -0x1111 * (point.addresses[0] % message.words) & 0xFFFF)  # whose high word is 0, as before any came
+    h0 = (high, -0x1111 * (point.addresses[0] % message.words) & 0xFFFF)  # high word 0, as before any frame
     for order in (
         (h1, l1), (l1, h1), (h1, l1, h1), (h1, l1, h2), (h1, l2, h2, l2), (h1, l1, h1, l1), (h1, l1, h1, l2),
         (h1, l1, h2, l2, h2), (h1, h1, l1), (h1, l1, l2, h1), (l1, h1, h1), (h1, h1, l1, h1), (h2, l1, h1, l1, h1, l2),
         (l1, h1, l2, h1, l1), (h1, l1, h1, h1), (l1, h0), (h0, l1),
     ):  # fmt: skip
-        ask.answer([ask.frame(*one) for one in order])
+        ask.answer([ask.frame(*position) for position in order])
 
 
-def _heard_text(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
-    """A text of a telegram: none of it there, all but the last frame, all of it."""
+def _received_text(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+    """A text of a telegram: before any frame, before the last one, and complete."""
     ask = _Asking(lines, telegram, message, point, unit)
     slots = dict.fromkeys(position // message.words for position in point.addresses)
     frames = [ask.frame(slot, 0x2143 + slot) for slot in slots]
     for count in dict.fromkeys((0, len(frames) - 1, len(frames))):
         receiver = Receiver(telegram, message, unit)
         taken = [int(receiver.take(frame)) for frame in frames[:count]]
-        found = [receiver.words((position,)) for position in point.addresses]
-        status = next((status for status, _ in found if status != "ok"), "ok")
-        words = [word for _, words in found for word in words] if status == "ok" else None
+        pieces = [receiver.words((position,)) for position in point.addresses]
+        status = next((status for status, _ in pieces if status != "ok"), "ok")
+        words = [word for _, words in pieces for word in words] if status == "ok" else None
         lines.set("point", point.item)
         lines.set("telegram", telegram.name, unit)
-        lines.add("can_text", [(one.id, one.data) for one in frames[:count]], taken, status, words)
+        lines.add("can_text", [(frame.id, frame.data) for frame in frames[:count]], taken, status, words)
 
 
 class _Asking:
@@ -236,7 +238,7 @@ class _Asking:
         self.lines, self.telegram, self.message, self.point, self.unit = lines, telegram, message, point, unit
 
     def frame(self, slot: int, pattern: int) -> CanFrame:
-        """A frame of a slot whose words all hold the pattern, turned by their place so that no two are alike."""
+        """A frame of a slot; each word is the pattern, changed by its place so that no two words are equal."""
         data = bytearray()
         for role in self.message.roles:
             word = (pattern + 0x1111 * (role.number >> 1)) & 0xFFFF

@@ -1,1 +1,1 @@
-"""What each target knows of the family: one module for each."""
+"""The part of this family in each target, one module each."""

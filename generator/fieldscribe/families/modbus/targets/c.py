@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
-"""The functions that the frames know, with the protocol's own limits."""
+"""The functions that the runtime supports, with the limits of the protocol."""
 
 _BROADCAST = (5, 6, 15, 16)
-"""The functions that may be sent to all units, unless the manual says otherwise."""
+"""The functions that may be broadcast unless the manual says otherwise."""
 
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 
@@ -47,7 +47,7 @@ NAMED_CODES: tuple[str, ...] = ()
 
 @dataclass(frozen=True, slots=True)
 class BlocksView:
-    """The reads that bring a group's points."""
+    """The reads that fetch the points of a group."""
 
     name: str
     array: str
@@ -57,7 +57,7 @@ class BlocksView:
 
 @dataclass(frozen=True, slots=True)
 class CommandView:
-    """A named constant write."""
+    """A command: a write of a constant, with a name."""
 
     descriptor: Descriptor
     comment: str
@@ -66,7 +66,7 @@ class CommandView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one point is asked and told with, and which vectors that answers."""
+    """The requests that read and write one point, and the vectors that they are tested with."""
 
     descriptor: Descriptor
     function: str
@@ -118,7 +118,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
-    all_blocks = [one for blocks in device.blocks.values() for one in blocks]
+    all_blocks = [block for blocks in device.blocks.values() for block in blocks]
     frames = [
         _frame(point, views[point.item], numbers, layouts)
         for point in device.points
@@ -133,46 +133,49 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         rtu="true" if "rtu" in framings_of(bus) else "false",
         tcp="true" if "tcp" in framings_of(bus) else "false",
         blocks=tuple(_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks),
-        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((one.count for one in all_blocks), default=0))),
+        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((block.count for block in all_blocks), default=0))),
         layouts=layouts.descriptors,
-        frames=tuple(one for one in frames if one is not None),
+        frames=tuple(frame for frame in frames if frame is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
-        aliases=aliases_of((one.descriptor for one in frames if one is not None), device, scope),
+        aliases=aliases_of((frame.descriptor for frame in frames if frame is not None), device, scope),
     )
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *own)
     if bus.blocks:
         yield Owner("target", "the largest block"), (bus.block_most[0],)
     for blocks in bus.blocks:
         yield Owner("group", blocks.name), (blocks.array,)
-    for command, made in zip(device.commands, bus.commands, strict=True):
-        yield Owner("command", command.name), (made.descriptor.name, *(name for name, _ in made.defines))
+    for command, command_view in zip(device.commands, bus.commands, strict=True):
+        yield (
+            Owner("command", command.name),
+            (command_view.descriptor.name, *(name for name, _ in command_view.defines)),
+        )
     yield from names_of_exceptions(device, bus.exceptions)
-    yield from names_of(bus.layouts, (one.descriptor for one in bus.frames))
+    yield from names_of(bus.layouts, (frame.descriptor for frame in bus.frames))
     yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How points answer vectors of whole exchanges."""
-    for one in bus.frames:
-        name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
-        if not one.text:
-            yield one.function, f"LIES({name}, {one.lies})"
-        if one.read:
-            yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
-        if one.write and one.text:
-            yield one.function, f"WRITE_TEXT({name}, {one.words}U)"
-        elif one.write:
-            yield one.function, f"{'UPDATE' if one.shares else 'WRITE'}({what})"
+    """The code by which points run the vectors of whole exchanges."""
+    for frame in bus.frames:
+        name, what = frame.descriptor.name, f"{frame.descriptor.name}, {frame.kind}, {frame.raw_type}"
+        if not frame.text:
+            yield frame.function, f"LIES({name}, {frame.lies})"
+        if frame.read:
+            yield frame.function, f"READ_TEXT({name}, {frame.words}U)" if frame.text else f"READ({what})"
+        if frame.write and frame.text:
+            yield frame.function, f"WRITE_TEXT({name}, {frame.words}U)"
+        elif frame.write:
+            yield frame.function, f"{'UPDATE' if frame.shares else 'WRITE'}({what})"
 
 
 def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
-    """None for a point that no function of the device reaches, or that needs its word read first to be written."""
+    """The requests of a point; None if no function of the device reaches it or its word must be read before a write."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
     target = point.write_place or place
@@ -211,7 +214,7 @@ def _text(point: Point, view: PointView) -> str:
 
 
 def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
-    """The function that writes a point: the manual's, else the one for a single item, else the one for several."""
+    """The function that writes a point: that of the manual, else the one for one item, else that for several."""
     if place.function in (5, 6, 15, 16) and place is not point.places[0]:
         return place.function
     if place.space == "coil":
@@ -225,7 +228,8 @@ def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
 
 def _blocks(group: str, blocks: tuple[Block, ...], labels: Mapping[str, str], scope: HeaderScope) -> BlocksView:
     rows = tuple(
-        (unsigned(one.function), hexadecimal(one.address), unsigned(one.count), _holds(one, labels)) for one in blocks
+        (unsigned(block.function), hexadecimal(block.address), unsigned(block.count), _holds(block, labels))
+        for block in blocks
     )
     return BlocksView(group, f"{scope.prefix}_{group}_blocks", rows)
 

@@ -1,4 +1,4 @@
-"""What the documentation says of the family's line."""
+"""What the documentation says about the bus line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """What people must know of the line, with what it is called."""
+    """Label and text of each fact that people must know about the line."""
     yield "Framing", cell(", ".join(bus.framings))
     yield "Unit numbers", span(bus.units)
     yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
@@ -30,5 +30,5 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function goes to all units at once where the description does not say it."""
+    """Whether a function may be broadcast where the description does not say so."""
     return function.number in BROADCAST

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """What the device takes from the bus."""
+    """The profile: the requests that the device accepts."""
     scope.used.add("Profile")
     bus = device.bus
     taken = profile_of(bus)
     functions = [f"0x{function:02X}: {most}" for function, most in taken.most.items()]
-    exceptions = [f"0x{one.number:02X}: {python_string(one.name)}" for one in bus.exceptions]
+    exceptions = [f"0x{code.number:02X}: {python_string(code.name)}" for code in bus.exceptions]
     arguments: list[Node] = [
         Group("functions={", tuple(functions), "}"),
         f"units=({bus.units[0]}, {bus.units[1]})",
@@ -30,9 +30,9 @@ def _profile(device: Device, scope: PackageScope) -> Node:
     if of_bus(bus).pad_coil_bytes == "even":
         arguments.append("pad_coil_bytes_even=True")
     if taken.broadcasts != BROADCAST:
-        arguments.append(Group("broadcasts=(", tuple(f"0x{one:02X}" for one in sorted(taken.broadcasts))))
+        arguments.append(Group("broadcasts=(", tuple(f"0x{function:02X}" for function in sorted(taken.broadcasts))))
     if taken.framings != FRAMINGS:
-        arguments.append(Group("framings=(", tuple(python_string(one) for one in taken.framings)))
+        arguments.append(Group("framings=(", tuple(python_string(framing) for framing in taken.framings)))
     if exceptions:
         arguments.append(Group("exceptions={", tuple(exceptions), "}"))
     return call("Profile", arguments)
@@ -43,18 +43,21 @@ def _blocks(device: Device, scope: PackageScope) -> Node | None:
     if not device.blocks:
         return None
     scope.used.add("Block")
-    made = []
+    groups = []
     for group, reads in device.blocks.items():
         calls = [
-            call("Block", (python_string(one.space), f"0x{one.function:02X}", f"0x{one.address:04X}", str(one.count)))
-            for one in reads
+            call(
+                "Block",
+                (python_string(block.space), f"0x{block.function:02X}", f"0x{block.address:04X}", str(block.count)),
+            )
+            for block in reads
         ]
-        made.append(Group(f"{python_string(group)}: (", tuple(calls)))
-    return Group("{", tuple(made), "}")
+        groups.append(Group(f"{python_string(group)}: (", tuple(calls)))
+    return Group("{", tuple(groups), "}")
 
 
 IN_PYTHON = PythonFamily(
-    module=RUNTIME,  # the names of Modbus are those of the runtime itself
+    module=RUNTIME,  # the Modbus names come from the runtime itself
     exports=frozenset({"Block", "Profile"}),
     blocking=Flavour("Device", "Transport"),
     awaiting=Flavour("AsyncDevice", "AsyncTransport"),

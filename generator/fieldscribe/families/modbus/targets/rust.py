@@ -1,4 +1,4 @@
-"""What a crate of a Modbus device says of its bus."""
+"""Modbus in generated Rust: the profile, block reads, commands and exceptions."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Code, Device
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
-"""The functions that the frames know, with the protocol's own limits."""
+"""The functions that the runtime supports, with the limits of the protocol."""
 
 _COILS = 15
-"""The function that writes several coils, whose bytes a device may want padded."""
+"""The function that writes several coils; some devices want its bytes padded."""
 
 
 def context(device: Device) -> dict[str, object]:
-    """What the template of the family's items sees."""
+    """The names that the family's template uses."""
     bus = device.bus
     functions = [
         f"Function::new({code.number}, {_most(code)})" + (".without_broadcast()" if code.broadcast is False else "")
@@ -35,7 +35,7 @@ def context(device: Device) -> dict[str, object]:
     return {
         "example_link": f"Framing::{framings_of(bus)[0].capitalize()}, {bus.units[0]}",
         "functions": array(functions),
-        "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
+        "framings": ", ".join(f"Framing::{framing.capitalize()}" for framing in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
         "profile": _profile(bus),
@@ -48,7 +48,7 @@ def context(device: Device) -> dict[str, object]:
 
 
 def _exception(code: Code) -> tuple[str, str, str]:
-    """What is said of an exception code, its constant and its number."""
+    """The comment of an exception code, its constant, and its number."""
     return (
         f"{sentence(code.name).rstrip('.')}: exception {code.number:02X}h.",
         code.name.upper(),
@@ -71,21 +71,22 @@ def _most(code: Code) -> int:
 
 
 def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
-    """Group as constant and by name, and the lines of its array."""
+    """For each group: its constant, its name, and the lines of its array."""
     for group, blocks in device.blocks.items():
         items = [
-            f"Block::new({space(one.space).replace('runtime::', '')}, {one.function}, 0x{one.address:04X}, {one.count})"
-            for one in blocks
+            f"Block::new({space(block.space).replace('runtime::', '')}, "
+            f"{block.function}, 0x{block.address:04X}, {block.count})"
+            for block in blocks
         ]
         yield group.upper(), group, array(items)
 
 
 def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
-    for one in device.commands:
-        value = "None" if one.value is None else f"Some({one.value})"
-        doc = sentence(one.name).rstrip(".") + (": any value does" if one.value is None else "")
-        doc += f"; the memory stands {one.wears} writes" if one.wears is not None else ""
-        yield f"{doc}.", one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"
+    for command in device.commands:
+        value = "None" if command.value is None else f"Some({command.value})"
+        doc = sentence(command.name).rstrip(".") + (": any value does" if command.value is None else "")
+        doc += f"; the memory stands {command.wears} writes" if command.wears is not None else ""
+        yield f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 
 IN_RUST = OfFamily(context, names=("Framing",))

@@ -25,7 +25,7 @@ KINDS = {
     "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
     "block": "group:word index:int space:word function:int address:int count:int",
 }
-"""Frames, and batched reads."""
+"""The kinds of vectors for frames and batched reads."""
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
@@ -51,13 +51,13 @@ class ModbusWire:
         lines.set("unit", self.unit, self.framing)
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
-        """One request for all words; they have to follow each other."""
+        """One request for all words, which must be consecutive."""
         place = point.places[0]
         function = place.function if place.function in _READS else _SPACES[place.space]
         return self.script(function, place.addresses, words)
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """One request for all words, by the function that the manual names or the one for so many."""
+        """One request for all words, with the function of the manual, else with the one for this count."""
         place = writing_place(point)
         if keep or place.space not in ("coil", "holding"):
             return None
@@ -77,17 +77,17 @@ class ModbusWire:
         return [(sent, _frame(self.framing, request, answer_with(request, words)))] if status == "ok" else None
 
     def _transaction(self) -> int:
-        """Every device object counts from 1."""
+        """The transaction number of the next request; every device object counts from 1."""
         return 1 if self.framing == "tcp" else 0
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """A refusal, a wrong checksum or protocol, another unit and another function."""
+        """The exchange with a refusal, a wrong checksum or protocol, another unit, and another function."""
         del point, writes
         [(sent, good)] = script
         request = parse_request(self.framing, sent)
         if isinstance(request, str):
             return
-        code = next((one.number for one in self.bus.exceptions), 2)
+        code = next((code.number for code in self.bus.exceptions), 2)
         pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
         bad = [_frame(self.framing, request, pdu) for pdu in pdus]
         bad += [good[:-1], good + b"\x00", bytes((good[0] ^ 1,)) + good[1:], good[:-1] + bytes((good[-1] ^ 1,))]
@@ -98,12 +98,12 @@ class ModbusWire:
 
 
 def wires(device: Device) -> list[ModbusWire]:
-    """One for each framing that the device speaks, the one that it names first in front."""
+    """One for each framing of the device, in the order of the description."""
     return [ModbusWire(device, framing) for framing in _framings(device.bus) or ("rtu",)]
 
 
 def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
-    """The PDU of a device that has these words, or takes them."""
+    """The PDU of the answer from a device that holds these words, or accepts them."""
     head = bytes((request.function,))
     if request.function in (0x01, 0x02):
         data = sum(bit << place for place, bit in enumerate(words)).to_bytes((len(words) + 7) // 8, "little")
@@ -115,7 +115,7 @@ def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
 
 
 def frames(lines: Lines, device: Device) -> None:
-    """Everything about Modbus frames."""
+    """All vectors for Modbus frames."""
     codes(lines, "code", "exception", device.bus.exceptions)
     commands(lines, device)
     builds(lines, device.bus)
@@ -136,7 +136,7 @@ def commands(lines: Lines, device: Device) -> None:
 
 
 def builds(lines: Lines, bus: Bus) -> None:
-    """Requests of every function with edge counts, addresses and values, and each way to be refused."""
+    """Requests of every function with extreme counts, addresses and values, and one for each reason to refuse."""
     profile = profile_of(bus)
     for framing in _framings(bus):
         for request in dict.fromkeys(_requests(profile, framing)):
@@ -155,7 +155,7 @@ def _framings(bus: Bus) -> tuple[str, ...]:
 
 
 def _ask(lines: Lines, framing: str, request: Request) -> None:
-    """The request that the next vectors are about: reads have a count, writes as many values."""
+    """The request for the next vectors: a read has a count, a write has values."""
     head = framing, request.unit, request.transaction, request.function, request.address
     lines.set("request", *head, request.count, () if request.function in _READS else request.values)
 
@@ -204,7 +204,7 @@ def _request(unit: int, function: int, count: int, transaction: int) -> Request:
 
 
 def replies(lines: Lines, bus: Bus) -> None:
-    """Answers to one request of each function: good, refused, and malformed in every way."""
+    """Answers to one request of each function: good, refused, and malformed."""
     profile = profile_of(bus)
     low, _ = profile.units
     unit = low if low != profile.broadcast else low + 1
@@ -217,11 +217,11 @@ def replies(lines: Lines, bus: Bus) -> None:
                 request = _request(unit, function, count, transaction)
                 _reply(lines, framing, request, _frame(framing, request, good_answer(request)))
             request = _request(unit, function, min(3, most), transaction)
-            found = [_frame(framing, request, pdu) for pdu in _bad_answers(request, bus)]
-            found += _bad_frames(framing, request)
+            frames = [_frame(framing, request, pdu) for pdu in _bad_answers(request, bus)]
+            frames += _bad_frames(framing, request)
             if function == functions[0]:
-                found += _single_bit_errors(_frame(framing, request, good_answer(request)))
-            for data in dict.fromkeys(found):
+                frames += _single_bit_errors(_frame(framing, request, good_answer(request)))
+            for data in dict.fromkeys(frames):
                 _reply(lines, framing, request, data)
 
 
@@ -247,10 +247,10 @@ def good_answer(request: Request) -> bytes:
 
 
 def _bad_answers(request: Request, bus: Bus) -> Iterator[bytes]:
-    """PDUs in a sound frame that are no good answer: exceptions, other functions, other lengths, other echoes."""
+    """PDUs that are no good answer though the frame is intact: exceptions, other functions, lengths or echoes."""
     good = good_answer(request)
     refused = request.function | 0x80
-    for code in dict.fromkeys((*(one.number for one in bus.exceptions), 0, 2, 255)):
+    for code in dict.fromkeys((*(code.number for code in bus.exceptions), 0, 2, 255)):
         yield bytes((refused, code))
     yield bytes((refused, 1, 0))
     yield from (bytes((refused ^ 1, 1)), bytes((request.function ^ 1,)) + good[1:], b"\x2b" + good[1:])
@@ -307,37 +307,37 @@ def printed(lines: Lines, device: Device) -> None:
     """The manual's frames: requests are built as they should read, replies are parsed, and misprints are refused."""
     profile = profile_of(device.bus)
     requests: dict[str, Request] = {}
-    for one in device.frames:
-        if one.direction == "request":
-            request = parse_request(one.framing, one.corrected)
+    for example in device.frames:
+        if example.direction == "request":
+            request = parse_request(example.framing, example.corrected)
             if isinstance(request, str):
                 continue
-            requests[one.name] = request
-            status, data = build(profile, one.framing, request)
-            _ask(lines, one.framing, request)
-            lines.add("printed_build", one.name, status, data)
+            requests[example.name] = request
+            status, data = build(profile, example.framing, request)
+            _ask(lines, example.framing, request)
+            lines.add("printed_build", example.name, status, data)
             echoes = request.function in (0x05, 0x06, 0x08)
-            answers: Iterable[bytes] = (one.printed,) if echoes and not one.valid else ()
+            answers: Iterable[bytes] = (example.printed,) if echoes and not example.valid else ()
         else:
-            asked = requests.get(one.answers or "")
+            asked = requests.get(example.answers or "")
             if asked is None:
                 continue
-            request, answers = asked, dict.fromkeys((one.printed, one.corrected))
+            request, answers = asked, dict.fromkeys((example.printed, example.corrected))
         for data in answers:
-            reply = parse_reply(one.framing, request, data)
-            _ask(lines, one.framing, request)
-            lines.add("printed_reply", one.name, data, *_answer(reply))
+            reply = parse_reply(example.framing, request, data)
+            _ask(lines, example.framing, request)
+            lines.add("printed_reply", example.name, data, *_answer(reply))
 
 
 def blocks(lines: Lines, device: Device) -> None:
-    """The batched reads of each group."""
-    for group, found in device.blocks.items():
-        for index, block in enumerate(found):
+    """The vectors of batched reads, group by group."""
+    for group, blocks_of_group in device.blocks.items():
+        for index, block in enumerate(blocks_of_group):
             lines.add("block", group, index, block.space, block.function, block.address, block.count)
 
 
 def limits(lines: Lines, bus: Bus) -> None:
-    """What functions carry, and where the protocol ends."""
+    """The limits of the functions and of the protocol."""
     profile = profile_of(bus)
     known = [code.number for code in bus.functions if code.number in profile.most]
     for index, number in enumerate(known):

@@ -33,11 +33,11 @@ if TYPE_CHECKING:
 _READ = (1, 6)
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
-"""The tasks that write a value of one or two words, of a parameter or (True) of an element of one."""
+"""The tasks that write, by the words of the value and whether it is an element of an array."""
 
 _TITLES = ("Tasks", "Responses", "Errors")
 _KINDS = {"task": "function", "response": "response", "error": "exception"}
-"""What the numbers of the protocol are called in the header, and what they are in the description."""
+"""The names of the lists of codes: in the header, and in the description."""
 
 
 NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
@@ -45,7 +45,7 @@ NAMED_CODES: tuple[str, ...] = ("task", "response", "error")
 
 @dataclass(frozen=True, slots=True)
 class CodesView:
-    """Numbers of the protocol with names: enumerators with comments, and the function that tells the name."""
+    """A list of codes: enumerators with comments, and the function that returns the name of a code."""
 
     title: str
     kind: str
@@ -55,7 +55,7 @@ class CodesView:
 
 @dataclass(frozen=True, slots=True)
 class FrameView:
-    """What one parameter is asked and told with, and which vectors that answers; `eeprom` is what keeps a value."""
+    """The tasks that read and write one parameter, and their vectors; `eeprom` is the task that keeps a value."""
 
     descriptors: tuple[Descriptor, ...]
     function: str
@@ -108,8 +108,10 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     points = [point for point in device.points if point.generated and point.places and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
     layouts = Layouts(scope)
-    frames = [_frame(one, views[one.item], frozenset(tasks), layouts) for one in points if one.space == "parameter"]
-    telegrams = {one.name: one for one in device.telegrams}
+    frames = [
+        _frame(point, views[point.item], frozenset(tasks), layouts) for point in points if point.space == "parameter"
+    ]
+    telegrams = {telegram.name: telegram for telegram in device.telegrams}
     words = tuple(
         _word(point, views[point.item], telegrams[point.telegram or ""], layouts, scope)
         for point in points
@@ -122,7 +124,11 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         pkw=of_bus(bus).pkw,
         pzd=of_bus(bus).pzd,
         tasks=tuple(
-            (tasks[code.number], hexadecimal(sum(1 << one for one in set(code.answers))), c_comment(code.title["en"]))
+            (
+                tasks[code.number],
+                hexadecimal(sum(1 << answer for answer in set(code.answers))),
+                c_comment(code.title["en"]),
+            )
             for code in bus.functions
         ),
         codes=tuple(
@@ -131,12 +137,12 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
             if codes
         ),
         layouts=layouts.descriptors,
-        frames=tuple(one for one in frames if one is not None),
+        frames=tuple(frame for frame in frames if frame is not None),
         words=words,
         aliases=aliases_of(
             (
-                *(one for frame in frames if frame is not None for one in frame.descriptors),
-                *(one.descriptor for one in words),
+                *(descriptor for frame in frames if frame is not None for descriptor in frame.descriptors),
+                *(word.descriptor for word in words),
             ),
             device,
             scope,
@@ -145,21 +151,21 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Every identifier of the header, by what it belongs to."""
+    """Every identifier of the header, with what it belongs to."""
     own = Owner("target", "what the header of frames needs")
     yield own, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
     yield own, [codes.function for codes in bus.codes]
     lists = dict(zip(_KINDS, _lists(device.bus), strict=True))
-    for made in bus.codes:
-        for code, (name, _, _, _) in zip(lists[made.kind], made.entries, strict=True):
-            yield Owner(_KINDS[made.kind], code.name), (name,)
-    frames = (one for frame in bus.frames for one in frame.descriptors)
-    yield from names_of(bus.layouts, (*frames, *(one.descriptor for one in bus.words)))
+    for codes_view in bus.codes:
+        for code, (name, _, _, _) in zip(lists[codes_view.kind], codes_view.entries, strict=True):
+            yield Owner(_KINDS[codes_view.kind], code.name), (name,)
+    frames = (descriptor for frame in bus.frames for descriptor in frame.descriptors)
+    yield from names_of(bus.layouts, (*frames, *(word.descriptor for word in bus.words)))
     yield from old_names_of(bus.aliases)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """How parameters, and words of process data, answer vectors of whole exchanges."""
+    """The code by which parameters and process data run the vectors of whole exchanges."""
     for frame in bus.frames:
         yield from ((frame.function, case) for case in _cases(frame))
     for word in bus.words:
@@ -168,7 +174,7 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
 
 def _cases(frame: FrameView) -> Iterator[str]:
     name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
-    yield from (f"LIES({one.name}, {frame.lies})" for one in frame.descriptors)
+    yield from (f"LIES({descriptor.name}, {frame.lies})" for descriptor in frame.descriptors)
     if frame.read:
         yield f"READ({name}, {what})"
     for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):
@@ -204,7 +210,7 @@ def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: HeaderScope) -
 
 
 def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
-    """None for a point that no task of the device reaches."""
+    """The tasks of a point; None if no task of the device reaches it."""
     width = 2 if point.info.bits == 32 else 1
     if point.info.bits > 32:
         return None
@@ -234,7 +240,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
 
 
 def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[int, str]]) -> Descriptor:
-    """The tasks of a parameter: how the number lies in the words of its value, and what reads and writes it."""
+    """The descriptor of a parameter: how its value lies in words, and the tasks that read and write it."""
     width = 2 if point.info.bits == 32 else 1
     places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"

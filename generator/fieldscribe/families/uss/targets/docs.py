@@ -1,4 +1,4 @@
-"""What the documentation says of the family's line."""
+"""What the documentation says about the bus line."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """What people must know of the line, with what it is called."""
+    """Label and text of each fact that people must know about the line."""
     own = of_bus(bus)
     yield "Unit numbers", span(bus.units)
     if bus.broadcast is not None:
         yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
-    lengths = (f"variable ({VARIABLE})" if one == VARIABLE else str(one) for one in own.pkw)
+    lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in own.pkw)
     yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
     yield "Words of process data (PZD)", span(own.pzd)
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function goes to all units at once where the description does not say it."""
+    """Whether a function may be broadcast where the description does not say so."""
     del function  # broadcasts are telegrams of their own
     return False

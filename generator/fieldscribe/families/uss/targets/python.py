@@ -19,19 +19,19 @@ _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """What the device takes from the line."""
+    """The profile: the tasks and telegrams that the device accepts."""
     scope.used.add("Profile")
     bus = device.bus
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
         _numbers("pkw=(", of_bus(bus).pkw),
         f"pzd=({of_bus(bus).pzd[0]}, {of_bus(bus).pzd[1]})",
-        Group("tasks={", tuple([_numbers(f"{one.number}: (", one.answers) for one in bus.functions]), "}"),
+        Group("tasks={", tuple([_numbers(f"{code.number}: (", code.answers) for code in bus.functions]), "}"),
     ]
     if bus.broadcast is not None:
         arguments.append(f"broadcast={bus.broadcast}")
     if bus.exceptions:
-        errors = [f"{one.number}: {python_string(one.name)}" for one in bus.exceptions]
+        errors = [f"{code.number}: {python_string(code.name)}" for code in bus.exceptions]
         arguments.append(Group("errors={", tuple(errors), "}"))
     if device.telegrams:
         arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
@@ -45,10 +45,10 @@ def _profile(device: Device, scope: PackageScope) -> Node:
 
 
 def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
-    """How many words of process data variants take that take fewer than the whole product."""
+    """The process data lengths of variants that take fewer words than the whole product."""
     low, high = of_bus(device.bus).pzd
-    found = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
-    return {(axis, value): (low, most) for (axis, value), most in found.items()}
+    most_of = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
+    return {(axis, value): (low, most) for (axis, value), most in most_of.items()}
 
 
 def _numbers(head: str, numbers: Iterable[int]) -> Group:
@@ -56,7 +56,7 @@ def _numbers(head: str, numbers: Iterable[int]) -> Group:
 
 
 def _maker(point: Point) -> str:
-    """Parameters can be written so that they survive power-off, where the description leaves that to the caller."""
+    """Lets the caller choose whether a written parameter survives power-off, where the description does not."""
     usual = usual_maker(point)
     stored = point.telegram is None and point.keeps in (None, "choice")
     return _STORED.get(usual, usual) if stored else usual

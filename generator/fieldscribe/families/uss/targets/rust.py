@@ -1,4 +1,4 @@
-"""What a crate of a USS drive says of its bus: tasks, lengths, numbers with names, which points travel how."""
+"""USS in generated Rust: tasks, lengths, named codes, and how each point travels."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def context(device: Device) -> dict[str, object]:
-    """What the template of the family's items sees."""
+    """The names that the family's template uses."""
     bus = device.bus
     return {
         "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
@@ -29,7 +29,7 @@ def context(device: Device) -> dict[str, object]:
         "exception_names": code_names(bus.exceptions),
         "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
         "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
+        "tasks": array([f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions]),
         "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
@@ -80,7 +80,7 @@ def _fixed(device: Device) -> Iterator[str]:
 
 
 def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
-    """Words of process data go one way; parameters can be written for good."""
+    """How points travel: process data in one direction; parameters also into the EEPROM."""
     point = subject.point
     if point.telegram is None:
         if point.writable and point.keeps != "no":

@@ -37,7 +37,7 @@ KINDS = {
     "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
     "words:ints?",
 }
-"""Telegrams."""
+"""The kinds of vectors for telegrams."""
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
@@ -45,20 +45,20 @@ _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 
 _RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
-"""The tasks that change a parameter of so many words, or an element of an array."""
+"""The tasks that write a parameter into the EEPROM, by its words and whether it is an array."""
 
 
 class UssWire:
-    """Exchanges over the link that carries the most that every variant takes."""
+    """Exchanges over the longest link that every variant accepts."""
 
     def __init__(self, device: Device) -> None:
         self.bus = device.bus
         self.unit = device.bus.units[0]
-        pkw = next((one for one in (VARIABLE, 4, 3) if one in of_bus(device.bus).pkw), 0)
+        pkw = next((length for length in (VARIABLE, 4, 3) if length in of_bus(device.bus).pkw), 0)
         self.link = Link(
             pkw, min(of_bus(device.bus).pzd[1], *(most for _, most in of_bus(device.bus).variant_pzd), 255)
         )
-        self.directions = {one.name: one.direction for one in device.telegrams}
+        self.directions = {telegram.name: telegram.direction for telegram in device.telegrams}
         self.tasks = {code.number: code.answers for code in device.bus.functions}
 
     def opens(self, lines: Lines) -> None:
@@ -67,7 +67,7 @@ class UssWire:
         lines.set("link", self.link.pkw, self.link.pzd)
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
-        """A parameter by its task; a word of process data with the answer to no task."""
+        """A parameter by its task; a word of process data from an answer without a task."""
         if point.text is not None or len(words) > 2:
             return None
         if point.telegram is None:
@@ -77,7 +77,7 @@ class UssWire:
         return self._process((0,) * self.link.pzd, self._placed(point, words))
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """A parameter by its task for RAM or EEPROM; a word of process data with no task."""
+        """A parameter by its task for RAM or EEPROM; a word of process data in a telegram without a task."""
         if point.text is not None or len(words) > 2:
             return None
         if point.telegram is None:
@@ -105,11 +105,11 @@ class UssWire:
             number = number << 16 | word
         quiet = (0,) * self.link.pzd
         place = point.places[0] if asks else writing_place(point)
-        given = (0, 0) if asks else (len(words), number)
-        request = Request(self.unit, task, place.addresses[0], point.index or 0, *given, quiet)
+        carried = (0, 0) if asks else (len(words), number)
+        request = Request(self.unit, task, place.addresses[0], point.index or 0, *carried, quiet)
         status, data = build(self.bus, self.link, request)
         answers = self.tasks.get(task, ())
-        double = [one for one in answers if (one in DOUBLE_RESPONSES) == (len(words) == 2)]
+        double = [answer for answer in answers if (answer in DOUBLE_RESPONSES) == (len(words) == 2)]
         if status != "ok" or not double or (len(words) == 2 and self.link.pkw == 3):
             return None
         head = parameter_words(double[0], request.parameter, request.index)
@@ -119,7 +119,7 @@ class UssWire:
         return [(data, telegram(self.unit, (*part, *quiet)))]
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
-        """A refusal, a wrong check byte, another unit, and a telegram that is cut."""
+        """The exchange with a refusal, a wrong check byte, another unit, and a cut telegram."""
         del writes
         [(sent, good)] = script
         if point.telegram is not None:
@@ -136,12 +136,12 @@ class UssWire:
 
 
 def wires(device: Device) -> list[UssWire]:
-    """Points travel in one way."""
+    """The one way in which points travel."""
     return [UssWire(device)]
 
 
 def frames(lines: Lines, device: Device) -> None:
-    """Everything about the telegrams of a USS device."""
+    """All vectors for the telegrams of a USS device."""
     codes(lines, "constant", "task", device.bus.functions)
     codes(lines, "constant", "response", of_bus(device.bus).responses)
     codes(lines, "code", "error", device.bus.exceptions)
@@ -155,7 +155,7 @@ def frames(lines: Lines, device: Device) -> None:
 
 
 class _Dialogue:
-    """Telegrams over a link that is set in one way."""
+    """Writes vectors for telegrams over one link."""
 
     def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
         self.lines, self.bus, self.link = lines, bus, link
@@ -176,13 +176,13 @@ class _Dialogue:
         self.lines.add(kind, *lead, *build(self.bus, self.link, request))
 
     def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
-        """What bytes say as the answer to a request."""
-        found = parse(self.bus, self.link, request, data)
+        """The result of reading bytes as the answer to a request."""
+        reply = parse(self.bus, self.link, request, data)
         kind, lead = _kind("reply", frame)
         self._ask(request)
-        parts: dict[str, tuple[object, ...]] = {"ok": (found.response, found.width, found.value, 0, found.words)}
-        parts["refused"] = (found.response, 0, 0, found.error)
-        self.lines.add(kind, *lead, data, found.status, *parts.get(found.status, ()))
+        parts: dict[str, tuple[object, ...]] = {"ok": (reply.response, reply.width, reply.value, 0, reply.words)}
+        parts["refused"] = (reply.response, 0, 0, reply.error)
+        self.lines.add(kind, *lead, data, reply.status, *parts.get(reply.status, ()))
 
     def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
         """A telegram to all units."""
@@ -190,7 +190,7 @@ class _Dialogue:
         self.lines.add("uss_broadcast", mask, words, *broadcast(self.bus, self.link, mask, words))
 
     def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
-        """That of an answer, with recognisable values; of variable length as long as it must be."""
+        """The parameter part of an answer, with recognisable values; a variable one only as long as needed."""
         if self.link.pkw == 0:
             return ()
         number, index = parameter_words(response, request.parameter, request.index)
@@ -203,7 +203,7 @@ def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
 
 
 def _links(bus: Bus) -> Iterator[Link]:
-    """Every length of the parameter part with two words of process data, and the ends of these."""
+    """Links to test: every length of the parameter part, and the least and most words of process data."""
     least, most = of_bus(bus).pzd
     usual = min(max(2, least), most)
     for pkw in of_bus(bus).pkw:
@@ -300,39 +300,39 @@ def _printed(lines: Lines, device: Device) -> None:
     """The manual's examples, each in a whole telegram: parameter parts, process data, masks for all units."""
     asked: dict[str, tuple[_Dialogue, Request]] = {}
     bus, unit = device.bus, device.bus.units[0]
-    for one in device.frames:
-        words = _frame_words(one)
-        if one.framing == "pkw" and one.direction == "request":
-            dialogue = _Dialogue(lines, bus, Link(of_frame(one).pkw or VARIABLE, of_bus(bus).pzd[0]))
+    for frame in device.frames:
+        words = _frame_words(frame)
+        if frame.framing == "pkw" and frame.direction == "request":
+            dialogue = _Dialogue(lines, bus, Link(of_frame(frame).pkw or VARIABLE, of_bus(bus).pzd[0]))
             request = replace(_request_of(unit, words, dialogue.link), words=dialogue.words)
-            asked[one.name] = (dialogue, request)
-            dialogue.built(request, one.name)
-        elif one.framing == "pkw" and one.answers in asked:
-            dialogue, request = asked[one.answers]
-            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), one.name)
-        elif one.framing == "pzd":
-            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), one, words)
-        elif one.framing == "broadcast":
+            asked[frame.name] = (dialogue, request)
+            dialogue.built(request, frame.name)
+        elif frame.framing == "pkw" and frame.answers in asked:
+            dialogue, request = asked[frame.answers]
+            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), frame.name)
+        elif frame.framing == "pzd":
+            _printed_words(_Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words))), frame, words)
+        elif frame.framing == "broadcast":
             _Dialogue(lines, bus, Link(of_bus(bus).pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
 
 
-def _printed_words(dialogue: _Dialogue, one: Frame, words: tuple[int, ...]) -> None:
-    """Words of process data alone: sent without a task, or come without an answer."""
+def _printed_words(dialogue: _Dialogue, frame: Frame, words: tuple[int, ...]) -> None:
+    """An example with process data only: sent without a task, or received without an answer."""
     request = Request(dialogue.bus.units[0], 0, words=words)
-    if one.direction == "request":
-        dialogue.built(request, one.name)
+    if frame.direction == "request":
+        dialogue.built(request, frame.name)
     else:
         empty = (0,) * (3 if dialogue.link.pkw == VARIABLE else dialogue.link.pkw)
-        dialogue.answered(request, telegram(request.unit, (*empty, *words)), one.name)
+        dialogue.answered(request, telegram(request.unit, (*empty, *words)), frame.name)
 
 
-def _frame_words(one: Frame) -> tuple[int, ...]:
-    data = one.corrected
+def _frame_words(frame: Frame) -> tuple[int, ...]:
+    data = frame.corrected
     return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data) - 1, 2))
 
 
 def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
-    """The request that the words of a parameter part are."""
+    """The request in the words of a parameter part."""
     number, pages = words[0], words[1]
     page = sum((pages >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
     task, parameter = number >> 12, (number & 0x07FF) + 2000 * page
@@ -343,7 +343,7 @@ def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
 
 
 def limits(lines: Lines, bus: Bus) -> None:
-    """What answers tasks, and how long the parts may be."""
+    """The responses to each task, and the lengths of the parts."""
     own = of_bus(bus)
     for index, code in enumerate(bus.functions):
         lines.add("function", index, code.number, None, None, sum(1 << answer for answer in set(code.answers)))

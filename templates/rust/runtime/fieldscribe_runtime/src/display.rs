@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! How people see values: with the decimals that the description says, rounded from the exact value, without floats.
 
-use core::fmt;
+use core::fmt::{self, Write};
 
 use crate::{Error, Point};
 
@@ -138,9 +138,28 @@ fn decimal(out: &mut fmt::Formatter<'_>, negative: bool, size: u128, decimals: u
     if decimals == 0 {
         return write!(out, "{whole}");
     }
-    let part = size.checked_rem(power).unwrap_or(0);
-    let width = usize::try_from(decimals).unwrap_or(0);
-    write!(out, "{whole}.{part:0width$}")
+    write!(out, "{whole}.")?;
+    let mut place = power;
+    for _ in 0..decimals {
+        place = place.checked_div(10).unwrap_or(1);
+        let digit = size
+            .checked_div(place)
+            .and_then(|digits| digits.checked_rem(10));
+        let digit = digit.and_then(|digit| char::from_digit(u32::try_from(digit).ok()?, 10));
+        out.write_char(digit.unwrap_or('0'))?;
+    }
+    Ok(())
+}
+
+/// The decimals of a whole number. A width that is known at run time only could panic.
+fn zeros(out: &mut fmt::Formatter<'_>, decimals: u32) -> fmt::Result {
+    if decimals > 0 {
+        out.write_str(".")?;
+    }
+    for _ in 0..decimals {
+        out.write_char('0')?;
+    }
+    Ok(())
 }
 
 const MANTISSA: u32 = 52;
@@ -161,8 +180,8 @@ fn float(out: &mut fmt::Formatter<'_>, number: f64, decimals: u32) -> fmt::Resul
     let bits = number.to_bits();
     let stored = (bits >> MANTISSA) & EXPONENT;
     if stored >= WHOLE {
-        let width = usize::try_from(decimals).unwrap_or(0);
-        return write!(out, "{number:.width$}"); // a whole number: nothing is rounded
+        write!(out, "{number:.0}")?; // a whole number: nothing is rounded
+        return zeros(out, decimals);
     }
     let fraction = bits & ((1 << MANTISSA) - 1);
     let mantissa = if stored == 0 {

@@ -15,8 +15,9 @@ use crate::{Point, Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
 ///
-/// These are data frames whose identifiers have as many bits as the device's ([`Profile::identifier_bits`]): a transport
-/// drops remote frames, and extended ones where the device's are not, since a [`Frame`] does not tell them apart.
+/// These are data frames whose identifiers have as many bits as the device's ([`Profile::identifier_bits`]).
+/// A transport drops remote frames, and extended ones where the device's are not: a [`Frame`] does not tell
+/// them apart.
 pub trait Transport {
     /// What can go wrong on the bus.
     type Error;
@@ -132,7 +133,7 @@ impl<T: LocalTransport + ?Sized> LocalTransport for &mut T {
 /// be, nobody can tell; a pair is asked by its parts, `client.listener().0`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` hears no frames",
-    note = "listen with `Receiver::<telegrams::...>::new(unit)`, a pair of listeners, or an own type that implements `Listener`"
+    note = "listen with `Receiver::<telegrams::...>::new(unit)`, a pair of them, or your own `Listener`"
 )]
 pub trait Listener {
     /// Takes a frame that may be none of its own.
