@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.arithmetic.codec import decode, setting_of
 from fieldscribe.arithmetic.rounding import half_away
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.targets import docs
 from support.c_device import WARNINGS, write_headers
-from support.models import kitchen_sink, named
+from support.described import compile_in, described, kitchen_sink, loaded_in
+from support.models import named
 from support.python_package import error, imported, write_package
 from support.toolchains import compiled, run, succeed, tool
 
@@ -61,20 +60,7 @@ def test_what_a_point_has(item: str) -> None:
     assert (point.decimals, point.encodes_values) == {**PATHS, **RUN_TIME}[item]
 
 
-BEYOND = """fieldscribe: 1
-device: meter
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Test device
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
+BEYOND = """\
 - {name: a, at: 0, scale: value = raw / 123456789012345678901234567}
 - {name: first, at: 1, type: u32}
 - {name: second, at: 3, type: u32}
@@ -88,11 +74,9 @@ points:
 
 def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None:
     """No error either: the words are reached by their address, the reason is told, and so is what would give values."""
-    (tmp_path / "device.yaml").write_text(BEYOND, "utf-8")
-    report = Report()
-    device = load_device(tmp_path / "device.yaml", report)
+    device, findings = compile_in(tmp_path, described(BEYOND, device="meter"))
     assert device is not None
-    assert [(one.rule, one.hint) for one in report.findings if one.rule == "wide-scale"] == [
+    assert [(one.rule, one.hint) for one in findings if one.rule == "wide-scale"] == [
         ("wide-scale", "for values take the unit with another prefix (kW, mm), which brings the factor nearer to 1"),
         ("wide-scale", "for values give `first` and `second` a narrower `range` that ends at 2147483647 at most"),
     ]
@@ -128,13 +112,9 @@ SURVIVORS = """
 )
 def test_every_raw_number_survives_its_value(scale: str, top: int, bottom: int, offset: int, tmp_path: Path) -> None:
     """What encodes values finds each raw number again, in the steps of all languages; without, it might not."""
-    head = BEYOND[: BEYOND.index("- {name: a")]
     for exponent, encodes in ((50, True), (53, False)):
         most = (1 << exponent) - 20000
-        file = tmp_path / f"{exponent}.yaml"
-        file.write_text(head + SURVIVORS.format(most=most, scale=scale), "utf-8")
-        device = load_device(file, Report())
-        assert device is not None
+        device = loaded_in(tmp_path, described(SURVIVORS.format(most=most, scale=scale)))
         assert device.points[0].encodes_values == encodes
         draw = random.Random(SEED)
         raws = [draw.randrange(most // 2, most) for _ in range(4000)]

@@ -13,6 +13,7 @@ from fieldscribe.audit.manual import Manual, tokens_of
 from fieldscribe.cli import main
 from fieldscribe.families.modbus.requests import crc16
 from fieldscribe.resources import descriptions_dir
+from support.described import group, head, together, write
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,28 +43,22 @@ Bits\tBit 0 reset, Bit 3 fault
 A wrong checksum: 65 D3 is printed here.
 """
 
-DEVICE = """fieldscribe: 1
-device: audited
-version: 1.0.0
-vendor: Nobody
-model: Drive
-title: A drive
-family: modbus
-documents:
+DOCUMENTS = """
   manual:
-    {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}
-bus: {framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}
----
-group: main
-space: holding
-source: {document: manual, section: Parameters}
-points:
+    {title: Manual, language: en, file: manual.txt, sha256: SHA,
+     writes: {P: [Parameter], 15..8: [Highbyte], 0: [zero]}}"""
+POINTS = """\
 - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
 - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
 - {name: second_source, at: 1003h, line: 9}
 - {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
 - {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
 """
+BUS = "{framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}"
+DEVICE = together(
+    head(device="audited", documents=DOCUMENTS, bus=BUS),
+    group(POINTS, source="{document: manual, section: Parameters}"),
+)
 
 
 def audit(
@@ -71,9 +66,8 @@ def audit(
 ) -> tuple[int, dict[str, Any]]:
     """Runs the command on a description of MANUAL against another text; exit code and the JSON report."""
     folder = tmp_path / "audited"
-    folder.mkdir(exist_ok=True)
     digest = sha256(MANUAL.encode()).hexdigest()
-    (folder / "device.yaml").write_text(device.replace("SHA", digest), encoding="utf-8")
+    write(folder, device.replace("SHA", digest))
     path = tmp_path / "manual.txt"
     path.write_text(manual, encoding="utf-8")
     code = main(["audit", str(folder), "--manual", str(path), "--report", "json"])
@@ -253,16 +247,10 @@ The part before the point stands in PWE1, that behind it in PWE2.
 Source 21, P0700 = 21.0
 """
 
-USS_DEVICE = """fieldscribe: 1
-device: audited
-version: 1.0.0
-vendor: Nobody
-model: Drive
-title: A drive
-family: uss
-documents:
-  manual: {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {31..16: [PWE1], 15..0: [PWE2]}}
-bus:
+WORDS = "{document: manual, section: Words}"
+USS_DOCUMENTS = """
+  manual: {title: Manual, language: en, file: manual.txt, sha256: SHA, writes: {31..16: [PWE1], 15..0: [PWE2]}}"""
+USS_BUS = """
   units: 0..31
   pkw: [127]
   pzd: 0..2
@@ -276,14 +264,8 @@ bus:
     9: {name: unused_9, line: 9}
     10: {name: unused_10, line: 9}
     11: {name: unused_11, line: 9}
-    12: {name: unused_12, line: 9}
-telegrams:
-- {name: task, direction: request, length: 2}
----
-group: parameters
-space: parameter
-source: {document: manual, section: Words}
-points:
+    12: {name: unused_12, line: 9}"""
+USS_PARAMETERS = """\
 - code: P0700
   name: source
   at: 700
@@ -308,17 +290,30 @@ errata:
   taken: {refusals: [7]}
   why: The response list has it.
   certainty: likely
----
-group: words
-space: telegram
-telegram: task
-access: w
-numbering: {pzd: wire + 1}
-source: {document: manual, section: Words}
-points:
+"""
+USS_WORDS = """\
 - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
 - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
 """
+USS_DEVICE = together(
+    head(
+        device="audited",
+        family="uss",
+        documents=USS_DOCUMENTS,
+        bus=USS_BUS,
+        telegrams="[{name: task, direction: request, length: 2}]",
+    ),
+    group(USS_PARAMETERS, group="parameters", space="parameter", source=WORDS),
+    group(
+        USS_WORDS,
+        group="words",
+        space="telegram",
+        source=WORDS,
+        telegram="task",
+        access="w",
+        numbering="{pzd: wire + 1}",
+    ),
+)
 
 
 @pytest.mark.parametrize(
@@ -336,10 +331,9 @@ def test_uss_manuals_are_read_as_they_write(
     old: str, new: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "audited"
-    folder.mkdir()
     manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
     text = USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest())
-    (folder / "device.yaml").write_text(text, encoding="utf-8")
+    write(folder, text)
     (tmp_path / "manual.txt").write_text(manual, "utf-8")
     main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
     assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing

@@ -9,12 +9,11 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
-from support.places import TESTS
+from support.described import DEVICES, compile_in, group, head, loaded, together
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,33 +24,15 @@ if TYPE_CHECKING:
 LANGUAGES = ("c", "python", "rust")
 """Targets in which names of the description become identifiers."""
 
-DEVICES = TESTS / "devices"
 SEEDS = 60
 
-HEAD = """\
-fieldscribe: 1
-device: {device}
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Made up
-family: modbus
-documents: {{manual: {{title: Manual, language: en}}}}
-variants:
-  {axis}: {{title: Axis, values: {{{first}: {{}}, {second}: {{}}}}}}
-bus:
+BUS = """
   framings: [rtu]
   units: 1..247
   exceptions: {{01h: {first}}}
-  functions: {{03h: read, 06h: write, 10h: write_many}}
-commands:
-- {{name: {command}, space: holding, at: 9000, function: 06h, value: 1, section: "2"}}
----
-group: {group}
-space: holding
-source: {{document: manual, section: "1"}}
-points:
-"""
+  functions: {{03h: read, 06h: write, 10h: write_many}}"""
+AXIS = "{{{axis}: {{title: Axis, values: {{{first}: {{}}, {second}: {{}}}}}}}}"
+COMMANDS = '[{{name: {command}, space: holding, at: 9000, function: 06h, value: 1, section: "2"}}]'
 
 WORDS = (
     *("a", "b", "ready", "active_low", "low", "mask", "shift", "raw", "min", "max", "raw_min", "count", "blocks"),
@@ -91,8 +72,9 @@ def nasty(seed: int) -> str:
     def one() -> str:
         return chance.choice(pool)
 
-    keys = ("device", "axis", "first", "second", "command", "group")
-    lines = [HEAD.format(**{key: one() for key in keys})]
+    names = {key: one() for key in ("device", "axis", "first", "second", "command", "group")}
+    bus, variants, commands = (text.format(**names) for text in (BUS, AXIS, COMMANDS))
+    lines = []
     for at, point in enumerate(dict.fromkeys(one() for _ in range(9))):
         first, second = one(), one()
         facts = chance.choice(
@@ -107,14 +89,8 @@ def nasty(seed: int) -> str:
             )
         )
         lines.append(f"- {{name: {point}, at: {at}, {facts}}}\n")
-    return "".join(lines)
-
-
-def loaded(text: str, folder: Path) -> Device | None:
-    """The device, if it passes `check`."""
-    file = folder / "device.yaml"
-    file.write_text(text, "utf-8")
-    return load_device(file, Report())
+    described = head(device=names["device"], bus=bus, variants=variants, commands=commands)
+    return together(described, group("".join(lines), group=names["group"]))
 
 
 def c_names(text: str) -> Iterator[str]:
@@ -186,15 +162,14 @@ def doubles(device: Device) -> list[object]:
 def test_nasty_names(part: int, tmp_path: Path) -> None:
     """A device that passes `check` defines nothing twice in any target."""
     for seed in range(part, SEEDS, 6):
-        device = loaded(nasty(seed), tmp_path)
+        device, _ = compile_in(tmp_path, nasty(seed))
         assert device is None or doubles(device) == [], seed
 
 
 @pytest.mark.parametrize("folder", sorted(DEVICES.iterdir()), ids=lambda one: one.name)
 def test_the_lists_hold_what_is_defined(folder: Path) -> None:
     """Every name that the headers define is one that the target lists, and no other is."""
-    device = load_device(folder / "device.yaml", Report())
-    assert device is not None
+    device = loaded(folder / "device.yaml")
     listed = {name for one in target("c").identifiers(device) for name in one.names}
     headers = [text for _, path, text in outputs(device, ["c"]) if path.startswith(f"c/{device.id}")]
     assert len(headers) == 2

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.arithmetic.codec import CodecError, check, decode, encode_checked, setting_of
-from support.c_device import kitchen
-from support.devices_by_family import shipped
-from support.models import kitchen_sink, named
+from support.described import kitchen_sink, made, shipped
+from support.models import named
 from support.python_package import imported, write_package
 
 if TYPE_CHECKING:
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 
 _MAKERS: dict[str, Callable[[], Device]] = {
     "kitchen_sink": kitchen_sink,
-    "kitchen_can": lambda: kitchen("kitchen_can"),
+    "kitchen_can": lambda: made("kitchen_can"),
     "woodward_mpu2s": lambda: shipped("woodward_mpu2s"),
 }
 _MOST = 400

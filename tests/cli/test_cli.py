@@ -15,6 +15,7 @@ import pytest
 from fieldscribe import __version__
 from fieldscribe.cli import COMMANDS, main
 from fieldscribe.resources import descriptions_dir
+from support.described import group, head, write
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,39 +23,22 @@ if TYPE_CHECKING:
 L200 = str(descriptions_dir() / "hitachi_l200")
 PACKAGES = Path(import_module("fieldscribe").__file__ or "").parents[1]
 
-DEVICE = """\
-fieldscribe: 1
-device: small_drive
-version: 1.0.0
-vendor: Acme
-model: S1
-title: {en: Small drive}
-family: modbus
-documents:
-  manual: {title: Manual, language: en}
-variants:
-  size:
-    title: {en: Size}
-    values: {small: {title: {en: Small}}, large: {title: {en: Large}}}
-parts: [main.yaml]
-bus:
-  framings: [rtu]
-  units: 1..32
-  functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}
-"""
-MAIN = """\
-group: main
-title: {en: Main}
-space: holding
-access: rw
-source: {document: manual, section: "1"}
-numbering: {modicon: wire + 1}
-points:
+DEVICE = head(
+    device="small_drive",
+    vendor="Acme",
+    model="S1",
+    title="{en: Small drive}",
+    bus="{framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: write_register}}",
+    variants="{size: {title: {en: Size}, values: {small: {title: {en: Small}}, large: {title: {en: Large}}}}}",
+    parts="[main.yaml]",
+)
+POINTS = """\
 - {code: P1, name: speed, title: {en: "TITLE"}, at: 10h, range: 0..4000, scale: value = raw * 0.1, unit: Hz}
 - {code: P2, name: ratio, title: {en: Ratio}, at: 12h, range: 1..500}
 - {code: P3, name: voltage, title: {en: Voltage}, at: 14h, range: 0..1000, scale: raw = value * ratio / 400, unit: V}
 - {code: P4, name: state, title: {en: State}, at: 16h, access: r, enum: {0: stop, 1: run}}
 """
+MAIN = group(POINTS, title="{en: Main}", access="rw", numbering="{modicon: wire + 1}")
 
 
 class Result(NamedTuple):
@@ -80,9 +64,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Callable[..., Result]:
 def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with ./descriptions/small_drive, as the working folder."""
     folder = tmp_path / "descriptions" / "small_drive"
-    folder.mkdir(parents=True)
-    (folder / "device.yaml").write_text(DEVICE, "utf-8")
-    (folder / "main.yaml").write_text(MAIN.replace("TITLE", "Speed"), "utf-8")
+    write(folder, DEVICE, main=MAIN.replace("TITLE", "Speed"))
     monkeypatch.chdir(tmp_path)
     return folder
 
@@ -215,8 +197,7 @@ def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Pat
 
 
 def test_a_folder_of_several_devices(run: Callable[..., Result], small: Path) -> None:
-    (small.parent / "other").mkdir()
-    (small.parent / "other" / "device.yaml").write_text(DEVICE, "utf-8")
+    write(small.parent / "other", DEVICE)
     several = run("explain", "descriptions", "P1")
     assert several.code == 2
     assert "holds 2 devices" in several.err

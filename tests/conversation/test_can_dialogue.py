@@ -15,19 +15,18 @@ from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
-from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.can.recognition import recognise
 from fieldscribe.families.can.speech import CanSpeech
 from fieldscribe.model import Role
-from fieldscribe.pipeline import load_device
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
-from support.devices_by_family import at, can_frame, coded, shipped
-from support.models import kitchen_sink, named
+from support.described import group, head, kitchen_sink, loaded_in, shipped, together
+from support.frames_by_hand import at, can_frame, coded
+from support.models import named
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -285,8 +284,8 @@ _HEADS = st.sampled_from([b"", b"\xdd", b"\xff\x01", b"\xee\x01", b"\xdd\x0e", b
 @given(st.lists(st.tuples(_IDS, _HEADS, st.binary(max_size=12)), min_size=1, max_size=8))
 def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
     listening = Listener(DEVICE, {}, CanSpeech(DEVICE))
-    for number, head, rest in frames:
-        for data in (head + rest, (head + rest)[:8]):
+    for number, start, rest in frames:
+        for data in (start + rest, (start + rest)[:8]):
             heard = listening.hear(Pasted(CanFrame(number, data)))
             assert heard.summary
             assert heard.as_data()
@@ -453,43 +452,24 @@ def test_every_point_comes_back_from_its_frames() -> None:
     assert seen > 190
 
 
-CELLS = """fieldscribe: 1
-device: battery
-version: 1.0.0
-vendor: Nobody
-model: Battery
-title: A battery
-family: can
-documents: {manual: {title: Manual, language: en}}
-bus: {units: 1..9}
-messages:
+CELLS = head(
+    family="can",
+    bus="{units: 1..9}",
+    messages="""
 - {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
 - {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
-- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}
-telegrams: [{name: cells, direction: cyclic, length: 6, message: cells}]
----
-group: cells
-space: telegram
-telegram: cells
-source: {document: manual, section: "1"}
-addressing: number + index - 1
-points: [{name: cell, at: 0, indices: 6}]
----
-group: limits
-space: parameter
-access: r
-source: {document: manual, section: "2"}
-addressing: 100h * number + index
-points: [{name: limit, at: 1, indices: 2}]
-"""
+- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: telegram}}""",
+    telegrams="[{name: cells, direction: cyclic, length: 6, message: cells}]",
+)
+CELL = {"group": "cells", "space": "telegram", "telegram": "cells", "addressing": "number + index - 1"}
+LIMIT = {"group": "limits", "space": "parameter", "access": "r", "addressing": "100h * number + index"}
 
 
 def test_elements_of_an_array_are_found_by_address_where_no_index_travels(tmp_path: Path) -> None:
     """The index beside the address is of uss alone: by a rule it is in the address."""
-    file = tmp_path / "device.yaml"
-    file.write_text(CELLS, encoding="utf-8")
-    device = load_device(file, Report())
-    assert device is not None
+    cells = group("- {name: cell, at: 0, indices: 6}\n", **CELL)
+    limits = group("- {name: limit, at: 1, indices: 2}\n", **LIMIT)
+    device = loaded_in(tmp_path, together(CELLS, cells, limits))
     first, second, told = decode(
         device, {}, ["301#00A5000100020003", "301#01A5000400050006", "201#0201020007000000"], asked()
     )

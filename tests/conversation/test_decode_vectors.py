@@ -11,8 +11,7 @@ from fieldscribe.families.modbus.functions import profile_of
 from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.targets.vectors.collection import collect
 from support.asked import asked as chosen
-from support.devices_by_family import shipped
-from support.models import made
+from support.described import made, shipped
 from support.vector_file import File
 
 if TYPE_CHECKING:

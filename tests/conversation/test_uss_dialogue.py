@@ -23,7 +23,8 @@ from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
-from support.devices_by_family import coded, shipped, uss_bytes
+from support.described import shipped
+from support.frames_by_hand import coded, uss_bytes
 from support.models import sample_device
 
 if TYPE_CHECKING:

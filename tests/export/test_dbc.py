@@ -23,7 +23,7 @@ from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
-from support.devices_by_family import shipped
+from support.described import shipped
 from support.models import named, point, sample_device, titles
 from support.python_package import imported, write_package
 

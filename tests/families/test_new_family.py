@@ -7,6 +7,7 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
+from support.described import group, head, together, write
 from support.places import TESTS
 
 if TYPE_CHECKING:
@@ -17,29 +18,24 @@ WITH_BELLS = (
     "from fieldscribe.families import FAMILIES; FAMILIES['bell'] = 'toy_family'; "
     "from fieldscribe.cli import main; import sys; sys.exit(main(sys.argv[1:]))"
 )
-DEVICE = """\
-fieldscribe: 1
-device: carillon
-version: 0.1.0
-vendor: Foundry
-model: C2
-title: Carillon
-family: bell
-documents: {manual: {title: The manual, language: en}}
-bus: {units: 1..4, strikes: 90, source: {section: Line}}
-frames:
-  - {name: ring_low, bytes: 31 42, says: {low: 1}, line: 7}
----
-group: tones
-title: Tones
-source: {section: Tones}
-space: tone
-access: w
-type: u16
-points:
-  - {name: high, at: 0, line: 3}
-  - {name: low, at: 1, range: 0..9, line: 4}
-"""
+DEVICE = together(
+    head(
+        device="carillon",
+        family="bell",
+        documents="{manual: {title: The manual, language: en}}",
+        bus="{units: 1..4, strikes: 90, source: {section: Line}}",
+        frames="[{name: ring_low, bytes: 31 42, says: {low: 1}, line: 7}]",
+    ),
+    group(
+        "- {name: high, at: 0, line: 3}\n- {name: low, at: 1, range: 0..9, line: 4}\n",
+        group="tones",
+        title="Tones",
+        space="tone",
+        source="{section: Tones}",
+        access="w",
+        type="u16",
+    ),
+)
 
 
 def run(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -52,8 +48,7 @@ def run(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 def described(folder: Path, text: str = DEVICE) -> Path:
     """A folder with the description of a carillon."""
-    (folder / "carillon").mkdir()
-    (folder / "carillon/device.yaml").write_text(text, "utf-8")
+    write(folder / "carillon", text)
     return folder
 
 
@@ -78,7 +73,7 @@ def test_its_own_findings(tmp_path: Path) -> None:
     foreign = run(described(tmp_path, DEVICE.replace("space: tone", "space: coil")), "check", "carillon")
     assert (foreign.returncode, "unknown-space" in foreign.stdout) == (1, True)
     wrong = DEVICE.replace("strikes: 90", "strikes: 2000").replace("31 42", "31 42 0A")
-    (tmp_path / "carillon/device.yaml").write_text(wrong, "utf-8")
+    write(tmp_path / "carillon", wrong)
     told = run(tmp_path, "check", "carillon").stdout
     assert "too-many-strikes" in told
     assert "this rings nothing" in told

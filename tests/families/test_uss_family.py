@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss.facts import UssBus, of_bus
 from fieldscribe.families.uss.telegrams import (
     Link,
@@ -18,17 +17,14 @@ from fieldscribe.families.uss.telegrams import (
     telegram,
 )
 from fieldscribe.model import Bus, Code
-from fieldscribe.pipeline import load_device
-from fieldscribe.resources import descriptions_dir
 from hypothesis import given
 from hypothesis import strategies as st
+from support.described import shipped
 
 
 def test_variants_may_take_fewer_words() -> None:
     """Maximale PZD-Länge, section on BiCo: 4 words for the 410 and 420, 8 for the 430 and 440."""
-    device = load_device(descriptions_dir() / "siemens_mm4/device.yaml", Report())
-    assert device is not None
-    assert dict(of_bus(device.bus).variant_pzd) == {
+    assert dict(of_bus(shipped("siemens_mm4").bus).variant_pzd) == {
         "model=mm410": 4,
         "model=mm420": 4,
         "model=mm430": 8,

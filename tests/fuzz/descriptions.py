@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
-from support.descriptions_as_values import BAD, DEVICES, HOSTILE, WHOLES, as_texts, changed, nodes, write_files
+from support.described import DEVICES
+from support.descriptions_as_values import BAD, HOSTILE, WHOLES, as_texts, changed, nodes, rewrite
 
 from fuzz.languages import Result
 
@@ -234,7 +235,7 @@ def _part(job: tuple[int, int, int]) -> list[tuple[int, str]]:
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
         for index in range(first, behind):
-            file = write_files(Path(folder) / "device", mutant(seed, index))
+            file = rewrite(Path(folder) / "device", mutant(seed, index))
             failed = trial(file, compiled=index % COMPILED == 0)
             if failed is not None:
                 wrong.append((index, failed))
@@ -250,6 +251,6 @@ def fuzz_descriptions(count: int, seed: int, keep: Path) -> Result:
         wrong = [one for part in pool.imap_unordered(_part, jobs) for one in part]
     findings = []
     for index, failed in sorted(wrong):
-        file = write_files(keep / f"mutant_{seed}_{index}", mutant(seed, index))
+        file = rewrite(keep / f"mutant_{seed}_{index}", mutant(seed, index))
         findings.append(f"mutant {index} of seed {seed}, kept as {file}:\n{failed[-1500:]}")
     return Result("descriptions, mutated", count, tuple(findings), time.perf_counter() - started)

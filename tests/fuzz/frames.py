@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import struct
-from functools import cache, reduce
-from pathlib import Path
+from functools import reduce
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
+from support.described import made
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -87,13 +85,9 @@ def _modbus_pdu(random: Random, function: int, address: int, items: int, number:
     return struct.pack(">BHH", function, address, sent)
 
 
-@cache
 def _messages() -> tuple[Message, ...]:
     """The layouts of the made device, as the model has them: built here without any target's code."""
-    report = Report()
-    device = load_device(Path(__file__).parents[1] / "devices" / "kitchen_can" / "device.yaml", report)
-    assert device is not None, report.findings
-    return device.messages
+    return made("kitchen_can").messages
 
 
 def _laid_out(random: Random, message: Message, unit: int) -> bytes:

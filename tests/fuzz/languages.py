@@ -12,8 +12,8 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
+from support.described import made
 
 from fuzz.frames import CASES
 
@@ -62,9 +62,7 @@ class Result:
 def generate(work: Path) -> None:
     """The made devices in all languages, and the crate of the programs."""
     for name in DEVICES.values():
-        report = Report()
-        device = load_device(HERE.parent / "devices" / name / "device.yaml", report)
-        assert device is not None, report.findings
+        device = made(name)
         for _, path, text in outputs(device, ("c", "python", "rust")):
             (work / path).parent.mkdir(parents=True, exist_ok=True)
             (work / path).write_text(text, "utf-8")

@@ -23,7 +23,8 @@ from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
 from fieldscribe.wording.exact import rounded
 from jsonschema import Draft202012Validator
-from support.models import kitchen_sink, named
+from support.described import kitchen_sink
+from support.models import named
 from support.places import TESTS
 from support.python_package import imported, write_package
 

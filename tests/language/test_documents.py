@@ -6,14 +6,11 @@ import time
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
+from support.described import compile_in, together
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.diagnostics import Diagnostic
-    from fieldscribe.model import Device
 
 HEAD = """\
 fieldscribe: 1
@@ -82,23 +79,10 @@ points:
 OF_ALL = "enums:\n  contact: {0: open, 1: closed}\n"
 
 
-def found_in(folder: Path, **files: str) -> tuple[Device | None, tuple[Diagnostic, ...]]:
-    """The device of these files, and the findings."""
-    folder.mkdir(exist_ok=True)
-    for name, text in files.items():
-        (folder / f"{name}.yaml").write_text(text, "utf-8")
-    report = Report()
-    return load_device(folder / "device.yaml", report), report.findings
-
-
-def together(*documents: str) -> str:
-    return "---\n".join(documents)
-
-
 def test_parts_in_files_of_their_own(tmp_path: Path) -> None:
     """The shape of descriptions that stand outside this project."""
     parts = "parts: [bus.yaml, points.yaml, group_1.yaml]\n"
-    device, findings = found_in(tmp_path, device=HEAD + parts, bus=BUS, points=STATUS, group_1=GROUP_1)
+    device, findings = compile_in(tmp_path, device=HEAD + parts, bus=BUS, points=STATUS, group_1=GROUP_1)
     assert findings == ()
     assert device is not None
     assert [one.name for one in device.groups] == ["status", "group_1"]
@@ -108,8 +92,8 @@ def test_parts_in_files_of_their_own(tmp_path: Path) -> None:
 @pytest.mark.parametrize("documents", [(BUS, STATUS, GROUP_1), (BUS + STATUS, GROUP_1), (STATUS, GROUP_1, BUS)])
 def test_a_device_in_one_file_is_the_same(documents: tuple[str, ...], tmp_path: Path) -> None:
     parts = "parts: [bus.yaml, points.yaml, group_1.yaml]\n"
-    apart, _ = found_in(tmp_path / "apart", device=HEAD + parts, bus=BUS, points=STATUS, group_1=GROUP_1)
-    one_file, findings = found_in(tmp_path / "one_file", device=together(HEAD, *documents))
+    apart, _ = compile_in(tmp_path / "apart", device=HEAD + parts, bus=BUS, points=STATUS, group_1=GROUP_1)
+    one_file, findings = compile_in(tmp_path / "one_file", device=together(HEAD, *documents))
     assert findings == ()
     assert one_file == apart
 
@@ -119,7 +103,7 @@ def test_a_part_holds_several_documents(tmp_path: Path) -> None:
     head = HEAD + BUS + "parts: [points.yaml]\n"
     last = GROUP_1.replace("roup_1", "roup_2").replace("point_", "other_").replace("at: 1", "at: 2").replace("P", "Q")
     last = last.replace("modicon: [000Bh, 11], wire: [000Ah, 10]", "wire: 20")
-    device, findings = found_in(tmp_path, device=together(head, GROUP_1), points=together(STATUS, OF_ALL, last))
+    device, findings = compile_in(tmp_path, device=together(head, GROUP_1), points=together(STATUS, OF_ALL, last))
     assert findings == ()
     assert device is not None
     assert [one.name for one in device.groups] == ["group_1", "status", "group_2"]
@@ -127,7 +111,7 @@ def test_a_part_holds_several_documents(tmp_path: Path) -> None:
 
 def test_empty_documents_are_nothing(tmp_path: Path) -> None:
     text = together("", "# nothing yet\n", HEAD + BUS, "", "# nor here\n", STATUS, "")
-    device, findings = found_in(tmp_path, device=text)
+    device, findings = compile_in(tmp_path, device=text)
     assert findings == ()
     assert device is not None
     assert len(device.points) == 2
@@ -136,7 +120,7 @@ def test_empty_documents_are_nothing(tmp_path: Path) -> None:
 def test_findings_name_the_line_of_the_file(tmp_path: Path) -> None:
     """Each document is a part of its own: its keys are given once, its anchors end with it."""
     wrong = "group: more\nspace: holding\nspace: input\naccess: *rw\nsource: {section: x}\npoints: []\n"
-    _, findings = found_in(tmp_path, device=together(HEAD + BUS, STATUS.replace("rw", "&rw rw"), wrong))
+    _, findings = compile_in(tmp_path, device=together(HEAD + BUS, STATUS.replace("rw", "&rw rw"), wrong))
     first = (HEAD + BUS).count("\n") + STATUS.count("\n") + 2
     assert [(one.rule, one.span.line - first, one.span.column) for one in findings] == [
         ("duplicate-key", 3, 1),
@@ -158,14 +142,14 @@ def test_findings_name_the_line_of_the_file(tmp_path: Path) -> None:
     ],
 )
 def test_each_document_is_checked(wrong: str, rule: str, tmp_path: Path) -> None:
-    device, findings = found_in(tmp_path, device=together(HEAD + BUS, STATUS, wrong))
+    device, findings = compile_in(tmp_path, device=together(HEAD + BUS, STATUS, wrong))
     assert device is None
     assert [one.rule for one in findings] == [rule]
 
 
 @pytest.mark.parametrize("group", ["group: x\nspace: holding\npoints: []\n", "points: []\n"])
 def test_a_group_in_the_head_is_told_where_it_belongs(group: str, tmp_path: Path) -> None:
-    _, findings = found_in(tmp_path, device=HEAD + BUS + group)
+    _, findings = compile_in(tmp_path, device=HEAD + BUS + group)
     assert {one.rule for one in findings} == {"unknown-key"}
     assert all("below a line `---`" in (one.hint or "") for one in findings)
 
@@ -173,11 +157,11 @@ def test_a_group_in_the_head_is_told_where_it_belongs(group: str, tmp_path: Path
 @pytest.mark.parametrize("document", ["---\n", "--- {}\n", "---\nx-a: 1\n", "---\n...\n"])
 def test_the_number_of_documents_is_bounded(document: str, tmp_path: Path) -> None:
     started = time.process_time()
-    _, findings = found_in(tmp_path, device=HEAD + BUS + document * 100_000)
+    _, findings = compile_in(tmp_path, device=HEAD + BUS + document * 100_000)
     assert [one.rule for one in findings] == ["yaml-size"]
     assert time.process_time() - started < 5
 
 
 def test_a_file_of_empty_documents_is_empty(tmp_path: Path) -> None:
-    _, findings = found_in(tmp_path, device="---\n# nothing\n---\n")
+    _, findings = compile_in(tmp_path, device="---\n# nothing\n---\n")
     assert [one.rule for one in findings] == ["file-empty"]

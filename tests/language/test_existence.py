@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe import wording
-from fieldscribe.diagnostics import Report
 from fieldscribe.existence import Comparison, Condition, Domain, ends_before, possible
 from fieldscribe.export import export_model
 from fieldscribe.language.formula import Comparison as Parsed
 from fieldscribe.language.formula import clauses_of, condition_names, parse_condition
-from fieldscribe.pipeline import load_device
+from support.described import compile_in, described
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -98,28 +97,9 @@ def test_versions_are_compared_as_such(until: str | None, since: str | None, bef
     assert ends_before(until, since) == before
 
 
-HEAD = """\
-fieldscribe: 1
-device: made_up
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Made up
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-variants:
-  model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}
-bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
+POINTS = """\
 - {name: mode, at: 0, enum: {0: off, 1: slow, 2: fast}}
 - {name: level, at: 1, range: 0..100, scale: value = raw * 0.1, unit: V}
-"""
-
-APART = """\
 - {name: a, at: 10, when: mode == off}
 - {name: b, at: 10, when: "mode in (1, 2) and level < 5"}
 - {name: c, at: 10, when: mode != off and not level < 5}
@@ -135,11 +115,9 @@ APART = """\
 
 def test_points_apart_share_an_address(tmp_path: Path) -> None:
     """What is never there at once may stand at one address; the model has the conditions as structure."""
-    file = tmp_path / "device.yaml"
-    file.write_text(HEAD + APART, "utf-8")
-    report = Report()
-    device = load_device(file, report)
-    assert report.findings == ()
+    variants = '{model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}}'
+    device, findings = compile_in(tmp_path, described(POINTS, variants=variants))
+    assert findings == ()
     assert device is not None
     points = {point.name: point for point in device.points}
     assert [wording.condition_text(points[name].when, points) for name in "abcde"] == [

@@ -3,30 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import lru_cache
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.model import Device, Factor, Limit, Linear, Point
-from fieldscribe.pipeline import load_device
-from support.places import TESTS
-
-SINK = TESTS / "devices" / "kitchen_sink" / "device.yaml"
-
-
-@lru_cache(maxsize=1)
-def sink() -> Device:
-    """The device, which has no findings."""
-    report = Report()
-    device = load_device(SINK, report)
-    assert report.findings == ()
-    assert device is not None
-    return device
+from fieldscribe.model import Factor, Limit, Linear, Point
+from support.described import kitchen_sink
 
 
 def point(item: str) -> Point:
     """A point by its item name."""
-    return next(one for one in sink().points if one.item == item)
+    return next(one for one in kitchen_sink().points if one.item == item)
 
 
 def rule(item: str) -> Linear:
@@ -178,7 +163,7 @@ def test_units_of_floats() -> None:
 
 def test_enums() -> None:
     """Closed and open ones of one name, sets that share one, and one that has its own."""
-    names = {one.name: one for one in sink().enums}
+    names = {one.name: one for one in kitchen_sink().enums}
     assert {"mode", "source", "on_off", "event_code", "set_choice", "set_choice_set_3"} <= names.keys()
     mode = point("mode").enum
     assert mode is not None
@@ -219,7 +204,7 @@ def test_what_repeats() -> None:
     """Records and sets are points of their own, with titles that say so."""
     assert point("event_1_code").title == {"en": "Last event: Code", "de": "Letztes Ereignis: Kennung"}
     assert point("event_1_code").source.line == 12
-    assert [one.code for one in sink().points if one.record == "event_1"] == ["d081"] * 3
+    assert [one.code for one in kitchen_sink().points if one.record == "event_1"] == ["d081"] * 3
     assert point("acceleration_set_2").title == {"en": "Acceleration (set 2)"}
     assert point("acceleration_set_3").title == {"en": "Third acceleration"}
     assert [point(item).set for item in ("acceleration", "acceleration_set_2", "acceleration_set_3")] == [1, 2, 3]
@@ -262,19 +247,19 @@ def test_sources() -> None:
 def test_errata() -> None:
     """They reach the points and frames that they are about."""
     assert point("address_misprinted").errata == ("address_misprinted_decimal", "address_misprinted_choices")
-    assert [one.where for one in sink().errata if not one.points] == [
+    assert [one.where for one in kitchen_sink().errata if not one.points] == [
         "frame:start_misprinted",
         "table 3, modes",
         "function:8",
     ]
-    frame = next(one for one in sink().frames if one.name == "start_misprinted")
+    frame = next(one for one in kitchen_sink().frames if one.name == "start_misprinted")
     assert (frame.valid, frame.errata) == (False, ("start_crc",))
     assert frame.corrected.hex() == "01050000ff008c3a"
 
 
 def test_frames() -> None:
     """Their meaning is in raw numbers, in either framing."""
-    frames = {one.name: one for one in sink().frames}
+    frames = {one.name: one for one in kitchen_sink().frames}
     assert frames["read_speed_reply"].meaning == {"speed": 500}
     assert frames["write_mode"].meaning == {"mode": 3}
     assert frames["start"].meaning == {"run": 1}
@@ -285,11 +270,11 @@ def test_frames() -> None:
 
 def test_bus() -> None:
     """Limits, gaps and quirks of the device."""
-    bus = sink().bus
+    bus = kitchen_sink().bus
     assert [(one.number, one.most) for one in bus.functions][:4] == [(1, 64), (2, 64), (3, 16), (4, None)]
     assert bus.gaps == {"holding": ((2000, 2000), (0x800, 0xFFF)), "input": ((100, 199),)}
     assert bus.units == (1, 247)
-    assert [(one.name, one.address, one.value) for one in sink().commands] == [
+    assert [(one.name, one.address, one.value) for one in kitchen_sink().commands] == [
         ("store", 0x700, None),
         ("restart", 0x40, 1),
         ("switch_on", 0x1C11, 0x401),

@@ -3,72 +3,39 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cache
 from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.conversation.lookup import find
-from fieldscribe.diagnostics import Report
 from fieldscribe.export import export_model
 from fieldscribe.families.can.facts import identifier_of
 from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
-from fieldscribe.pipeline import load_device
 from fieldscribe.plain import digest, for_code
 from fieldscribe.wording import default_text
-from support.places import TESTS
+from support.described import compile_in, group, head, made, together
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.model import Device, Point
 
-DEVICES = TESTS / "devices"
-
-MODBUS = """fieldscribe: 1
-device: drive
-version: 1.0.0
-vendor: Acme
-model: X
-title: Drive
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus: {framings: [rtu], units: 1..32, functions: {03h: read, 06h: write, 10h: write_many}}
----
-group: a
-space: holding
-source: {document: manual, section: "1"}
-"""
-
-
-@cache
-def kitchen(name: str) -> Device:
-    """The device, which has no findings."""
-    report = Report()
-    device = load_device(DEVICES / name / "device.yaml", report)
-    assert report.findings == ()
-    assert device is not None
-    return device
-
 
 def point(name: str, item: str) -> Point:
     """A point of a kitchen by its item name."""
-    return next(one for one in kitchen(name).points if one.item == item)
+    return next(one for one in made(name).points if one.item == item)
 
 
-def made(tmp_path: Path, rows: str) -> Device:
-    """A Modbus device whose group ends with these lines, its points among them."""
-    file = tmp_path / "device.yaml"
-    file.write_text(MODBUS + rows, "utf-8")
-    report = Report()
-    device = load_device(file, report)
-    assert report.findings == ()
+def described_so(tmp_path: Path, points: str, **said: str) -> Device:
+    """A Modbus device whose group says that, and has these points; it has no findings."""
+    device, findings = compile_in(tmp_path, together(head(), group(points, **said)))
+    assert findings == ()
     assert device is not None
     return device
 
 
-NORD = """addressing: number * 64 + (index - 1) * sets + (set - 1)
-points:
+BY_SETS = "number * 64 + (index - 1) * sets + (set - 1)"
+NORD = """\
 - {name: alone, at: 601}
 - {name: by_set, title: {en: Ramp, de: Rampe}, at: 102, sets: 4, was: [ramp]}
 - {name: by_index, at: 607, indices: 2, each: {2: {code: P607b, title: Second, default: 5}}}
@@ -99,13 +66,13 @@ def test_addresses_by_rule(
     tmp_path: Path, item: str, address: int, number_of_set: int | None, index: int | None
 ) -> None:
     """The four cases of a drive with parameter sets and arrays."""
-    found = next(one for one in made(tmp_path, NORD).points if one.item == item)
+    found = next(one for one in described_so(tmp_path, NORD, addressing=BY_SETS).points if one.item == item)
     assert (found.address, found.set, found.index) == (address, number_of_set, index)
 
 
 def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
     """By index, by set and index; titles, codes and old names say which element it is."""
-    points = {one.item: one for one in made(tmp_path, NORD).points}
+    points = {one.item: one for one in described_so(tmp_path, NORD, addressing=BY_SETS).points}
     assert len(points) == 1 + 4 + 2 + 12 + 1 + 2 + 2
     assert points["by_index_index_2"].code == "P607b"
     assert points["by_index_index_2"].title == {"en": "Second"}
@@ -120,14 +87,14 @@ def test_elements_differ_where_each_says_so(tmp_path: Path) -> None:
 
 def test_a_rule_is_about_each_number_under_at(tmp_path: Path) -> None:
     """Also in records, in texts whose words run down, and in sets that have rows of their own."""
-    rows = """addressing: 1000h + number + (index - 1)
-points:
+    rows = """\
 - {name: label, at: 7..4, type: text, characters: 8}
 - {name: trip, record: log, at: 10h}
 - {name: ramp, at: 20h, set: 2, sets: {1: {at: 30h}, 3: {at: 30h, index: 5}}}
 records: {log: {points: [{name: error, at: base + 2}]}}
 """
-    found = {one.name: (one.addresses, one.set, one.index) for one in made(tmp_path, rows).points}
+    device = described_so(tmp_path, rows, addressing="1000h + number + (index - 1)")
+    found = {one.name: (one.addresses, one.set, one.index) for one in device.points}
     assert found == {
         "label": ((0x1007, 0x1006, 0x1005, 0x1004), None, None),
         "trip_error": ((0x1012,), None, None),
@@ -139,7 +106,7 @@ records: {log: {points: [{name: error, at: base + 2}]}}
 
 def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
     """Each follows from the other where no other point is needed; the nearer layer decides which of both is said."""
-    rows = """points:
+    rows = """\
 - {name: first, at: 1, scale: value = raw * 0.1, default: 0200h}
 - {name: in_units, at: 2, scale: value = raw * 0.1, default_in_units: 51.2}
 - {name: named, at: 3, scale: value = raw * 0.1, special: {7FFFh: idle}, default: idle}
@@ -153,7 +120,7 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
   default: 5
   sets: {2: {at: 10, default_in_units: 0.7}, 3: {at: 11}}
 """
-    found = {one.name: (one.default, one.default_raw, default_text(one)) for one in made(tmp_path, rows).points}
+    found = {one.name: (one.default, one.default_raw, default_text(one)) for one in described_so(tmp_path, rows).points}
     assert found == {
         "first": (Fraction("51.2"), 512, "51.2"),
         "in_units": (Fraction("51.2"), 512, "51.2"),
@@ -170,15 +137,15 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
     """`wire` is the address that a request names."""
-    row = "points:\n- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
-    assert made(tmp_path, row).points[0].addresses == (0x78, 0x77)
+    row = "- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    assert described_so(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 
 def test_an_unsettled_type_is_documented_only() -> None:
     """And the export has no type."""
     found = point("kitchen_can", "unclear")
     assert (found.generated, found.reason) == (False, "the manual does not settle its type")
-    exported = export_model(kitchen("kitchen_can"))["points"]
+    exported = export_model(made("kitchen_can"))["points"]
     assert isinstance(exported, list)
     assert next(one for one in exported if one["name"] == "unclear")["type"] is None
 
@@ -203,7 +170,7 @@ def test_digits() -> None:
     assert found.digits is not None
     assert (found.form, found.digits.count, found.digits.enum.name) == ("digits", 4, "input_delay")
     assert [(one.low, one.high) for one in found.allowed.intervals] == [(0, 5555)]
-    assert {"input_delay", "input_classes"} <= {one.name for one in kitchen("kitchen_can").enums}
+    assert {"input_delay", "input_classes"} <= {one.name for one in made("kitchen_can").enums}
 
 
 @pytest.mark.parametrize(
@@ -233,7 +200,7 @@ def test_flags_of_a_bit_group_count_from_its_lowest_bit() -> None:
 def test_errata_about_flags() -> None:
     """They reach the point, and say which flag."""
     assert point("kitchen_can", "relay_flags").errata == ("relay_horn",)
-    assert next(one.where for one in kitchen("kitchen_can").errata if one.id == "relay_horn") == "the flag horn"
+    assert next(one.where for one in made("kitchen_can").errata if one.id == "relay_horn") == "the flag horn"
 
 
 def test_limits_in_units_beside_a_factor() -> None:
@@ -266,7 +233,7 @@ def test_words_of_a_telegram(item: str, addresses: tuple[int, ...], references: 
 
 def test_messages() -> None:
     """The role of each byte."""
-    messages = {one.name: one for one in kitchen("kitchen_can").messages}
+    messages = {one.name: one for one in made("kitchen_can").messages}
     read = messages["read_request"]
     assert (read.identifier, read.adds_unit, read.direction, read.answers) == (0x33F, False, "request", None)
     assert read.roles == (
@@ -279,7 +246,7 @@ def test_messages() -> None:
     values = messages["measurements"]
     assert values.roles[1:] == (Role("multiplexer", 0), *(Role("word", number) for number in range(6)))
     assert values.words == 3
-    telegram = kitchen("kitchen_can").telegrams[0]
+    telegram = made("kitchen_can").telegrams[0]
     assert (telegram.name, telegram.words, telegram.message, telegram.direction) == (
         "measurements",
         16,
@@ -290,7 +257,7 @@ def test_messages() -> None:
 
 def test_can_frames() -> None:
     """Their meaning, and a checksum put right."""
-    frames = {one.name: one for one in kitchen("kitchen_can").frames}
+    frames = {one.name: one for one in made("kitchen_can").frames}
     assert frames["read_voltage_answer"].meaning == {"transformer_secondary": 400}
     assert frames["first_words"].meaning == {"frequency": 5000, "power_exponent": -1, "voltage_exponent": 2}
     wrong = frames["write_limit_answer"]
@@ -327,7 +294,7 @@ def test_a_floating_point_factor() -> None:
 
 def test_uss_frames() -> None:
     """Parameter parts, process data, broadcasts and whole telegrams, with what other points hold."""
-    frames = {one.name: one for one in kitchen("kitchen_uss").frames}
+    frames = {one.name: one for one in made("kitchen_uss").frames}
     assert {one.framing for one in frames.values()} == {"pkw", "pzd", "broadcast", "uss"}
     assert frames["read_maximum_answer"].meaning == {"maximum_frequency": 0x42480000}
     assert frames["read_baud_rate_answer"].meaning == {"baud_rate_index_1": 6}
@@ -344,7 +311,7 @@ def test_uss_frames() -> None:
 
 def test_uss_codes() -> None:
     """Tasks, responses and errors name each other."""
-    bus = kitchen("kitchen_uss").bus
+    bus = made("kitchen_uss").bus
     tasks = {one.number: one for one in bus.functions}
     assert (tasks[1].answers, tasks[1].refusals, tasks[4].answers) == ((1, 2), (7,), (3,))
     assert next(one for one in bus.codes("responses") if one.number == 7).answers == (
@@ -365,7 +332,7 @@ def test_uss_codes() -> None:
 
 def test_places_of_uss_parameters_in_the_export() -> None:
     """One for each task that reads or writes them."""
-    exported = export_model(kitchen("kitchen_uss"))["points"]
+    exported = export_model(made("kitchen_uss"))["points"]
     assert isinstance(exported, list)
     places = {one["name"]: [(two["for"], two["function"]) for two in one["places"]] for one in exported}
     assert places["command_source"] == [("read", 1), ("ram", 2), ("write", 14)]
@@ -382,7 +349,7 @@ def test_places_of_uss_parameters_in_the_export() -> None:
 @pytest.mark.parametrize("name", ["kitchen_can", "kitchen_uss"])
 def test_what_is_for_people_does_not_reach_code(name: str) -> None:
     """Titles, notes, sources and lines are not in the digest; they are gone before targets that make code."""
-    device = kitchen(name)
+    device = made(name)
     plain = for_code(device)
     assert digest(plain) == device.digest
     named = [(one.name, one.title) for one in plain.messages]
@@ -408,19 +375,18 @@ def test_what_is_for_people_does_not_reach_code(name: str) -> None:
 )
 def test_points_are_found(device: str, what: str, items: list[str]) -> None:
     """By address, index and printed number."""
-    found = dict.fromkeys(match.point.item for match in find(kitchen(device), what))
+    found = dict.fromkeys(match.point.item for match in find(made(device), what))
     assert list(found) == items
 
 
 def test_the_nearer_word_about_keeping_holds(tmp_path: Path) -> None:
     """Whether it is yes or no, or the name of a command."""
-    rows = """keeps: yes
-points:
+    rows = """\
 - {name: by_command, at: 1, keep_with: enter}
 - {name: by_itself, at: 2}
 commands:
 - {name: enter, at: 25, function: 06h, value: any}
 """
-    assert [one.keeps for one in made(tmp_path, rows).points] == ["enter", "yes"]
-    rows = rows.replace("keeps: yes", "keep_with: enter", 1).replace("at: 1, keep_with: enter", "at: 1, keeps: no")
-    assert [one.keeps for one in made(tmp_path, rows).points] == ["no", "enter"]
+    assert [one.keeps for one in described_so(tmp_path, rows, keeps="yes").points] == ["enter", "yes"]
+    rows = rows.replace("at: 1, keep_with: enter", "at: 1, keeps: no")
+    assert [one.keeps for one in described_so(tmp_path, rows, keep_with="enter").points] == ["no", "enter"]

@@ -6,34 +6,18 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
+from support.described import compile_in, described, loaded_in
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.diagnostics import Diagnostic
 
-HEAD = """\
-fieldscribe: 1
-device: made_up
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Test device
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus:
+BUS = """
   framings: [rtu]
   units: 1..247
-  functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
-- {name: mode, at: 900, range: 0..5}
-"""
+  functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}"""
+MODE = "- {name: mode, at: 900, range: 0..5}\n"
 _LINE = re.compile(r"`(([a-z_]+): .*?)`(?= |$|,|;|:)")
 
 WRITTEN = [
@@ -113,11 +97,12 @@ COUNTS = [
 def findings(folder: Path, facts: str, *, number: int = 1) -> tuple[Diagnostic, ...]:
     """What is found of a point with these facts."""
     space = ", space: coil" if "type: bit" in facts or "type: bool" in facts else ""
-    file = folder / "device.yaml"
-    file.write_text(f"{HEAD}- {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
-    report = Report()
-    load_device(file, report)
-    return report.findings
+    return found_in(f"- {{name: made, at: {number}{space}, {facts}}}\n", folder)
+
+
+def found_in(points: str, folder: Path) -> tuple[Diagnostic, ...]:
+    """What is found of these points beside `mode`."""
+    return compile_in(folder, described(MODE + points, bus=BUS))[1]
 
 
 def told(hint: str) -> str:
@@ -257,26 +242,16 @@ def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: s
     ],
 )
 def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: {name}, at: 1}}\n", "utf-8")
-    report = Report()
-    load_device(tmp_path / "device.yaml", report)
-    assert report.findings[0].hint == hint
+    assert found_in(f"- {{name: {name}, at: 1}}\n", tmp_path)[0].hint == hint
 
 
 @pytest.mark.parametrize("at", ["1 - 2", "1..2", "[1, 2]"])
 def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: {at}, type: u32}}\n", "utf-8")
-    report = Report()
-    load_device(tmp_path / "device.yaml", report)
-    assert "write `at: 1`" in (report.findings[0].hint or "")
+    assert "write `at: 1`" in (found_in(f"- {{name: made, at: {at}, type: u32}}\n", tmp_path)[0].hint or "")
 
 
 def test_an_address_may_be_computed(tmp_path: Path) -> None:
-    (tmp_path / "device.yaml").write_text(f"{HEAD}- {{name: made, at: 1029h - 1}}\n", "utf-8")
-    report = Report()
-    device = load_device(tmp_path / "device.yaml", report)
-    assert device is not None
-    assert device.points[1].address == 0x1028
+    assert loaded_in(tmp_path, described("- {name: made, at: 1029h - 1}\n")).points[0].address == 0x1028
 
 
 @pytest.mark.parametrize(
@@ -308,21 +283,16 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
-    assert right in HEAD
-    (tmp_path / "device.yaml").write_text(HEAD.replace(right, wrong, 1), "utf-8")
-    report = Report()
-    load_device(tmp_path / "device.yaml", report)
-    hints = [one.hint or "" for one in report.findings]
+    text = described(MODE, bus=BUS)
+    assert right in text
+    hints = [one.hint or "" for one in compile_in(tmp_path, text.replace(right, wrong, 1))[1]]
     assert any(hint in one for one in hints), hints
     assert len(hints) == 1 or "group" in right, hints
 
 
 def test_a_number_for_people_is_no_address(tmp_path: Path) -> None:
-    file = tmp_path / "device.yaml"
-    file.write_text(f"{HEAD}- {{name: made, at: 4x0010}}\n", "utf-8")
-    report = Report()
-    load_device(file, report)
-    assert "on the wire it is 9, in the space `holding`" in (report.findings[0].hint or "")
+    (first, *_) = found_in("- {name: made, at: 4x0010}\n", tmp_path)
+    assert "on the wire it is 9, in the space `holding`" in (first.hint or "")
 
 
 @pytest.mark.parametrize(
@@ -363,10 +333,3 @@ def test_a_scale_that_is_too_wide_names_a_way_that_works(factor: str, scale: str
     if room is not None:
         narrow = f"range: {room[2] or f'0..{room[1]}'}"
         assert not found_in(re.sub(r"range: [-.\d]+", narrow, said, count=1), tmp_path)
-
-
-def found_in(points: str, folder: Path) -> list[Diagnostic]:
-    report = Report()
-    (folder / "device.yaml").write_text(HEAD + points, "utf-8")
-    load_device(folder / "device.yaml", report)
-    return list(report.findings)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
+from support.described import head, together
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -20,23 +21,13 @@ PAGES = [DESCRIPTIONS / "README.md", *sorted((DESCRIPTIONS / "language").glob("*
 BLOCK = re.compile(r"^(## [^\n]*)$|^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"# (\w+\.yaml)\n")
 COMMAND = re.compile(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
-HEAD = """\
-fieldscribe: 1
-device: example
-version: 1.0.0
-vendor: Example
-model: E 1
-title: {en: Example}
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus:
+BUS = """
   framings: [rtu]
   units: 1..247
   functions:
     03h: {name: read_holding_registers, max: 125}
     06h: write_register
-    10h: {name: write_registers, max: 123}
-"""
+    10h: {name: write_registers, max: 123}"""
 GROUP = {"group": "{name}", "space": "holding", "access": "rw", "source": '{{document: manual, section: "1"}}'}
 """What the group of a fragment says, unless the page says it."""
 
@@ -100,14 +91,14 @@ def _of_fragments(page: Path, heading: str, fragments: list[str]) -> Iterator[De
             parts.append((group, points + text))
         else:
             shared += text
-    documents = [HEAD + shared]
+    documents = [head(device="example", bus=BUS) + shared]
     for number, (group, points) in enumerate(parts, 1):
         given = {line.partition(":")[0] for line in group.splitlines()}
         ours = "".join(
             f"{key}: {value.format(name=f'group_{number}')}\n" for key, value in GROUP.items() if key not in given
         )
         documents.append(f"{ours}{group}points:\n{points}" if points else f"{ours}{group}points: []\n")
-    yield Device(page.stem, heading, {"device.yaml": "---\n".join(documents)})
+    yield Device(page.stem, heading, {"device.yaml": together(*documents)})
 
 
 def _all() -> Iterator[Device]:

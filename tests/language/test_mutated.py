@@ -13,7 +13,7 @@ import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
-from support.descriptions_as_values import WHOLES, as_texts, as_yaml, changed, nodes, write_files
+from support.descriptions_as_values import WHOLES, as_texts, as_yaml, changed, nodes, rewrite
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -78,7 +78,7 @@ def _at(value: Any, path: tuple[Any, ...]) -> Any:
 def _compiles(texts: dict[str, str], folder: Path) -> bool:
     """Whether it passes `check`; then every target can do it."""
     report = Report()
-    device = load_device(write_files(folder / "device", texts), report)
+    device = load_device(rewrite(folder / "device", texts), report)
     assert (device is None) == report.has_errors
     for one in report.findings:
         assert one.message.isprintable()

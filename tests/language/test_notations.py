@@ -9,37 +9,20 @@ import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
-from fieldscribe.pipeline import load_device
-from support.descriptions_as_values import as_texts, write_files
-from support.places import ROOT, TESTS
+from support.described import DEVICES, compile_in, described, loaded
+from support.descriptions_as_values import as_texts, rewrite
+from support.places import ROOT
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.model import Device
 
-DEVICES = TESTS / "devices"
 REAL = ROOT / "descriptions"
 AS_WRITTEN = {"page", "serial", "timing", "errata", "values"}
 """What is repeated as it stands in the description."""
 FOLDERS = [*sorted(DEVICES.iterdir()), REAL / "nord_sk5xxe", REAL / "siemens_mm4"]
 
-HEAD = """\
-fieldscribe: 1
-device: drive
-version: 1.0.0
-vendor: Acme
-model: X
-title: Drive
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
-"""
+BUS = "{framings: [rtu], units: 1..32, functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}"
 
 
 def noted(value: Any, notation: str) -> Any:
@@ -53,13 +36,6 @@ def noted(value: Any, notation: str) -> Any:
     return notation.format(value) if notation and type(value) is int and value >= 0 else value
 
 
-def loaded(folder: Path) -> Device:
-    report = Report()
-    device = load_device(folder / "device.yaml", report)
-    assert device is not None, report.findings
-    return device
-
-
 @pytest.mark.parametrize("notation", ["0x{:x}", "0{:X}h", "H'{:X}", "0b{:b}", "{}"])
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation: str, tmp_path: Path) -> None:
@@ -67,8 +43,8 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
     files = {}
     for path in sorted(folder.glob("*.yaml")):
         files[path.name] = noted(load(SourceFile(path.name, path.read_text("utf-8")), Report()), notation)
-    write_files(tmp_path / "device", as_texts(files))
-    assert loaded(tmp_path / "device") == loaded(folder)
+    rewrite(tmp_path / "device", as_texts(files))
+    assert loaded(tmp_path / "device" / "device.yaml") == loaded(folder / "device.yaml")
 
 
 @pytest.mark.parametrize(
@@ -84,8 +60,6 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
     ],
 )
 def test_bounds_hold_in_every_notation(facts: str, message: str, tmp_path: Path) -> None:
-    file = tmp_path / "device.yaml"
-    file.write_text(f"{HEAD}- {{name: a, at: 1, {facts}}}\n", "utf-8")
-    report = Report()
-    assert load_device(file, report) is None
-    assert [one.message for one in report.findings] == [message]
+    device, findings = compile_in(tmp_path, described(f"- {{name: a, at: 1, {facts}}}\n", bus=BUS))
+    assert device is None
+    assert [one.message for one in findings] == [message]

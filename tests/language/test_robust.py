@@ -13,18 +13,8 @@ from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from support.descriptions_as_values import (
-    BAD,
-    DEVICES,
-    HOSTILE,
-    SINK,
-    WHOLES,
-    as_texts,
-    changed,
-    load_files,
-    nodes,
-    write_files,
-)
+from support.described import DEVICES, compiled, described
+from support.descriptions_as_values import BAD, HOSTILE, SINK, WHOLES, as_texts, changed, load_files, nodes, rewrite
 from support.made_up import write_device
 
 if TYPE_CHECKING:
@@ -178,9 +168,8 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
             short = text[:limit] + (str(paths.index(path)) if path[-1] == "code" else "")
             device = changed(device, path, short)
     device = json.loads(json.dumps(device).replace('"S01"', '"speed"'))
-    report = Report()
-    loaded = load_device(write_files(tmp_path / "device", as_texts(device)), report)
-    assert report.findings == ()
+    loaded, findings = compiled(rewrite(tmp_path / "device", as_texts(device)))
+    assert findings == ()
     assert loaded is not None
     for _, name, made in outputs(loaded, TARGETS):
         assert name.isascii()
@@ -197,9 +186,8 @@ def test_rows_cannot_explode(tmp_path: Path) -> None:
     group = "group: a\nspace: holding\naddressing: number\nsource: {document: manual, section: x}"
     texts = {**as_texts(SINK), "words.yaml": f"{group}\npoints: [{rows}]"}
     started = time.process_time()
-    report = Report()
-    load_device(write_files(tmp_path / "device", texts), report)
-    rules = {one.rule for one in report.findings}
+    _, findings = compiled(rewrite(tmp_path / "device", texts))
+    rules = {one.rule for one in findings}
     assert "too-many-items" in rules
     assert time.process_time() - started < 60
 
@@ -238,13 +226,10 @@ def test_many_errors_stay_quick(tmp_path: Path) -> None:
 
 def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
     """Thousands of points that each need the next one end in findings or a device."""
-    head = (DEVICES / "kitchen_sink" / "device.yaml").read_text("utf-8").partition("variants:")[0]
-    bus = "bus: {framings: [rtu], units: 1..9, functions: {03h: read}}\n"
-    group = '---\ngroup: main\nspace: holding\nsource: {document: manual, section: "1"}\npoints:\n'
     for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):
         points = [f"- {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
         started = time.process_time()
-        load_text(tmp_path, head + bus + group + "".join(points))
+        load_text(tmp_path, described("".join(points)))
         assert time.process_time() - started < 10
 
 

@@ -11,15 +11,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.diagnostics import Report
 from fieldscribe.export import export_model
 from fieldscribe.families.can.export.dbc import export_dbc
 from fieldscribe.model import Special
-from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, python, rust
-from support.c_device import KITCHENS, WARNINGS, kitchen, write_headers
-from support.models import kitchen_sink, named
+from support.c_device import WARNINGS, write_headers
+from support.described import DEVICES, kitchen_sink, loaded_in, made
+from support.models import named
 from support.python_package import error, imported, typed_findings, write_package
 from support.toolchains import compiled, succeed
 
@@ -29,13 +28,13 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
 
-CODES = str(KITCHENS / "kitchen_codes" / "device.yaml")
+CODES = str(DEVICES / "kitchen_codes" / "device.yaml")
 
 
 @lru_cache(maxsize=1)
 def device() -> Device:
     """The made device that has a code of every form."""
-    return kitchen("kitchen_codes")
+    return made("kitchen_codes")
 
 
 def codes_of(item: str) -> dict[str, tuple[int, int]]:
@@ -191,7 +190,7 @@ def test_encode_takes_codes_by_name_only_where_they_may_be_written(
 
 def test_a_real_drive_is_switched_off_by_name(capsys: Any) -> None:
     """A061 = 0 of the L200 is no 0 Hz."""
-    drive = str(KITCHENS.parents[1] / "descriptions" / "hitachi_l200")
+    drive = str(DEVICES.parents[1] / "descriptions" / "hitachi_l200")
     assert "raw 0" in run(capsys, "encode", drive, "A061", "inactive")[1]
     found, text = run(capsys, "encode", drive, "A061", "0", "--with", "A062=inactive", "--with", "A004=50")
     assert (found, "special code `inactive`" in text) == (1, True)
@@ -215,7 +214,7 @@ def test_export_lists_codes() -> None:
 
 def test_database_names_codes_and_bands() -> None:
     """In a CAN database small bands are named number by number, and the limits leave codes out."""
-    can = kitchen("kitchen_can")
+    can = made("kitchen_can")
     text = export_dbc(can, 1)
     assert '65532 "transducer_fault"' in text
     assert '65534 "reserved" 65535 "reserved"' in text
@@ -403,15 +402,13 @@ def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() ->
 
 def test_a_code_within_an_inherited_band_takes_the_band_away_and_names_the_rest(tmp_path: Path) -> None:
     """All patterns of NaN are one code of the type, and one of them means something else at one point."""
-    text = (KITCHENS / "kitchen_codes" / "device.yaml").read_text(encoding="utf-8")
+    text = (DEVICES / "kitchen_codes" / "device.yaml").read_text(encoding="utf-8")
     mended = text.replace(
         "special: {7FC00000h: {name: released, writable: yes}}",
         "special: {7FC00000h: released, 7FC00001h..7FC000FFh: ~, 7FC00080h: other, 7FC00081h..7FC000FFh: fault}",
     )
     assert mended != text
-    (tmp_path / "device.yaml").write_text(mended, encoding="utf-8")
-    found = load_device(tmp_path / "device.yaml", Report())
-    assert found is not None
+    found = loaded_in(tmp_path, mended)
     codes = {one.name: (one.low, one.high) for one in named(found, "setpoint").specials}
     assert codes["other"] == (0x7FC00080, 0x7FC00080)
     assert codes["fault"] == (0x7FC00081, 0x7FC000FF)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import shutil
 from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
 from fieldscribe.plain import digest, for_code
 from fieldscribe.targets import TARGETS, target
+from support.described import loaded, made
 from support.places import TESTS
 
 if TYPE_CHECKING:
@@ -26,15 +25,6 @@ CODE = [name for name in TARGETS if not target(name).FOR_PEOPLE]
 
 Step = tuple[str, Any]
 """A field, an index or a key on the way to a value."""
-
-
-@cache
-def kitchen(name: str) -> Device:
-    """A made device with its digest."""
-    report = Report()
-    device = load_device(DEVICES / name / "device.yaml", report)
-    assert device is not None, report.findings
-    return device
 
 
 def leaves(value: Any, owner: str = "", path: tuple[Step, ...] = ()) -> Iterator[tuple[str, tuple[Step, ...], Any]]:
@@ -88,7 +78,7 @@ def code(device: Device) -> dict[str, str]:
 @pytest.mark.parametrize("name", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
 def test_every_field_that_code_knows_counts(name: str) -> None:
     """Whatever changes in what code may know changes the digest; what is for people changes neither."""
-    device = kitchen(name)
+    device = made(name)
     plain = for_code(device)
     assert device.digest == digest(device) == digest(plain)
     counted = set()
@@ -132,8 +122,6 @@ def test_the_digest_changes_with_the_code(tmp_path: Path, edit: tuple[str, str, 
     text = (folder / file).read_text("utf-8")
     assert old in text
     (folder / file).write_text(text.replace(old, new, 1), "utf-8")
-    report, before = Report(), kitchen(name)
-    after = load_device(folder / "device.yaml", report)
-    assert after is not None, report.findings
+    before, after = made(name), loaded(folder / "device.yaml")
     assert (after.digest != before.digest) == counts
     assert (code(after) != code(before)) == counts

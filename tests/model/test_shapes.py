@@ -6,10 +6,9 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.model import Device, Enum, Interner, Point, Shape
-from fieldscribe.pipeline import load_device
+from fieldscribe.model import Enum, Interner, Point, Shape
 from fieldscribe.plain import for_code
+from support.described import loaded
 from support.models import allowed, changed, entry, point, scaled, titles
 from support.places import ROOT
 
@@ -17,13 +16,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 DESCRIPTIONS = sorted((ROOT / "descriptions").glob("*/device.yaml"))
-
-
-def loaded(file: Path) -> Device:
-    """A device of the repository."""
-    device = load_device(file, Report())
-    assert device is not None
-    return device
 
 
 @pytest.mark.parametrize("file", DESCRIPTIONS, ids=lambda file: file.parent.name)

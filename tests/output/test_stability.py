@@ -7,8 +7,8 @@ import shutil
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
+from support.described import loaded
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -19,10 +19,7 @@ CODE = ("c", "python", "rust")
 
 
 def compiled(folder: Path) -> dict[str, str]:
-    report = Report()
-    device = load_device(folder / "device.yaml", report)
-    assert device is not None, report.findings
-    return {path: text for _, path, text in outputs(device, CODE)}
+    return {path: text for _, path, text in outputs(loaded(folder / "device.yaml"), CODE)}
 
 
 @pytest.mark.parametrize(

@@ -7,18 +7,17 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Digits, Entry, Enum, Fixed, Flag, Limit, ScaleCase, Special, Text
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c, vectors
 
+from support.described import kitchen_sink, made
+from support.files import generate
 from support.made_once import made_once
 from support.models import (
     HERTZ,
     allowed,
+    device_of,
     entry,
-    kitchen_sink,
     linear,
-    made,
     point,
     sample_device,
     scaled,
@@ -26,7 +25,6 @@ from support.models import (
     units,
     value_of,
 )
-from support.places import TESTS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -35,7 +33,6 @@ if TYPE_CHECKING:
     import pytest
     from fieldscribe.model import Device, Point
 
-KITCHENS = TESTS / "devices"
 WARNINGS = (
     *("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion"),
     *("-Wcast-qual", "-Wundef", "-Wfloat-equal", "-Werror"),
@@ -62,27 +59,12 @@ def driver(compiler: str, standard: str) -> str:
 
 def write_c(device: Device, out: Path) -> Path:
     """Generates headers, conformance program, runtime and vectors of a device; returns the folder."""
-    write_files(dict(vectors.outputs(device, render)), out)
-    return write_headers(device, out)
+    return generate(device, out, c, vectors)
 
 
 def write_headers(device: Device, out: Path) -> Path:
     """Generates the same without the vectors; returns the folder."""
-    copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in c.runtime(device)}
-    return write_files({**dict(c.outputs(device, render)), **copies}, out)
-
-
-def write_files(texts: Mapping[str, str], out: Path) -> Path:
-    """Writes files by their paths in a folder; returns the folder."""
-    for path, text in texts.items():
-        (out / path).parent.mkdir(parents=True, exist_ok=True)
-        (out / path).write_text(text, encoding="utf-8")
-    return out
-
-
-def kitchen(name: str) -> Device:
-    """The device of that name that uses every mechanism of its family."""
-    return made(name)
+    return generate(device, out, c)
 
 
 def conformance_source(folder: Path, device: str) -> Path:
@@ -205,16 +187,15 @@ def rare_device() -> Device:
     """A device of rare points, whose texts try to leave their comments."""
     hostile = '*/ #error "out" ??/ // \\\n#error \u202e {{ x }} \\'
     points = tuple(replace(one, title={"en": hostile}, code='"\\') for one in rare_points())
-    device = replace(sample_device(points), id="rare", enums=(WIDE_NUMBERS,), blocks={}, frames=(), commands=())
-    groups = tuple(replace(group, title={"en": hostile}) for group in device.groups)
-    return replace(device, title={"en": hostile}, vendor=hostile, groups=groups, errata=())
+    device = device_of("rare", points, enums=(WIDE_NUMBERS,), title={"en": hostile}, vendor=hostile)
+    return replace(device, groups=tuple(replace(group, title={"en": hostile}) for group in device.groups))
 
 
 MADE: Mapping[str, Callable[[], Device]] = {
     "sample_drive": sample_device,
     "rare": rare_device,
     "kitchen_sink": kitchen_sink,
-    **{name: partial(kitchen, name) for name in ("kitchen_codes", "kitchen_can", "kitchen_uss")},
+    **{name: partial(made, name) for name in ("kitchen_codes", "kitchen_can", "kitchen_uss")},
 }
 
 

@@ -11,13 +11,14 @@ import yaml
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device
 
+from support.described import DEVICES
+from support.files import write_files
 from support.places import TESTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-DEVICES = TESTS / "devices"
 BAD = TESTS / "bad"
 
 HOSTILE = (
@@ -63,18 +64,15 @@ _NUMBERS = {"fieldscribe", "line", "max", "bytes", "broadcast", "wears", "choice
 def load_files(tmp_path: Path, files: dict[str, Any]) -> Report:
     """What the compiler finds in the values of some files."""
     report = Report()
-    device = load_device(write_files(tmp_path, as_texts(files)), report)
+    device = load_device(rewrite(tmp_path, as_texts(files)), report)
     assert (device is None) == report.has_errors
     return report
 
 
-def write_files(folder: Path, texts: dict[str, str]) -> Path:
+def rewrite(folder: Path, texts: dict[str, str]) -> Path:
     """Writes the files of a device, and no others; its device.yaml."""
     shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    for name, text in texts.items():
-        (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
-    return folder / "device.yaml"
+    return write_files(texts, folder) / "device.yaml"
 
 
 def as_texts(files: dict[str, Any]) -> dict[str, str]:

@@ -4,45 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from support.described import group, head, together, write
+
 if TYPE_CHECKING:
     from pathlib import Path
 
 POINTS_PER_GROUP = 250
 
-_HEAD = """\
-fieldscribe: 1
-device: {name}
-version: 1.0.0
-vendor: Fieldscribe
-model: Synthetic
-title: {{en: A device of {count} points, de: Ein Gerät mit {count} Punkten}}
-family: modbus
-documents:
-  manual: {{title: Synthetic manual, language: en}}
-bus:
+_BUS = """
   framings: [rtu, tcp]
   units: 1..247
   broadcast: 0
   functions:
-    03h: {{name: read_holding_registers, max: 125}}
+    03h: {name: read_holding_registers, max: 125}
     06h: write_register
-    10h: {{name: write_registers, max: 100}}
-enums:
-  contact: {{0: normally_open, 1: normally_closed, 2: disabled}}
-formats:
-  percent_tenth: {{range: 0..1000, scale: value = raw * 0.1, unit: "%"}}
-"""
-
-_GROUP = """\
----
-group: group_{number}
-title: {{en: Group {number}, de: Gruppe {number}}}
-space: holding
-access: rw
-source: {{document: manual, section: "{number}"}}
-numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
-points:
-"""
+    10h: {name: write_registers, max: 100}"""
+_OF_ALL = {
+    "title": "{en: A synthetic device, de: Ein erfundenes Gerät}",
+    "enums": "{contact: {0: normally_open, 1: normally_closed, 2: disabled}}",
+    "formats": '{percent_tenth: {range: 0..1000, scale: value = raw * 0.1, unit: "%"}}',
+}
 
 _KINDS = (
     "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50, printed: {{wire: {at:04X}h, resolution: 0.1 Hz}}",
@@ -59,22 +40,26 @@ _KINDS = (
 """The facts of a point by its last digit."""
 
 
-def description(count: int, name: str = "synthetic") -> str:
-    """The YAML of a device with so many points."""
-    lines = [_HEAD.format(name=name, count=count)]
-    for index in range(count):
-        if index % POINTS_PER_GROUP == 0:
-            lines.append(_GROUP.format(number=index // POINTS_PER_GROUP + 1))
-        at = index * 3
-        facts = _KINDS[index % len(_KINDS)].format(at=at, next=at + 1, limit=f"point_{index - 5}")
+def _points(first: int, last: int) -> str:
+    """Some of the points, three addresses apart."""
+    lines = []
+    for index in range(first, last):
+        facts = _KINDS[index % len(_KINDS)].format(at=index * 3, limit=f"point_{index - 5}")
         title = f"{{en: Point number {index}, de: Punkt Nummer {index}}}"
-        lines.append(f"- {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n")
+        lines.append(f"- {{code: P{index:05}, name: point_{index}, title: {title}, at: {index * 3:04X}h, {facts}}}\n")
     return "".join(lines)
 
 
 def write_device(folder: Path, count: int) -> Path:
-    """A device folder with its device.yaml, whose path is returned."""
-    folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "device.yaml"
-    file.write_text(description(count), "utf-8")
-    return file
+    """A device folder with so many points in its device.yaml, whose path is returned."""
+    groups = (
+        group(
+            _points(first, min(count, first + POINTS_PER_GROUP)),
+            group=f"group_{number}",
+            title=f"{{en: Group {number}, de: Gruppe {number}}}",
+            access="rw",
+            numbering="{modicon: wire + 1, reference: 400000 + modicon}",
+        )
+        for number, first in enumerate(range(0, count, POINTS_PER_GROUP), 1)
+    )
+    return write(folder, together(head(bus=_BUS, **_OF_ALL), *groups))

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
-from fieldscribe.diagnostics import Report
 from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
     TYPES,
@@ -36,11 +34,7 @@ from fieldscribe.model import (
     Special,
     Unit,
 )
-from fieldscribe.pipeline import load_device
 
-from support.places import TESTS
-
-MADE = TESTS / "devices"
 SOURCE = Source("manual", "Gruppe A", None, 780)
 NUMBER = Unit("", "number", "number")
 HERTZ = Unit("Hz", "hertz", "frequency")
@@ -333,6 +327,18 @@ def sample_device(points: tuple[Point, ...] | None = None) -> Device:
     )
 
 
+def enums_of(points: tuple[Point, ...]) -> tuple[Enum, ...]:
+    """All enums that points use, each once."""
+    used = [enum for one in points for enum in (one.enum, one.digits and one.digits.enum) if enum]
+    return tuple({enum.name: enum for enum in used}.values())
+
+
+def device_of(name: str, points: tuple[Point, ...], **facts: Any) -> Device:
+    """A device of these points and their enums; but for its facts it is the sample."""
+    bare: dict[str, Any] = {"enums": enums_of(points), "blocks": {}, "frames": (), "commands": (), "errata": ()}
+    return replace(sample_device(points), id=name, **{**bare, **facts})
+
+
 def trip_device() -> Device:
     """A 16-bit point for each kind of rule, whose every raw number may be written."""
     points = (
@@ -342,20 +348,7 @@ def trip_device() -> Device:
         point("falling", 3, "s16", scale=scaled(-10), decimals=1),
         point("shifted", 4, "s16", scale=scaled(10, "5/2"), decimals=2),
     )
-    return replace(sample_device(points), id="trips", enums=(), blocks={}, frames=(), commands=(), errata=())
-
-
-def kitchen_sink() -> Device:
-    """The device that uses every mechanism of the language, from its description."""
-    return made("kitchen_sink")
-
-
-@cache
-def made(name: str) -> Device:
-    """One of the devices that were made for the tests, from its description."""
-    device = load_device(MADE / name / "device.yaml", Report())
-    assert device is not None
-    return device
+    return device_of("trips", points)
 
 
 def named(device: Device, item: str) -> Point:

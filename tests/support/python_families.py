@@ -33,10 +33,10 @@ from support.models import (
     VOLT,
     WATT,
     allowed,
+    device_of,
     entry,
     linear,
     point,
-    sample_device,
     scaled,
     titles,
     units,
@@ -126,19 +126,14 @@ def can_device() -> Device:
     """A measuring device on CAN."""
     bus = Bus((), (0, 30), None, (), (), {}, {}, {}, {}, CanBus(125000, 11))
     telegram = Telegram("measurements", titles("Measurements"), "cyclic", 11, "measurements", SOURCE)
-    return replace(
-        sample_device(can_points()),
-        id="sample_can",
+    return device_of(
+        "sample_can",
+        can_points(),
         family="can",
         bus=bus,
         messages=can_messages(),
         telegrams=(telegram,),
         variants={"voltage": ("100V", "400V"), "size": ("small", "large")},
-        enums=(SWITCH, DELAY),
-        blocks={},
-        commands=(),
-        frames=(),
-        errata=(),
     )
 
 
@@ -191,19 +186,7 @@ def uss_device() -> Device:
         Telegram(name, titles(name), direction, 4, None, SOURCE)
         for name, direction in (("task", "request"), ("answer", "response"))
     )
-    return replace(
-        sample_device(uss_points()),
-        id="sample_uss",
-        family="uss",
-        bus=bus,
-        telegrams=telegrams,
-        variants={},
-        enums=(NORMALISATION,),
-        blocks={},
-        commands=(),
-        frames=(),
-        errata=(),
-    )
+    return device_of("sample_uss", uss_points(), family="uss", bus=bus, telegrams=telegrams, variants={})
 
 
 class CanUnit:

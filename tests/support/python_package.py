@@ -7,9 +7,9 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
+
+from support.files import generate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,12 +20,7 @@ if TYPE_CHECKING:
 
 def write_package(device: Device, out: Path) -> Path:
     """Generates the device's package and the runtime; returns the folder to import them from."""
-    texts = dict(target.outputs(device, render))
-    copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in target.runtime(device)}
-    for path, text in {**texts, **copies}.items():
-        (out / path).parent.mkdir(parents=True, exist_ok=True)
-        (out / path).write_text(text, encoding="utf-8")
-    return out / "python"
+    return generate(device, out, target) / "python"
 
 
 def imported(folder: Path, package: str) -> Iterator[Any]:

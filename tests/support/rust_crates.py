@@ -24,19 +24,18 @@ from fieldscribe.model import (
     Telegram,
     Text,
 )
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust, vectors
 
 from support.c_device import rare_points
+from support.files import generate
 from support.models import (
     SOURCE,
     allowed,
     changed,
+    device_of,
     entry,
     linear,
     point,
-    sample_device,
     scaled,
     titles,
     units,
@@ -52,42 +51,18 @@ if TYPE_CHECKING:
 HOSTILE = '*/ "#]\n#![cfg(no)] \u202e `x` [y](http://z) <b> {{ x }} \\'
 LONG = "a_point_whose_name_is_as_long_as_a_description_lets_names_be_xyz"
 ODD_ENTRIES = ("unknown", "other", "self", "none", "some", "ok", "err", "type", "a_1", "value_1_2", LONG)
-ODD_FLAGS = ("move", "loop", "self", "from_x", "as_y")
-ODD_NAMES = ("option", "ok", "err", "some", "none", "error", "point")
 
 
 def write_crate(device: Device, out: Path) -> Path:
     """Generates the crate, the runtime and the vectors of a device; returns the crate's folder."""
-    copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in rust.runtime(device)}
-    texts = {**dict(rust.outputs(device, render)), **dict(vectors.outputs(device, render)), **copies}
-    for path, text in texts.items():
-        (out / path).parent.mkdir(parents=True, exist_ok=True)
-        (out / path).write_text(text, encoding="utf-8")
+    generate(device, out, rust, vectors)
     return out / "rust" / device.id
-
-
-def enums_of(points: tuple[Point, ...]) -> tuple[Enum, ...]:
-    """All enums that points use, each once."""
-    used = [enum for one in points for enum in (one.enum, one.digits and one.digits.enum) if enum]
-    return tuple({enum.name: enum for enum in used}.values())
 
 
 def rare_device() -> Device:
     """Types, scales, limits and codes that few devices have, with texts that try to leave their comments."""
     points = tuple(replace(one, title={"en": HOSTILE}, note={"en": HOSTILE}, code=HOSTILE) for one in rare_points())
-    enums = enums_of(points)
-    return replace(
-        sample_device(points),
-        id="rare",
-        enums=enums,
-        blocks={},
-        frames=(),
-        commands=(),
-        errata=(),
-        title={"en": HOSTILE},
-        vendor=HOSTILE,
-        model=HOSTILE,
-    )
+    return device_of("rare", points, title={"en": HOSTILE}, vendor=HOSTILE, model=HOSTILE)
 
 
 def odd_points() -> tuple[Point, ...]:
@@ -145,9 +120,7 @@ def odd_points() -> tuple[Point, ...]:
 
 def odd_device() -> Device:
     """A device of odd points."""
-    points = odd_points()
-    enums = enums_of(points)
-    return replace(sample_device(points), id="odd", enums=enums, blocks={}, frames=(), commands=(), errata=())
+    return device_of("odd", odd_points())
 
 
 WORDS = tuple(("word", number) for number in range(6))
@@ -215,13 +188,12 @@ def can_points() -> tuple[Point, ...]:
 def can_device() -> Device:
     """A device with messages of its own."""
     bus = Bus((), (1, 30), None, (), (), {}, {}, {}, {}, CanBus(125000, 29))
-    points = can_points()
     telegrams = (
         Telegram("measured", titles("M"), "cyclic", 20, "measured", SOURCE),
         Telegram("telegram", titles("T"), "cyclic", 1, "message", SOURCE),
     )
-    base = replace(sample_device(points), id="odd_can", family="can", bus=bus, enums=enums_of(points))
-    return replace(base, blocks={}, frames=(), commands=(), errata=(), messages=can_messages(), telegrams=telegrams)
+    facts: dict[str, Any] = {"family": "can", "bus": bus, "messages": can_messages(), "telegrams": telegrams}
+    return device_of("odd_can", can_points(), **facts)
 
 
 def uss_bus() -> Bus:
@@ -261,10 +233,8 @@ def uss_points() -> tuple[Point, ...]:
 
 def uss_device() -> Device:
     """A drive on USS."""
-    points = uss_points()
     telegrams = tuple(
         Telegram(name, titles(name), direction, 10, None, SOURCE)
         for name, direction in (("task", "request"), ("answer", "response"))
     )
-    base = replace(sample_device(points), id="odd_uss", family="uss", bus=uss_bus(), enums=enums_of(points))
-    return replace(base, blocks={}, frames=(), commands=(), errata=(), telegrams=telegrams)
+    return device_of("odd_uss", uss_points(), family="uss", bus=uss_bus(), telegrams=telegrams)

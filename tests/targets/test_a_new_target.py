@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.resources import templates_dir
+from support.described import described, write
 from support.places import ROOT, TESTS
 
 if TYPE_CHECKING:
@@ -18,26 +19,6 @@ if TYPE_CHECKING:
 
 TOY = TESTS / "toy_target"
 LAST_LINE = '    "vectors",\n'
-
-DEVICE = """\
-fieldscribe: 1
-device: {device}
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Made up
-family: modbus
-documents: {{manual: {{title: Manual, language: en}}}}
-bus: {{framings: [rtu], units: 1..247, functions: {{03h: read_registers, 06h: write_register}}}}
----
-group: main
-space: holding
-source: {{document: manual, section: "1"}}
-points:
-- {{name: speed, at: 7}}
-- {{name: {second}, at: 8}}
-- {{name: {third}, at: 9}}
-"""
 
 
 class Compiler:
@@ -57,8 +38,8 @@ class Compiler:
         registry.write_text(text.replace(LAST_LINE, f'{LAST_LINE}    "toy",\n'), "utf-8")
 
     def describe(self, device: str = "made_up", second: str = "torque", third: str = "power") -> None:
-        text = DEVICE.format(device=device, second=second, third=third)
-        (self.folder / "device.yaml").write_text(text, "utf-8")
+        points = [f"- {{name: {name}, at: {at}}}\n" for at, name in enumerate(("speed", second, third), 7)]
+        write(self.folder, described("".join(points), device=device))
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         environment = {**os.environ, "PYTHONPATH": str(self.folder), "XDG_CACHE_HOME": str(self.folder / "cache")}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 import yaml
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir
+from support.described import shipped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -56,10 +54,8 @@ def breaches(german: str, english: str) -> list[str]:
 
 @pytest.mark.parametrize("name", DEVICES)
 def test_titles_use_the_words_of_the_glossary(name: str) -> None:
-    report = Report()
-    device = load_device(Path(descriptions_dir()) / name / "device.yaml", report)
-    assert device is not None, report.findings
-    pairs = dict.fromkeys((where, title["de"], title["en"]) for where, title in titles_of(device) if "de" in title)
+    titles = titles_of(shipped(name))
+    pairs = dict.fromkeys((where, title["de"], title["en"]) for where, title in titles if "de" in title)
     wrong = [f"{where}: {de} / {en}: {', '.join(found)}" for where, de, en in pairs if (found := breaches(de, en))]
     assert wrong == []
 

@@ -20,11 +20,11 @@ from support.c_device import (
     Folders,
     conformance_source,
     driver,
-    kitchen,
     rare_device,
     write_c,
 )
-from support.models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
+from support.described import kitchen_sink, made
+from support.models import FREQUENCY_SOURCE, point, sample_device, trip_device
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 from support.vector_file import counts_of, spoil
@@ -155,7 +155,7 @@ def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: 
     conforms(GENERATED, device, build, tmp_path)
 
 
-ALL = [sample_device(), rare_device(), kitchen_sink(), kitchen("kitchen_can"), kitchen("kitchen_uss")]
+ALL = [sample_device(), rare_device(), kitchen_sink(), made("kitchen_can"), made("kitchen_uss")]
 
 
 def frames_header(folder: Path, device: str) -> Path:

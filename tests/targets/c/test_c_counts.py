@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.targets.c.reciprocals import Numbers, reciprocal
 from support.c_device import SANITIZERS, WARNINGS, write_headers
-from support.models import point, sample_device, scaled
+from support.models import device_of, point, scaled
 from support.toolchains import compiled
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def device() -> Device:
         point(name, at, kind, scale=scale, decimals=decimals)
         for at, (name, (kind, scale, decimals, _, _)) in enumerate(SCALES.items())
     )
-    return sample_device(tuple(points))
+    return device_of("sample_drive", tuple(points))
 
 
 def bounds(kind: str) -> tuple[int, int]:

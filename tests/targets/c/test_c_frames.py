@@ -7,13 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
-from fieldscribe.resources import descriptions_dir, templates_dir
+from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
 from support import wrong_bytes
-from support.c_device import SANITIZERS, STANDARDS, WARNINGS, driver, kitchen, write_headers
+from support.c_device import SANITIZERS, STANDARDS, WARNINGS, driver, write_headers
+from support.described import made, shipped
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
@@ -30,7 +29,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The headers of a kitchen of each family, side by side."""
     out = tmp_path_factory.mktemp("kitchens")
     for name in KITCHENS:
-        write_headers(kitchen(name), out)
+        write_headers(made(name), out)
     return out / "c"
 
 
@@ -987,8 +986,8 @@ int main(void)
 def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
     """Frames, structs and enums of its own like constants and functions."""
     for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss"):
-        made = kitchen(name)
-        plain = replace(made, points=tuple(replace(one, was=()) for one in made.points))
+        kitchen = made(name)
+        plain = replace(kitchen, points=tuple(replace(one, was=()) for one in kitchen.points))
         points = tuple(replace(one, was=(f"old_{one.name}",)) if one.generated else one for one in plain.points)
         device = replace(plain, points=points)
         names = {name for one in c.identifiers(device) for name in one.names}
@@ -1135,8 +1134,7 @@ void start(void)
 
 def test_a_program_that_reads_registers_links_nothing_else(tmp_path: Path) -> None:
     """Requests bring what they need: neither what writes nor what reads bits is in the image."""
-    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
-    assert device is not None
+    device = shipped("hitachi_l200")
     write_headers(device, tmp_path)
     (tmp_path / "one.c").write_text(ONE_POINT, "utf-8")
     flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", f"-I{tmp_path / 'c'}")
@@ -1221,11 +1219,10 @@ def test_no_line_is_longer_than_a_screen(folder: Path) -> None:
 def test_the_drive_is_small() -> None:
     """What a firmware team is asked to vendor for the frames of 236 points, and of 268."""
     for name, lines, size in (("hitachi_l200", 700, 45_000), ("woodward_mpu2s", 2000, 110_000)):
-        device = load_device(descriptions_dir() / name / "device.yaml", Report())
-        assert device is not None
-        made = next(text for path, text in c.outputs(device, render) if path.endswith((f"{name}_modbus.h", "_can.h")))
-        assert made.count("\n") <= lines
-        assert len(made.encode()) <= size
+        outputs = c.outputs(shipped(name), render)
+        header = next(text for path, text in outputs if path.endswith((f"{name}_modbus.h", "_can.h")))
+        assert header.count("\n") <= lines
+        assert len(header.encode()) <= size
 
 
 README_USE = """
@@ -1249,8 +1246,7 @@ int use(void)
 def test_the_frames_of_the_readme_compile(tmp_path: Path) -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
     [calls] = re.findall(r'```c\n#define FIELDSCRIBE_IMPLEMENTATION.*\n#include "(?s:.*?)\n\n(?s:(.*?))```', readme)
-    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
-    assert device is not None
+    device = shipped("hitachi_l200")
     write_headers(device, tmp_path)
     calls = calls.replace("uint16_t words[2];\n", "")
     head = '#define FIELDSCRIBE_IMPLEMENTATION\n#include "hitachi_l200_modbus.h"\n'

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from support.c_device import WARNINGS, conformance_source, write_files, write_headers
-from support.models import point, sample_device, scaled
+from support.c_device import WARNINGS, conformance_source, write_headers
+from support.files import write_files
+from support.models import device_of, point, scaled
 from support.toolchains import compiled, gcc_for_32_bits, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ NO_FLOAT = "-DFIELDSCRIBE_NO_FLOAT"
 def narrow(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The header of a device all of whose points have at most 24 significant bits."""
     points = (point("speed", 0, scale=scaled(10), decimals=1), point("torque", 1, "s16", scale=scaled(100), decimals=2))
-    return write_headers(sample_device(points), tmp_path_factory.mktemp("narrow")) / "c/sample_drive.h"
+    return write_headers(device_of("sample_drive", points), tmp_path_factory.mktemp("narrow")) / "c/sample_drive.h"
 
 
 @pytest.mark.parametrize("mode", ["gnu99", "c99", "c17", "gnu++17"])

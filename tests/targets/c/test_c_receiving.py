@@ -7,10 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
-from fieldscribe.resources import descriptions_dir, templates_dir
-from support.c_device import SANITIZERS, WARNINGS, kitchen, write_headers
+from fieldscribe.resources import templates_dir
+from support.c_device import SANITIZERS, WARNINGS, write_headers
+from support.described import made, shipped
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The headers of a kitchen of each family, side by side."""
     out = tmp_path_factory.mktemp("kitchens")
     for name in KITCHENS.values():
-        write_headers(kitchen(name), out)
+        write_headers(made(name), out)
     return out / "c"
 
 
@@ -179,8 +178,7 @@ int main(void)
 def test_the_recipe_of_a_runtime_works(family: str, tmp_path: Path) -> None:
     """As it stands there, also with a byte of noise before each request; its names are each of one thing."""
     name = DEVICES[family]
-    device = load_device(descriptions_dir() / name / "device.yaml", Report())
-    assert device is not None
+    device = shipped(name)
     write_headers(device, tmp_path)
     program = ("" if family == "can" else SERIAL_LINE) + RECIPES[family].replace("@RECIPE@", recipe(family))
     head = f'#include <stdlib.h>\n#define FIELDSCRIBE_IMPLEMENTATION\n#include "{name}_{family}.h"\n'
@@ -451,7 +449,7 @@ def test_where_there_is_nothing_nothing_is_read_or_stored(family: str, folder: P
 def test_headers_of_two_descriptions_do_not_compile_together(family: str, tmp_path: Path) -> None:
     """One that was left behind when the other was generated anew is named."""
     name = KITCHENS[family]
-    device = kitchen(name)
+    device = made(name)
     write_headers(device, tmp_path)
     frames = tmp_path / "c" / f"{name}_{family}.h"
     check: list[str | Path] = [tool("gcc"), "-std=c99", *WARNINGS, "-fsyntax-only", "-x", "c", frames]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.diagnostics import Report
 from fieldscribe.export import export_model
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
 from fieldscribe.targets import TARGETS
+from support.described import described, loaded_in
 from support.python_package import imported, write_package
 
 if TYPE_CHECKING:
@@ -16,21 +16,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
 
-TEXT = """\
-fieldscribe: 1
-device: made_up
-version: 1.0.0
-vendor: Maker
-model: M1
-title: Made up
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-bus: {framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
+BUS = "{framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}"
+POINTS = """\
 - {name: energy, at: 10, untyped: "48-bit counter, the high word first", length: 3}
 - {name: open_size, at: 20, type: ~, unit: W}
 - {name: open_scale, at: 21, scale: ~, type: u32}
@@ -42,12 +29,7 @@ points:
 @pytest.fixture(scope="module")
 def device(tmp_path_factory: pytest.TempPathFactory) -> Device:
     """A device whose manual leaves some things open."""
-    file = tmp_path_factory.mktemp("documented") / "device.yaml"
-    file.write_text(TEXT, "utf-8")
-    report = Report()
-    found = load_device(file, report)
-    assert found is not None, report.findings
-    return found
+    return loaded_in(tmp_path_factory.mktemp("documented"), described(POINTS, bus=BUS))
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from fieldscribe.asked import Options
 from fieldscribe.conversation.listener import decode
 from fieldscribe.families.can.frames import CanFrame, parse
 from support import wrong_bytes
-from support.c_device import kitchen
+from support.described import made
 from support.python_families import AsyncCanUnit, CanUnit, can_device
 from support.python_package import error, imported, typed_findings, write_package
 
@@ -53,7 +53,7 @@ def mpu(package: Any, unit: CanUnit) -> Any:
 
 @pytest.fixture(scope="module")
 def kitchen_package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    folder = write_package(kitchen("kitchen_can"), tmp_path_factory.mktemp("kitchen"))
+    folder = write_package(made("kitchen_can"), tmp_path_factory.mktemp("kitchen"))
     yield from imported(folder, "kitchen_can")
 
 
@@ -95,12 +95,12 @@ def test_units_that_the_device_cannot_have_are_refused(kitchen_package: Any) -> 
 
 def described(name: str) -> Message:
     """A message as the compiler knows it."""
-    return next(one for one in kitchen("kitchen_can").messages if one.name == name)
+    return next(one for one in made("kitchen_can").messages if one.name == name)
 
 
 def hear_kitchen(text: str) -> Heard:
     """What the command line makes of a frame."""
-    return decode(kitchen("kitchen_can"), {}, [text], Options())[0]
+    return decode(made("kitchen_can"), {}, [text], Options())[0]
 
 
 def test_parameters(mpu: Any, unit: CanUnit) -> None:

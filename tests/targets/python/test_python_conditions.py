@@ -6,9 +6,9 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.pipeline import outputs
 from fieldscribe.plain import for_code
+from support.described import group, head, loaded_in, together
 from support.python_package import Slave, error, imported, write_package
 
 if TYPE_CHECKING:
@@ -16,33 +16,16 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
 
-TEMPCO = """\
-fieldscribe: 1
-device: tempco
-version: 1.0.0
-vendor: Maker
-model: T1
-title: Temperature controller
-family: modbus
-documents: {manual: {title: Manual, language: en}}
-variants: {model: {title: Model, values: {basic: {}, pro: {}}}}
-bus: {framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}
----
-group: main
-space: holding
-source: {document: manual, section: "1"}
-points:
+BUS = "{framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}"
+MAIN = """\
 - {name: actual, at: 9, access: r}
 - {name: highest, at: 10, range: 0..400}
 - {name: cascade, at: 11, range: 0 .. highest.raw, when: model == pro, special: {50: {name: off, en: "Off"}}}
 - {name: output, at: 12, access: r}
 - {name: newer, at: 14, access: r, since: firmware 2}
 - {name: trend, at: 15, access: r, when: model == pro and highest == 1}
----
-group: other
-space: holding
-source: {document: manual, section: "2"}
-points:
+"""
+OTHER = """\
 - {name: last, at: 13, access: r}
 - {name: final, at: 16, access: r}
 """
@@ -61,12 +44,8 @@ class Basic(Slave):
 
 @pytest.fixture(scope="module")
 def tempco(tmp_path_factory: pytest.TempPathFactory) -> Device:
-    file = tmp_path_factory.mktemp("tempco") / "device.yaml"
-    file.write_text(TEMPCO, "utf-8")
-    report = Report()
-    device = load_device(file, report)
-    assert device is not None, report.findings
-    return device
+    said = head(device="tempco", bus=BUS, variants="{model: {title: Model, values: {basic: {}, pro: {}}}}")
+    return loaded_in(tmp_path_factory.mktemp("tempco"), together(said, group(MAIN), group(OTHER, group="other")))
 
 
 @pytest.fixture(scope="module")

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 import pytest
 from conformance.runtime import CHECKS
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import find_devices, load_device
+from fieldscribe.pipeline import find_devices
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import vectors
-from support.c_device import kitchen, rare_device
-from support.models import kitchen_sink, sample_device
+from support.c_device import rare_device
+from support.described import kitchen_sink, loaded, made
+from support.models import sample_device
 from support.places import TESTS
 from support.python_families import can_device, uss_device
 from support.python_package import write_package
@@ -58,8 +59,7 @@ def shipped() -> list[Path]:
 
 @pytest.mark.parametrize("description", shipped(), ids=lambda path: path.parent.name)
 def test_shipped_devices_pass(description: Path, tmp_path: Path) -> None:
-    device = load_device(description, Report())
-    assert device is not None
+    device = loaded(description)
     every_vector_passes(device, write_package(device, tmp_path))
 
 
@@ -69,7 +69,7 @@ def test_all_vectors_pass(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     "device",
-    [with_enums(rare_device()), odd_device(), kitchen_sink(), kitchen("kitchen_can"), can_device(), uss_device()],
+    [with_enums(rare_device()), odd_device(), kitchen_sink(), made("kitchen_can"), can_device(), uss_device()],
     ids=lambda device: str(device.id),
 )
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:
@@ -92,8 +92,7 @@ def every_vector_passes(device: Device, folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["kitchen_codes", "kitchen_can", "kitchen_uss"])
 def test_kitchens_pass(name: str, tmp_path: Path) -> None:
-    device = load_device(TESTS / "devices" / name / "device.yaml", Report())
-    assert device is not None
+    device = made(name)
     every_vector_passes(device, write_package(device, tmp_path))
 
 

@@ -11,9 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
 from fieldscribe.model import Flag
-from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
@@ -23,9 +21,9 @@ from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
-from support.c_device import kitchen
+from support.described import kitchen_sink, made, shipped
 from support.made_once import made_once
-from support.models import entry, kitchen_sink, point, sample_device, titles, trip_device
+from support.models import entry, point, sample_device, titles, trip_device
 from support.places import ROOT, TESTS
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from support.toolchains import run, succeed, tool
@@ -47,10 +45,10 @@ MODELS: dict[str, Callable[[], Device]] = {
     "odd": odd_device,
     "trips": trip_device,
     "kitchen_sink": kitchen_sink,
-    "kitchen_codes": partial(kitchen, "kitchen_codes"),
-    "kitchen_can": partial(kitchen, "kitchen_can"),
-    "kitchen_uss": partial(kitchen, "kitchen_uss"),
-    "result": partial(kitchen, "odd_names"),
+    "kitchen_codes": partial(made, "kitchen_codes"),
+    "kitchen_can": partial(made, "kitchen_can"),
+    "kitchen_uss": partial(made, "kitchen_uss"),
+    "result": partial(made, "odd_names"),
     "odd_can": can_device,
     "odd_uss": uss_device,
 }
@@ -117,9 +115,7 @@ def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path
 
 def write_libraries(workspace: Path, out: Path) -> None:
     for name in GATEWAYS:
-        device = load_device(ROOT / "descriptions" / name / "device.yaml", Report())
-        assert device is not None
-        write_crate(device, out)
+        write_crate(shipped(name), out)
     (out / "built").mkdir()
     for name in ("fieldscribe_runtime", *MODELS, *GATEWAYS):
         folder = out / "rust" if name in GATEWAYS else workspace
@@ -224,8 +220,7 @@ def test_what_is_only_documented_has_its_address() -> None:
     device = sample_device((settled, replace(settled, name="ramp", code="P1", generated=False)))
     assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
     assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
-    drive = load_device(ROOT / "descriptions/nord_sk5xxe/device.yaml", Report())
-    assert drive is not None
+    drive = shipped("nord_sk5xxe")
     known = ["h (" in line for line in left_out(drive)]
     assert known == [bool(one.places) for one in drive.points if not one.generated]
     assert any(known)

@@ -8,12 +8,11 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
 from fieldscribe.targets.vectors import outputs
 from independent.answers import Point, UnknownError, float_of
 from independent.arithmetic import nearest
 from independent.reader import read
+from support.described import loaded
 from support.places import ROOT
 from support.vector_file import File, Vector
 
@@ -131,8 +130,7 @@ def _outcome(vector: Vector, points: Points) -> bool | None:
 
 def _vectors(folder: Path) -> Iterator[Vector]:
     """The vectors of a device; each knows the unit of the counts of its point, which the compiler chooses."""
-    device = load_device(folder / "device.yaml", Report())
-    assert device is not None
+    device = loaded(folder / "device.yaml")
     ((_, text),) = outputs(device, lambda *_: "")
     decimals = {point.item: point.decimals for point in device.points}
     for vector in File(text):

@@ -1,26 +1,14 @@
-"""The shipped devices with frames of their own, as tests use them, and frames built by hand."""
+"""Points of devices with frames of their own, and such frames built by hand."""
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.frames import build
 from fieldscribe.families.uss.telegrams import telegram
-from fieldscribe.pipeline import load_device
-from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
-
-
-@lru_cache
-def shipped(name: str) -> Device:
-    """A device of the shipped descriptions."""
-    device = load_device(descriptions_dir() / name / "device.yaml", Report())
-    assert device is not None
-    return device
 
 
 def coded(device: Device, code: str) -> Point:

@@ -1,0 +1,32 @@
+"""Files that tests write: their own, and those of targets with the runtime beside them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+    from types import ModuleType
+
+    from fieldscribe.model import Device
+
+
+def write_files(texts: Mapping[str, str], out: Path) -> Path:
+    """Writes files by their paths in a folder, even what is no text; returns the folder."""
+    out.mkdir(parents=True, exist_ok=True)
+    for path, text in texts.items():
+        (out / path).parent.mkdir(parents=True, exist_ok=True)
+        (out / path).write_bytes(text.encode("utf-8", "surrogatepass"))
+    return out
+
+
+def generate(device: Device, out: Path, *targets: ModuleType) -> Path:
+    """Writes what these targets make of a device, and their runtimes; returns the folder."""
+    for target in targets:
+        copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in target.runtime(device)}
+        write_files({**dict(target.outputs(device, render)), **copies}, out)
+    return out
