@@ -136,7 +136,8 @@ def _of_structure(random: Random) -> dict[str, str]:
 def _of_one_file(random: Random, device: dict[str, Any], header: dict[str, Any]) -> dict[str, Any]:
     """The same device as documents of one file, some of its parts alone."""
     head = {key: value for key, value in header.items() if key != "parts"}
-    parts = [part for name, documents in device.items() if name != "device.yaml" for part in documents]
+    files = [documents for name, documents in device.items() if name != "device.yaml"]
+    parts = [part for documents in files for part in (documents if isinstance(documents, list) else [documents])]
     return {"device.yaml": [head, *random.sample(parts, min(len(parts), random.randint(1, 4)))]}
 
 
