@@ -127,7 +127,7 @@ def test_check_a_whole_device(run: Callable[..., Result]) -> None:
 
 
 def test_check(run: Callable[..., Result], small: Path) -> None:
-    assert run("check").out == "small_drive: 4 points (4 generated) in 1 groups, 0 errata, 0 printed frames\n"
+    assert run("check").out == "small_drive: 4 points (4 generated) in 1 group, 0 errata, 0 printed frames\n"
     data = json.loads(run("check", "--format", "json").out)
     assert data["findings"] == []
     assert data["devices"][0]["points"] == 4

@@ -77,10 +77,18 @@ def _facts(device: Device) -> dict[str, object]:
 
 
 def _line(facts: dict[str, object]) -> str:
+    from fieldscribe.wording.buses import counted
+
     by_certainty = facts["errata_by_certainty"]
     assert isinstance(by_certainty, dict)
     certainty = ", ".join(f"{count} {name}" for name, count in by_certainty.items())
+    counts = {key: value for key, value in facts.items() if isinstance(value, int)}
+    points, groups, frames = (
+        counted(counts[key], what)
+        for key, what in (("points", "point"), ("groups", "group"), ("frames", "printed frame"))
+    )
+    errata = f"{counts['errata']} {'erratum' if counts['errata'] == 1 else 'errata'}"
     return (
-        f"{facts['device']}: {facts['points']} points ({facts['generated']} generated) in {facts['groups']} groups, "
-        f"{facts['errata']} errata{f' ({certainty})' if certainty else ''}, {facts['frames']} printed frames"
+        f"{facts['device']}: {points} ({counts['generated']} generated) in {groups}, "
+        f"{errata}{f' ({certainty})' if certainty else ''}, {frames}"
     )
