@@ -13,7 +13,7 @@ from fieldscribe.pipeline import load_device, outputs
 from fieldscribe.targets import TARGETS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from support.described import DEVICES, compiled, described
+from support.described import DEVICES, compiled, described, loaded_in
 from support.descriptions_as_values import BAD, HOSTILE, SINK, WHOLES, as_texts, changed, load_files, nodes, rewrite
 from support.made_up import write_device
 
@@ -246,3 +246,13 @@ def test_cost_grows_with_the_points(tmp_path: Path) -> None:
             best.append(time.process_time() - started)
         seconds.append(min(best))
     assert seconds[1] < 25 * seconds[0]
+
+
+def test_a_factor_that_can_only_be_zero_is_a_device(tmp_path: Path) -> None:
+    """Every value is then an error at run time, and no number is too large for it."""
+    points = """\
+- {name: ratio, at: 1, range: 0..0}
+- {name: power, at: 2, type: s64, scale: value = raw / ratio}
+- {name: force, at: 6, type: s64, scale: value = raw * ratio}
+"""
+    assert len(loaded_in(tmp_path, described(points)).points) == 3

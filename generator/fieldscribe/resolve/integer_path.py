@@ -160,8 +160,10 @@ def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numera
         return None
     least = _largest(draft, bounds)
     parts = [(case.rule.offset, _needs(case.rule, 0, bounds).down) for case in cases]
-    most = min((numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
-    return None if most >= max(map(abs, bounds.holds[draft])) else max(least, most)
+    # a factor that is 0 throughout makes the numerator 0, whatever the raw number is
+    mosts = [(numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts if down]
+    most = min(mosts, default=None)
+    return None if most is None or most >= max(map(abs, bounds.holds[draft])) else max(least, most)
 
 
 def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
