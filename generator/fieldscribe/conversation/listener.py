@@ -74,4 +74,4 @@ class Listener:
 
 def _says(hearing: Hearing, carried: Carried) -> Iterable[Item]:
     says = _SAYS.get(type(carried))
-    return (carried,) if says is None else says(hearing, carried)  # type: ignore[return-value]  # of its kind
+    return (carried,) if says is None else says(hearing, carried)  # type: ignore[return-value]  # others are items
