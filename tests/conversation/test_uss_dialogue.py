@@ -17,8 +17,9 @@ from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.speech import UssSpeech
-from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
+from fieldscribe.families.uss.telegrams import Request, parse, telegram
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st

@@ -48,7 +48,7 @@ def write_request(
     values = words_of(point, raw, place.addresses)
     to = device.bus.usual_unit if unit is None else unit
     request = Request(to, _function(device, place), min(place.addresses), len(values), values)
-    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
+    chosen = framing or framings_of(device.bus)[0]
     status, data = build(profile_of(device.bus), chosen, request)
     if status != "ok":
         raise refused(device.bus, point, status, _hint(device, status))

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.families.answers import Way
 from fieldscribe.families.uss.links import default_link
+from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
 from fieldscribe.families.uss.remarks import code_text
 from fieldscribe.families.uss.sending import part_words, read_request
-from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ from fieldscribe.arithmetic.words import insert, words_of
 from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.uss.links import asked, link_of
-from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
+from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.text import line
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import numbered, spaced
