@@ -58,9 +58,14 @@ def checksum(data: Sequence[int], mask: int) -> int:
     return result
 
 
+def places(message: Message, kind: str) -> list[int]:
+    """The bytes of the message with a role of this kind."""
+    return [place for place, role in enumerate(message.roles) if role.kind == kind]
+
+
 def carries(message: Message, kind: str) -> bool:
     """Whether any byte of the message has a role of this kind."""
-    return any(role.kind == kind for role in message.roles)
+    return bool(places(message, kind))
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
@@ -102,9 +107,8 @@ def build(message: Message, units: tuple[int, int], unit: int, address: int, raw
         if not low <= number <= high:
             return status, CanFrame(0, b"")
     data = [_byte(role, unit, address, raw) for role in message.roles]
-    for place, role in enumerate(message.roles):
-        if role.kind == "xor":
-            data[place] = checksum(data, role.number)
+    for place in places(message, "xor"):
+        data[place] = checksum(data, message.roles[place].number)
     return "ok", CanFrame(identifier(message, unit), bytes(data))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, CanFrame, Difference, carried, carries, differences, unit_of
+from fieldscribe.families.can.frames import LENGTH, CanFrame, Difference, carried, carries, differences, places, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -70,5 +70,5 @@ def _read(device: Device, message: Message, unit: int | None, frame: CanFrame) -
 
 def _is_kind(reading: Recognised) -> bool:
     """Whether the first constant byte is that of the message; else it is another message."""
-    first = next((place for place, role in enumerate(reading.message.roles) if role.kind == "constant"), None)
-    return all(difference.place != first for difference in reading.differences)
+    first = places(reading.message, "constant")[:1]
+    return all(difference.place not in first for difference in reading.differences)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, carries, checksum
+from fieldscribe.families.can.frames import LENGTH, carries, checksum, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
 from fieldscribe.wording.buses import check_text, strange_unit, words_text
@@ -34,7 +34,7 @@ def message_text(recognised: Recognised, telegram: Telegram | None) -> str:
     return f"{head}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
 
 
-def identifiers_text(device: Device) -> str:
+def foreign_note(device: Device) -> str:
     """Which identifiers the messages have: `33Fh read_request, write_request; 320h to 33Eh visualisation, ...`."""
     low, high = device.bus.units
     names: dict[str, list[str]] = {}
@@ -43,7 +43,8 @@ def identifiers_text(device: Device) -> str:
         if message.adds_unit:
             where = f"{hex_text(message.identifier + low, 3)} to {hex_text(message.identifier + high, 3)}"
         names.setdefault(where, []).append(message.name)
-    return "; ".join(f"{where} {', '.join(here)}" for where, here in names.items())
+    known = "; ".join(f"{where} {', '.join(here)}" for where, here in names.items())
+    return f"no message of {device.id} has this identifier: {known}"
 
 
 def faults(recognised: Recognised, bus: Bus) -> Iterator[str]:
@@ -61,13 +62,9 @@ def faults(recognised: Recognised, bus: Bus) -> Iterator[str]:
 def checks_text(recognised: Recognised) -> str:
     """What the checksum of a frame says; empty where it has none."""
     data = recognised.frame.data
-    sums = [
-        (data[at], checksum(data, role.number))
-        for at, role in enumerate(recognised.message.roles)
-        if role.kind == "xor"
-    ]
-    here, right = (bytes(pair[at] for pair in sums) for at in (0, 1))
-    return check_text(here, right) if sums else ""
+    sums = places(recognised.message, "xor")
+    right = bytes(checksum(data, recognised.message.roles[place].number) for place in sums)
+    return check_text(bytes(data[place] for place in sums), right) if sums else ""
 
 
 def multiplexer_finding(message: Message, telegram: Telegram) -> str:
@@ -85,11 +82,6 @@ def answer_findings(asked: Recognised, known: Recognised) -> Iterator[str]:
         yield f"it does not repeat what was written: {was} was, {came} came back"
 
 
-def foreign_note(device: Device) -> str:
-    """That a frame is not of the device."""
-    return f"no message of {device.id} has this identifier: {identifiers_text(device)}"
-
-
 def unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
     """Why a frame is none of the messages with its identifier."""
     frame = pasted.frame
@@ -97,11 +89,7 @@ def unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
         return "a remote request carries no data, and the manual knows none"
     if len(frame.data) != LENGTH:
         return f"every message has {LENGTH} bytes, here are {len(frame.data)}"
-    known = []
-    for message in messages:
-        at = next((place for place, role in enumerate(message.roles) if role.kind == "constant"), None)
-        if at is not None:
-            known.append((at, message.roles[at].number, message.name))
+    known = [(at, message) for message in messages for at in places(message, "constant")[:1]]
     place = known[0][0] if known else 0
-    names = ", ".join(f"{hex_text(number, 2)} {name}" for _, number, name in known)
+    names = ", ".join(f"{hex_text(message.roles[at].number, 2)} {message.name}" for at, message in known)
     return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
 from fieldscribe.families.can import remarks
+from fieldscribe.families.can.frames import carries
 from fieldscribe.families.can.notation import read_frames
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Recognised, recognise, senders
@@ -53,17 +54,9 @@ class CanSpeech(Speech):
         details = {"message": message.name, **({"parameter": known.address} if telegram is None else {})}
         details |= {} if telegram is None else {"multiplexer": known.slot}
         kind = "cyclic" if telegram is not None else _KINDS.get(message.direction, "cyclic")
-        heard = Heard(
-            known.frame.data,
-            "can",
-            kind,
-            known.unit,
-            None,
-            remarks.message_text(known, telegram),
-            checks=remarks.checks_text(known),
-            faults=tuple(remarks.faults(known, self._device.bus)),
-            details=details,
-        )
+        said, checks = remarks.message_text(known, telegram), remarks.checks_text(known)
+        faults = tuple(remarks.faults(known, self._device.bus))
+        heard = Heard(known.frame.data, "can", kind, known.unit, None, said, (), checks, faults, details=details)
         return self._parameter(heard, known, course) if telegram is None else self._cyclic(heard, known, telegram)
 
     def _cyclic(self, heard: Heard, known: Recognised, telegram: Telegram) -> Spoken:
@@ -100,7 +93,7 @@ class CanSpeech(Speech):
     def _writes(self, message: Message) -> bool:
         """Whether a message is a request that carries a value, or the answer to one."""
         asked = next((request for request in self._device.messages if request.name == message.answers), message)
-        return asked.direction == "request" and any(role.kind == "raw" for role in asked.roles)
+        return asked.direction == "request" and carries(asked, "raw")
 
     def _unknown(self, pasted: Pasted) -> Spoken:
         """The result for a frame that is no message of the device, or an incomplete one."""

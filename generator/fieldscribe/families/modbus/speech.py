@@ -139,11 +139,8 @@ def _span(request: Request) -> Span:
 
 def _carried(request: Request, span: Span) -> tuple[Span | Item, ...]:
     if request.function == 0x08:
-        return (
-            Item(
-                "", request.address, 1, f"test data {words_text(span.words or ())}; the device sends it back unchanged"
-            ),
-        )
+        said = f"test data {words_text(span.words or ())}; the device sends it back unchanged"
+        return (Item("", request.address, 1, said),)
     return (span,)
 
 

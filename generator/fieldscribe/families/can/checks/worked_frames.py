@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_sum
 from fieldscribe.families.can.facts import identifier_of
-from fieldscribe.families.can.frames import LENGTH, CanFrame, Parsed, differences, parse, telegram_words, unit_of
+from fieldscribe.families.can.frames import (
+    LENGTH,
+    CanFrame,
+    Parsed,
+    differences,
+    parse,
+    places,
+    telegram_words,
+    unit_of,
+)
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
@@ -87,7 +96,7 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
     data = bytearray(frame.printed)
     for byte in differences(wrong.message, wrong.unit, CanFrame(number, frame.printed)):
         data[byte.place] = byte.due
-    sums = [place for place, role in enumerate(wrong.message.roles) if role.kind == "xor"]
+    sums = places(wrong.message, "xor")
     here, right = (bytes(sum_of[place] for place in sums) for sum_of in (frame.printed, data))
     report_wrong_sum(subject, open_frame, "xor", here, right)
     parsed = parse(wrong.message, wrong.unit, CanFrame(number, bytes(data)))
@@ -96,7 +105,7 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
 
 def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
     """Finds the raw numbers in a frame: the word of a parameter, or words of a telegram."""
-    has_raw = any(role.kind == "raw" for role in heard.message.roles)
+    raw = (heard.parsed.raw,) if places(heard.message, "raw") else (None,)
     words = telegram_words(heard.message, CanFrame(0, frame.corrected))
     telegrams = {
         name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == heard.message.name
@@ -105,7 +114,6 @@ def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
     def carries(point: Point) -> int | None:
         if point.telegram is not None:
             return from_words(point, tuple(map(words.get, point.addresses))) if point.telegram in telegrams else None
-        known = has_raw and point.addresses == (heard.parsed.address,)
-        return from_words(point, (heard.parsed.raw,)) if known else None
+        return from_words(point, raw) if point.addresses == (heard.parsed.address,) else None
 
     return carries
