@@ -10,7 +10,7 @@ from fieldscribe.text import line
 from fieldscribe.wording.buses import check_text, counted, numbered, strange_unit, too_short
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.families.uss.parts import Link, Part
     from fieldscribe.families.uss.telegrams import Unwrapped
@@ -66,12 +66,15 @@ def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
     return f"{kind} {number}" + (f" {code.name}" if code is not None else ", which the manual does not list")
 
 
-def error_text(device: Device, error: int) -> str:
-    """The meaning of an error value, from the manual."""
-    code = numbered(device.bus.exceptions, error)
-    if code is None:
-        return f"error {error}, which the manual does not list"
-    return line(f"error {error} {code.name}: {code.title['en']}")
+def titled_code(codes: tuple[Code, ...], number: int, kind: str) -> str:
+    """The same with its meaning in the manual: `error 17 busy: ...`."""
+    code = numbered(codes, number)
+    return line(code_text(codes, number, kind) + (f": {code.title['en']}" if code is not None else ""))
+
+
+def words_printed(words: Iterable[int]) -> str:
+    """Words as the manuals of this family print them: `143A 0000 4248 0000`."""
+    return " ".join(f"{word:04X}" for word in words)
 
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
@@ -92,19 +95,15 @@ def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[s
 
 def request_notes(part: Part, link: Link) -> Iterator[str]:
     """What to know about a request."""
-    if TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1:
-        yield from _misplaced(part, link)
-    if part.code in KEEPING_TASKS:
-        yield "it writes to the EEPROM too, which wears the memory"
-
-
-def _misplaced(part: Part, link: Link) -> Iterator[str]:
     here, there = (1, 0) if link.single_last else (0, 1)
-    if part.values[there] and not part.values[here]:
+    single = TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1
+    if single and part.values[there] and not part.values[here]:
         ordinal = ("first", "second")
         also = "; is --pkw 127 or --single-first meant?" if link.single_last else "; is --pkw 4 meant?"
         where = f"in the {ordinal[here]} value word, here the {ordinal[there]} is used"
         yield f"over this link a single word stands {where}{also}"
+    if part.code in KEEPING_TASKS:
+        yield "it writes to the EEPROM too, which wears the memory"
 
 
 def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:

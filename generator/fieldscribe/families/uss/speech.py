@@ -153,7 +153,7 @@ class UssSpeech(Speech):
         return replace(
             base,
             exception=error,
-            summary=f"{base.summary}: {remarks.error_text(self._device, error)}",
+            summary=f"{base.summary}: {remarks.titled_code(self._device.bus.exceptions, error, 'error')}",
             findings=tuple(remarks.error_findings(self._device, part, task)),
             notes=tuple(remarks.error_notes(part, self._link)),
         )

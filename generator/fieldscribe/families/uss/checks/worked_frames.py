@@ -17,6 +17,7 @@ from fieldscribe.checks.frames_agree import (
 )
 from fieldscribe.families.uss.facts import of_bus, of_frame
 from fieldscribe.families.uss.parts import MASKS, VARIABLE, Link, part_of
+from fieldscribe.families.uss.remarks import words_printed
 from fieldscribe.families.uss.telegrams import (
     LEAST_BYTES,
     Request,
@@ -119,8 +120,7 @@ def _request(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) ->
         return report_refused(subject, open_frame, status)
     built = words_in(data[3:-1])[: len(words)] if short else words_in(data[3:-1])
     if built != words:
-        shown = " ".join(f"{word:04X}" for word in built)
-        return report_no_frame(subject, open_frame, f"this request would be {shown}")
+        return report_no_frame(subject, open_frame, f"this request would be {words_printed(built)}")
     value = (request.width, request.value) if request.width else None
     return Seen(frame, _Asked(link, request), _carries(subject, request, value, rest, "request"))
 
