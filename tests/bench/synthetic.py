@@ -141,7 +141,7 @@ NAMED = 4
 
 
 def write_dbc(folder: Path, count: int) -> Path:
-    """The same points as signals of a DBC below `folder`, four of 16 bits a message, with titles and names; the file."""
+    """The same points as signals of a DBC below `folder`, four of 16 bits a message, with titles; the file."""
     frames, comments, values = [], [], []
     for index in range(count):
         kind = index % len(KINDS)
