@@ -250,6 +250,12 @@ def test_links_that_the_device_does_not_know(options: Options, why: str) -> None
         hear("00", options=options)
 
 
+def test_a_part_longer_than_any_telegram_is_read_after_a_request() -> None:
+    """Its words were once put into a telegram to be judged, whose length byte could not say so many."""
+    _, long = pkw(READ, ANSWER + " 0000" * 150)
+    assert (long.kind, long.unit) == ("reply", None)
+
+
 @given(
     st.lists(st.binary(max_size=24), min_size=1, max_size=5),
     st.sampled_from(["uss", "pkw", "pzd", "broadcast"]),
