@@ -33,6 +33,7 @@ from fieldscribe.model import (
     Source,
     Special,
     Unit,
+    Variant,
 )
 
 SOURCE = Source("manual", "Gruppe A", None, 780)
@@ -43,7 +44,7 @@ MILLISECOND = Unit("ms", "millisecond", "time")
 VOLT = Unit("V", "volt", "voltage")
 WATT = Unit("W", "watt", "power")
 CELSIUS = Unit("°C", "degree Celsius", "temperature")
-VARIANTS = ("voltage_class=200V", "voltage_class=400V")
+VARIANTS = (Variant("voltage_class", "200V"), Variant("voltage_class", "400V"))
 
 
 def titles(english: str, german: str | None = None) -> dict[str, str]:

@@ -17,7 +17,7 @@ from fieldscribe.model.device import (
 )
 from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
-from fieldscribe.model.point import Place, Point, Source, Unit
+from fieldscribe.model.point import Place, Point, Source, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Shape
 
@@ -58,4 +58,6 @@ __all__ = [
     "Titles",
     "TypeInfo",
     "Unit",
+    "Variant",
+    "item_of",
 ]
