@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.citing import Citing, numbers_in, spans_of
 from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_frames, claims_of_line_settings
 from fieldscribe.audit.claims_of_points import Wordings, claims_of_point
+from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
@@ -31,8 +32,8 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
         bus = file.get("bus")
         if isinstance(bus, Map):
             yield from claims_of_line_settings(bus)
-            for key in ("functions", "responses", "exceptions"):
-                yield from claims_of_codes(key, bus.get(key))
+            for kind, section in sections_of_codes().items():
+                yield from claims_of_codes(kind, bus.get(section))
 
 
 def _claims_of_enum(name: str, entries: Map) -> Iterator[Claim]:

@@ -1,6 +1,7 @@
 """The neutral model of a device: frozen, typed, with all records and sets expanded. It knows no target and no YAML."""
 
 from fieldscribe.model.device import (
+    About,
     Block,
     Bus,
     Code,
@@ -11,6 +12,7 @@ from fieldscribe.model.device import (
     Frame,
     Group,
     Message,
+    Named,
     Own,
     Role,
     Telegram,
@@ -23,6 +25,7 @@ from fieldscribe.model.shape import Shape
 
 __all__ = [
     "TYPES",
+    "About",
     "Allowed",
     "Block",
     "Bound",
@@ -45,6 +48,7 @@ __all__ = [
     "Limit",
     "Linear",
     "Message",
+    "Named",
     "Own",
     "Place",
     "Point",
