@@ -45,7 +45,6 @@ MILLISECOND = Unit("ms", "millisecond", "time")
 VOLT = Unit("V", "volt", "voltage")
 WATT = Unit("W", "watt", "power")
 CELSIUS = Unit("°C", "degree Celsius", "temperature")
-WRITE_BASE = Named("frame", "write_base")
 VARIANTS = (Variant("voltage_class", "200V"), Variant("voltage_class", "400V"))
 
 
