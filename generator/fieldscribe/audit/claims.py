@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.resolve.subject import Subject
 
+_ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
+"""Sections of named entries, by what one is called."""
+
 
 def claims_of(subject: Subject) -> Iterator[Claim]:
     """All facts of points, frames, codes of the bus, messages and telegrams that name a line."""
@@ -25,9 +28,9 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
     for name, entries in subject.scope.named_enums.items():
         yield from _claims_of_enum(name, entries)
     for file in subject.scope.files:
-        for key in ("commands", "messages", "telegrams"):
-            for entry in file.get(key, ()):
-                yield from claims_of_entry(key.removesuffix("s"), entry)
+        for kind, section in _ENTRIES.items():
+            for entry in file.get(section, ()):
+                yield from claims_of_entry(kind, entry)
         yield from claims_of_frames(file)
         bus = file.get("bus")
         if isinstance(bus, Map):
