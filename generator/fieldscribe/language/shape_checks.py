@@ -172,7 +172,7 @@ class ObjectCheck:
                 broken.append(key)
             if report.full:
                 return False
-        complete = self._complete(value, holder, at, report)
+        complete = self._complete(value, holder, at, report, broken)
         for key in broken:
             self._drop(value, key, holder is value)
         return complete and not any(key in broken for key in self.required) and len(value) >= self.least
@@ -183,14 +183,16 @@ class ObjectCheck:
                 return pattern_check
         return self.additional
 
-    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
+    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report, broken: list[str]) -> bool:
         missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
         for key, beside in self.needs.items():
             for needed in beside:
                 if key in value and needed not in value:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
+        deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
         for key, message in missing.items():
-            report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
+            if key not in deeper:  # else it stands a level too deep, and the finding there says so
+                report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.least:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         return not missing and len(value) >= self.least
