@@ -23,6 +23,7 @@ Check = Callable[[Any, Map | Seq, Any, Report], bool]
 Broken keys and items are dropped from what holds them. Places are made only for findings.
 """
 
+_YES_NO = {"yes": True, "no": False}
 _NAMING = ("name", "code", "id")
 
 
@@ -37,16 +38,21 @@ def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> boo
     return True
 
 
-def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
+def by_type(
+    checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None, *, yes_no: bool = False
+) -> Check:
     """Picks the check for the type of the value, if that is one of the `wanted` types.
 
-    A whole number may be written in every notation of numbers; from here on it is one.
+    A whole number may be written in every notation of numbers, and true and false as `yes` and `no`; from here on it is
+    a number, or true or false.
     """
     notation = compiled_pattern(forms.WHOLE.pattern).search if int in checks and str not in checks else None
 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         if notation is not None and isinstance(value, str) and notation(value):
             value = holder[at] = parse_integer(value)
+        elif yes_no and isinstance(value, str) and value in _YES_NO:
+            value = holder[at] = _YES_NO[value]
         type_check = checks.get(type(value))
         if type_check is not None:
             return type_check(value, holder, at, report)
