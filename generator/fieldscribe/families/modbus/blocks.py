@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
-from fieldscribe.model import Block
+from fieldscribe.model import Block, Variant
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -62,9 +62,9 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
     return lanes
 
 
-def _variants_with_place(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
+def _variants_with_place(points: Iterable[Point]) -> dict[tuple[str, Place], set[Variant]]:
     """The variants that have a point of this name at this place."""
-    variants: dict[tuple[str, Place], set[str]] = {}
+    variants: dict[tuple[str, Place], set[Variant]] = {}
     for point in points:
         place = _read_place(point)
         if point.variant is not None and place is not None:
@@ -73,13 +73,18 @@ def _variants_with_place(points: Iterable[Point]) -> dict[tuple[str, Place], set
 
 
 def _always_there(
-    point: Point, place: Place, values: Mapping[tuple[str, Place], set[str]], variants: Mapping[str, tuple[str, ...]]
+    point: Point,
+    place: Place,
+    values: Mapping[tuple[str, Place], set[Variant]],
+    variants: Mapping[str, tuple[str, ...]],
 ) -> bool:
     """Whether every device has this point at the place that it is read from."""
     if point.when is not None or point.since is not None or point.until is not None:
         return False
-    axis = (point.variant or "").partition("=")[0]
-    return point.variant is None or {f"{axis}={value}" for value in variants.get(axis, ())} <= values[point.name, place]
+    if point.variant is None:
+        return True
+    axis = point.variant.axis
+    return {Variant(axis, value) for value in variants.get(axis, ())} <= values[point.name, place]
 
 
 def _read_place(point: Point) -> Place | None:
