@@ -146,7 +146,7 @@ def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint])
 def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
     """The kind, the runner's function and the row for each way in which each point is read or written."""
     for subject in scope.subjects:
-        if not subject.point.places:
+        if not subject.point.addresses:
             continue
         for kind, run, needs in _ways(subject, scope):
             arguments = [token for pair in needs for token in _bracketed(_arguments(*pair))]

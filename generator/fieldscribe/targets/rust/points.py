@@ -63,8 +63,8 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 def _whereabouts(point: Point) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
+    addresses = point.addresses
+    yield f"at {space_variant(point.space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
