@@ -100,5 +100,3 @@ def _place(point: Point, scope: CrateScope) -> Iterator[str]:
     usual = single if point.words == 1 else many
     if usual not in scope.functions and many in scope.functions:
         yield f"function {many};"
-    if point.write_place is not None:
-        yield f"at 0x{min(point.write_place.addresses):04X};"

@@ -79,6 +79,7 @@ def _whereabouts(point: Point) -> Iterator[str]:
 def _place(point: Point) -> str:
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
     where = f"{space} {address_text(min(point.addresses))}"
+    where += "" if point.write_place is None else f" (written at {address_text(min(point.write_place.addresses))})"
     where += "" if point.index is None else f" index {point.index}"
     return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 

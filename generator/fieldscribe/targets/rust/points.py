@@ -69,6 +69,8 @@ def _whereabouts(point: Point) -> Iterator[str]:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
         yield f"words {point.words};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
     if point.index is not None:
         yield f"index {point.index};"
     if point.telegram is not None:
