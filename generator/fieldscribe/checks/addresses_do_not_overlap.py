@@ -109,9 +109,11 @@ def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], ad
             "bits-overlap", f"{what} take bit {bit} of {place}", mine.draft.span("bits"), hint, related
         )
         return
-    hint = f"correct one `at`, give each `bits` of the word{_APART}"
+    hint = f"correct one `{key}`, give each `bits` of the word{_APART}"
     if any(len(resolved.point.addresses) > 1 for resolved in together):
         hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+    elif key == "write_at" and any(mine.draft.layer(key) is other.draft.layer(key) for other in others):
+        hint = "each set, variant and member with an `at` of its own needs a `write_at`, or `write_at: ~`"
     elif any(_row(mine, other) is not None for other in others):
         hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
     subject.report.error("address-taken", f"{what} stand at {place}", mine.draft.span(key), hint, related)
