@@ -87,7 +87,9 @@ class Point:
     @cached_property
     def references(self) -> dict[str, int]:
         """What the group's `numbering` makes of the address on the wire."""
-        found: dict[str, Fraction] = {"wire": Fraction(min(self.addresses))}
+        found: dict[str, Fraction] = {
+            "wire": Fraction(self.addresses[0] if self.type == "text" else min(self.addresses))
+        }
         for key, rule in self.row.get("numbering", {}).items():
             found[key] = evaluate(rule, lambda name, _: found[name])
         return {key: int(exact) for key, exact in found.items() if key != "wire"}
