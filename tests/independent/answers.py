@@ -42,6 +42,7 @@ class Point:
     def settled(self) -> bool:
         """Whether address, type and scale are known and the point can be reached at all."""
         unsettled = any(self.row.get(key) in NOTHING for key in ("at", "type", "scale") if key in self.row)
+        unsettled = unsettled or "untyped" in self.row
         closed = self.row.get("access") == "none" or self.row.get("reserved") == "true"
         return "at" in self.row and not unsettled and not closed
 
