@@ -13,7 +13,7 @@ from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Prof
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
-from fieldscribe.model import Bus, Code, Place, Point, Variant
+from fieldscribe.model import Bus, Code, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -420,12 +420,12 @@ def test_what_no_read_can_bring_is_in_no_block() -> None:
 
 def test_blocks_come_by_space_then_address() -> None:
     coil = point("coil", 5, "bit", space="coil")
-    other = point("other", 1, places=(Place("read", "holding", (1,), 4),))
-    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [at(2), other, coil], {})
+    other = point("other", 1, space="input")
+    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [other, at(2), coil], {})
     assert [(block.space, block.function, block.address) for block in blocks] == [
         ("coil", 1, 5),
-        ("holding", 4, 1),
         ("holding", 3, 2),
+        ("input", 4, 1),
     ]
 
 
