@@ -11,7 +11,7 @@ from fieldscribe.families.modbus.blocks import plan_blocks
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
-from fieldscribe.model import Bus, Code, Place, Point
+from fieldscribe.model import Bus, Code, Point
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -407,12 +407,12 @@ def test_what_no_read_can_bring_is_in_no_block() -> None:
 
 def test_blocks_come_by_space_then_address() -> None:
     coil = point("coil", 5, "bit", space="coil")
-    other = point("other", 1, places=(Place("read", "holding", (1,), 4),))
-    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [at(2), other, coil], {})
+    other = point("other", 1, space="input")
+    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [other, at(2), coil], {})
     assert [(block.space, block.function, block.address) for block in blocks] == [
         ("coil", 1, 5),
-        ("holding", 4, 1),
         ("holding", 3, 2),
+        ("input", 4, 1),
     ]
 
 

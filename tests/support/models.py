@@ -8,6 +8,7 @@ from typing import Any
 
 from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
+    NOWHERE,
     TYPES,
     Allowed,
     Block,
@@ -85,7 +86,9 @@ _SHAPED = frozenset(one.name for one in fields(Shape))
 
 
 def changed(point: Point, **facts: Any) -> Point:
-    """The point with other facts, be they its own or of its shape."""
+    """The point with other facts, be they its own, of its place or of its shape."""
+    if "references" in facts:
+        facts["place"] = replace(point.place, references=facts.pop("references"))
     shaped = {key: value for key, value in facts.items() if key in _SHAPED}
     own = {key: value for key, value in facts.items() if key not in _SHAPED}
     bits = own.get("bits", point.bits)
@@ -110,8 +113,7 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
         code=None,
         group="main",
         space=space,
-        places=(Place("read", space, addresses, None),) if addresses else (),
-        references={"modicon": address + 1} if address is not None else {},
+        place=NOWHERE if address is None else Place(addresses, {"modicon": address + 1}),
         shape=shape,
         bits=None,
         title=titles(name.replace("_", " ").capitalize()),

@@ -56,15 +56,15 @@ WORD_FLAGS = (Flag(0, 1, "start", titles("Start"), 1, ()), Flag(10, 1, "valid", 
 
 def parameter(name: str, *addresses: int, type_name: str = "u16", **facts: Any) -> Point:
     """A parameter that can be read and written."""
-    made = point(name, addresses[0], type_name, space="parameter", group="main", references={}, **facts)
-    return replace(made, places=(Place("read", "parameter", addresses, None),))
+    made = point(name, addresses[0], type_name, space="parameter", group="main", **facts)
+    return replace(made, place=Place(addresses, {}))
 
 
 def word(telegram: str, name: str, *positions: int, type_name: str = "u16", **facts: Any) -> Point:
     """A point in words of a telegram, read only unless said."""
     facts = {"access": "r", "group": telegram, **facts}
-    made = point(name, positions[0], type_name, space="telegram", telegram=telegram, references={}, **facts)
-    return replace(made, places=(Place("read", "telegram", positions, None),))
+    made = point(name, positions[0], type_name, space="telegram", telegram=telegram, **facts)
+    return replace(made, place=Place(positions, {}))
 
 
 def text(name: str, characters: int, encoding: str, *addresses: int, **facts: Any) -> Point:

@@ -80,9 +80,7 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
         yield key.capitalize(), f"{printed}{as_hex}"
     yield "Words", wording.words_text(point) if len(point.addresses) > 1 else ""
-    for place in point.places[1:]:
-        words = ", ".join(map(wording.address_text, place.addresses))
-        yield f"Place to {place.purpose}", f"{words}, space {place.space}"
+    yield "Written at", wording.write_place_text(point)
     yield "Type", _type_text(point)
     yield "Access", wording.access_text(point.access)
 

@@ -17,11 +17,12 @@ from fieldscribe.model.device import (
 )
 from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
-from fieldscribe.model.point import Place, Point, Source, Unit
+from fieldscribe.model.point import NOWHERE, Place, Point, Source, Unit
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Shape
 
 __all__ = [
+    "NOWHERE",
     "TYPES",
     "Allowed",
     "Block",

@@ -222,7 +222,7 @@ def test_what_is_only_documented_has_its_address() -> None:
     assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
     drive = shipped("nord_sk5xxe")
     known = ["h (" in line for line in left_out(drive)]
-    assert known == [bool(one.places) for one in drive.points if not one.generated]
+    assert known == [bool(one.addresses) for one in drive.points if not one.generated]
     assert any(known)
 
 

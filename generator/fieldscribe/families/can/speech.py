@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Course
-    from fieldscribe.model import Device, Message, Place, Telegram
+    from fieldscribe.model import Device, Message, Telegram
 
 _KINDS = {"request": "request", "response": "reply"}
 
@@ -38,10 +38,6 @@ class CanSpeech:
     def frames(self, texts: Sequence[str]) -> list[Pasted]:
         """The frames that people pasted. Raises UnclearError."""
         return read_frames(texts, self._can_id)
-
-    def space_of(self, place: Place) -> str:
-        """Every place is reached in its own space."""
-        return place.space
 
     def hear(self, frame: Pasted, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

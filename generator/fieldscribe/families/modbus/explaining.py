@@ -17,24 +17,20 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
-    place = point.places[0]
-    function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
-    if function is None:
+    if point.space not in SPACES:
         return ""
-    count = len(place.addresses)
+    function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, 'bit' if point.type == 'bit' else 'word')}"
-    return how + _example(device, function, min(place.addresses), count, ())
+    return how + _example(device, function, min(point.addresses), count, ())
 
 
 def way_to_write(device: Device, point: Point) -> Way | None:
     """How to write the point; None if it cannot be written."""
-    place = point.write_place
-    space = SPACES.get(place.space) if place else None
-    if place is None or space is None:
+    space, addresses = SPACES.get(point.space), point.written.addresses
+    if space is None:
         return None
-    addresses = place.addresses
     single = space.write_one if len(addresses) == 1 and space.write_one in profile_of(device.bus).most else None
-    function = place.function or single or space.write_many
+    function = single or space.write_many
     if function is None:
         return None
     how = f"function {hex_text(function, 2)}"

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from fieldscribe.asked import Options
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Carried, Course
-    from fieldscribe.model import Device, Place
+    from fieldscribe.model import Device
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 _REFUSED, _NO_RIGHTS = 7, 8
@@ -54,10 +54,6 @@ class UssSpeech:
         """The telegrams that people pasted. Raises UnclearError."""
         example = "02 0E 01 143A 0000 0000 0000 0000 0000 23"
         return [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
-
-    def space_of(self, place: Place) -> str:
-        """Every place is reached in its own space."""
-        return place.space
 
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a telegram is; any bytes are safe."""

@@ -55,6 +55,16 @@ WHICH = (
         own=True,
     ),
     Key(
+        "write_at",
+        (POINT, SET, VARIANT, MEMBER),
+        "The number on the wire for writing, if a point is read at `at` and written elsewhere; it is written and "
+        "counted as `at` is. ~ where a set, a variant or a member is written where it is read.",
+        ["2028h", 8232, "base + 106"],
+        Whole(),
+        Text(200),
+        NOTHING,
+    ),
+    Key(
         "members",
         (POINT, USE),
         "Facts of single members of the record at this place.",

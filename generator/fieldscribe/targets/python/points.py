@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
@@ -101,10 +101,17 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
 def _documented(point: Point, scope: PackageScope) -> Group:
     """Why the point has no attribute, and the addresses of its words, if they can be reached."""
     scope.used.add("Documented")
-    where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
+    where = list(_at(point, scope)) if point.raw_only else []
     why = python_string(point.reason or "no reason given")
     code = [f"code={python_string(point.code)}"] if point.code else []
     return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
+
+
+def _at(point: Point, scope: PackageScope) -> Iterator[Node]:
+    """Where the point is read, and where else it is written."""
+    yield place("at", point, point.addresses, scope)
+    if point.write_place is not None:
+        yield place("write_at", point, point.write_place.addresses, scope)
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
@@ -158,10 +165,7 @@ def _shown(point: Point) -> Iterator[str]:
 
 def _places(point: Point, scope: PackageScope) -> list[Node]:
     """The arguments for the places of the point, on the wire and in the manual."""
-    arguments: list[Node] = [place("at", point.places[0], scope, point)]
-    write_place = point.write_place
-    if write_place is not None and write_place is not point.places[0] and point.writable:
-        arguments.append(place("write_at", write_place, scope, point))
+    arguments: list[Node] = list(_at(point, scope))
     if point.bits is not None:
         arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
     arguments.append(f"group={python_string(point.group)}")

@@ -63,12 +63,14 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 def _whereabouts(point: Point) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
+    addresses = point.addresses
+    yield f"at {space_variant(point.space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
         yield f"words {point.words};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
     if point.index is not None:
         yield f"index {point.index};"
     if point.telegram is not None:

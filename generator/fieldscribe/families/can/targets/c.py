@@ -113,7 +113,7 @@ class BusView:
 def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated and point.places]
+    points = [point for point in device.points if point.generated and point.addresses]
     messages = {message.name: message for message in device.messages}
     cyclic = {
         telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages

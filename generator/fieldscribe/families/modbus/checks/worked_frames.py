@@ -92,14 +92,16 @@ def _no_frame(subject: Subject, open_frame: OpenFrame, frame: Frame, message: st
 def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
     """Finds the raw numbers in a frame: values from an address on, in the space of its function."""
     spaces = {space for space, by in SPACES.items() if function in (by.read, by.write_one, by.write_many)}
+    writes = function not in {by.read for by in SPACES.values()}
 
     def carries(point: Point) -> int | None:
-        if not point.addresses or point.space not in spaces:
+        addresses = point.written.addresses if writes else point.addresses
+        if not addresses or point.space not in spaces:
             return None
-        inside = (first <= word < first + len(values) for word in point.addresses)
+        inside = (first <= word < first + len(values) for word in addresses)
         if not all(inside):
             return None
-        return from_words(point, tuple(values[word - first] for word in point.addresses))
+        return from_words(point, tuple(values[word - first] for word in addresses))
 
     return carries
 
