@@ -11,7 +11,7 @@ from fieldscribe.families.modbus.blocks import plan_blocks
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
-from fieldscribe.model import Bus, Code, Point
+from fieldscribe.model import Bus, Code, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -368,17 +368,25 @@ def test_blocks_do_not_cross_gaps() -> None:
 def test_points_at_one_address_count_once() -> None:
     group = changed(at(10), name="low", bits=(3, 0), type="u8")
     other = changed(at(10), name="high", bits=(7, 4), type="u8")
-    variants = [replace(at(11), variant=f"class={name}") for name in ("200V", "400V")]
+    variants = [replace(at(11), variant=Variant("class", name)) for name in ("200V", "400V")]
     assert planned([group, other, *variants, at(12)]) == [(10, 3, ("high", "low", "p11", "p12"))]
 
 
 def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
     """A device refuses all of a read that touches one address that it does not have."""
     large = Condition(((Comparison("class", "==", ("400V",)),),))
-    for facts in ({"when": large}, {"since": "firmware 2"}, {"until": "firmware 3"}, {"variant": "class=400V"}):
+    for facts in (
+        {"when": large},
+        {"since": "firmware 2"},
+        {"until": "firmware 3"},
+        {"variant": Variant("class", "400V")},
+    ):
         found = planned([at(10), changed(at(11), **facts), at(12)])
         assert found == [(10, 1, ("p10",)), (11, 1, ("p11",)), (12, 1, ("p12",))], facts
-    both = [replace(at(11), variant="class=200V"), replace(at(12), name="p11", variant="class=400V")]
+    both = [
+        replace(at(11), variant=Variant("class", "200V")),
+        replace(at(12), name="p11", variant=Variant("class", "400V")),
+    ]
     assert planned([at(10), *both, at(13)]) == [
         (10, 1, ("p10",)),
         (11, 1, ("p11",)),

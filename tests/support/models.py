@@ -27,6 +27,7 @@ from fieldscribe.model import (
     Interval,
     Limit,
     Linear,
+    Named,
     Place,
     Point,
     ScaleCase,
@@ -34,6 +35,7 @@ from fieldscribe.model import (
     Source,
     Special,
     Unit,
+    Variant,
 )
 
 SOURCE = Source("manual", "Gruppe A", None, 780)
@@ -44,7 +46,7 @@ MILLISECOND = Unit("ms", "millisecond", "time")
 VOLT = Unit("V", "volt", "voltage")
 WATT = Unit("W", "watt", "power")
 CELSIUS = Unit("°C", "degree Celsius", "temperature")
-VARIANTS = ("voltage_class=200V", "voltage_class=400V")
+VARIANTS = (Variant("voltage_class", "200V"), Variant("voltage_class", "400V"))
 
 
 def titles(english: str, german: str | None = None) -> dict[str, str]:
@@ -292,7 +294,16 @@ ERRATA = (
         (("wire", "4137"),),
     ),
     Erratum("f001_address", ("setpoint_display",), "", SOURCE, "No address.", "at: ~", "An empty cell.", "unknown"),
-    Erratum("write_crc", (), "frame:write_base", SOURCE, "crc A8 54", "crc 0C 91", "The CRC of the bytes.", "certain"),
+    Erratum(
+        "write_crc",
+        (),
+        Named("frame", "write_base"),
+        SOURCE,
+        "crc A8 54",
+        "crc 0C 91",
+        "The CRC of the bytes.",
+        "certain",
+    ),
 )
 
 

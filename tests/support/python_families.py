@@ -25,6 +25,7 @@ from fieldscribe.model import (
     ScaleCase,
     Telegram,
     Text,
+    Variant,
 )
 
 from support.models import (
@@ -111,8 +112,8 @@ def can_points() -> tuple[Point, ...]:
         parameter("command_number", 31, fixed=Fixed(0x8000, 0x8000), allowed=allowed((0x8000, 0x80FF))),
         text("fault_text", 8, "ascii", 739, 738, 737, 736),
         text("label", 4, "latin-1", 740, 741),
-        parameter("level", 600, variant="voltage=100V", allowed=allowed((1, 9))),
-        parameter("level", 600, variant="voltage=400V", allowed=allowed((1, 99))),
+        parameter("level", 600, variant=Variant("voltage", "100V"), allowed=allowed((1, 9))),
+        parameter("level", 600, variant=Variant("voltage", "400V"), allowed=allowed((1, 99))),
         parameter("spare", 601, when=Condition(((Comparison("size", "!=", ("small",)),),))),
         word("measurements", "frequency", 0, unit=HERTZ, scale=scaled(100), decimals=2),
         word("measurements", "power", 1, type_name="s16", unit=WATT, scale=scaled(1, 0, exponent)),

@@ -24,7 +24,7 @@ def place_of(point: Point) -> Facts:
         "address": point.address if point.address is not None else point.item,
         "index": point.index,
         "bits": bits,
-        "variant": point.variant,
+        "variant": None if point.variant is None else str(point.variant),
     }
 
 

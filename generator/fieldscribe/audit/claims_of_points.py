@@ -53,7 +53,7 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     if _says_itself(draft, "section"):
         yield from citing.words("section", str(draft.get("section")))
     yield from _address(citing, point, draft, code or "")
-    yield from citing.title({**point.title, "": (point.variant or "").partition("=")[2]})
+    yield from citing.title({**point.title, "": "" if point.variant is None else point.variant.value})
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums)
     yield from _flags(citing, point, wordings)

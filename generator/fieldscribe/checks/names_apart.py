@@ -69,8 +69,8 @@ class Kinds:
             self._limits[id(point.allowed)],
             point.group,
             point.space,
-            tuple(_place(place) for place in point.places),
-            tuple(point.references),
+            _form_of_place(point.place),
+            _form_of_place(point.write_place) if point.write_place is not None else None,
             point.bits,
             point.set,
             point.generated,
@@ -134,10 +134,10 @@ def _is_special(point: Point) -> bool:
     return bool(point.variant or point.was or point.when or point.telegram or point.changes_with or point.index)
 
 
-def _place(place: Place) -> object:
-    """A place without its number."""
+def _form_of_place(place: Place) -> object:
+    """A place without its numbers."""
     first = min(place.addresses, default=0)
-    return place.purpose, place.space, place.function, tuple([address - first for address in place.addresses])
+    return tuple(place.references), tuple([address - first for address in place.addresses])
 
 
 def _form(allowed: Allowed) -> object:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import item_of
 from fieldscribe.resolve.drafts import groups
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str,
     for old in point.was:
         place = draft.span("was")
         if point.variant is not None:
-            item = replace(point, name=old).item
+            item = item_of(old, point.variant)
             yield where, item, partial(Thing, f"the old name `{old}` of {_short(draft)}", place)
         yield where, old, partial(Thing, f"the old name `{old}` of `{point.name}`", place)
 

@@ -73,7 +73,7 @@ def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[
 def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     group = next((group for group in device.groups if group.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
-    yield "Variant", point.variant or ""
+    yield "Variant", str(point.variant or "")
     where = "not printed in the manual" if point.address is None else _address_text(device, point)
     yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():

@@ -162,7 +162,7 @@ def _erratum(erratum: Erratum) -> dict[str, object]:
     return {
         "id": erratum.id,
         "point": erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
-        "where": erratum.where,
+        "where": str(erratum.where),
         "source": source_of(erratum.source),
         "printed": erratum.printed,
         "taken": erratum.taken,

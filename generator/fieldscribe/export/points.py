@@ -40,7 +40,7 @@ def export_point(
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),
-        "variant": point.variant,
+        "variant": None if point.variant is None else str(point.variant),
         "when": None if point.when is None else _condition(point.when),
         "since": point.since,
         "until": point.until,

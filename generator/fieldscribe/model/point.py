@@ -61,10 +61,26 @@ NOWHERE = Place((), {})
 
 
 @dataclass(frozen=True, slots=True)
+class Variant:
+    """One value of one axis, as people write it: `axis=value`."""
+
+    axis: str
+    value: str
+
+    def __str__(self) -> str:
+        return f"{self.axis}={self.value}"
+
+
+def item_of(name: str, variant: Variant | None) -> str:
+    """The name in generated code: the plain name, and behind it the value of the variant."""
+    return name if variant is None else f"{name}_{variant.value.lower()}"
+
+
+@dataclass(frozen=True, slots=True)
 class Point:
     """One addressable datum: its identity, its shape and its limits.
 
-    `name` is unique except for variants: points of the same name differ in `variant` ("axis=value"). `place` has no
+    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
     addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `bits` are
     its (high, low) bits of the word, None for whole words. `default` is the factory setting in the unit, `default_raw`
     its raw number: each is None if it depends on other points; a floating-point number has only the first. `steps` has
@@ -72,7 +88,7 @@ class Point:
     """
 
     name: str
-    variant: str | None
+    variant: Variant | None
     code: str | None
     group: str
     space: str
@@ -182,8 +198,8 @@ class Point:
 
     @property
     def item(self) -> str:
-        """The name in generated code: its name, and behind it the value of its variant."""
-        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+        """The name in generated code, with the value of its variant."""
+        return item_of(self.name, self.variant)
 
     @property
     def arguments(self) -> tuple[str, ...]:

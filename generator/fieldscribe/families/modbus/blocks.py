@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import SPACES, profile_of
-from fieldscribe.model import Block
+from fieldscribe.model import Block, Variant
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -62,9 +62,9 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
     return lanes
 
 
-def _variants_with_place(points: Iterable[Point]) -> dict[_Stand, set[str]]:
+def _variants_with_place(points: Iterable[Point]) -> dict[_Stand, set[Variant]]:
     """The variants that have a readable point of this name in this space at these addresses."""
-    variants: dict[_Stand, set[str]] = {}
+    variants: dict[_Stand, set[Variant]] = {}
     for point in points:
         if point.variant is not None and point.readable:
             variants.setdefault(_stand(point), set()).add(point.variant)
@@ -75,12 +75,14 @@ def _stand(point: Point) -> _Stand:
     return point.name, point.space, point.addresses
 
 
-def _always_there(point: Point, values: Mapping[_Stand, set[str]], variants: Mapping[str, tuple[str, ...]]) -> bool:
+def _always_there(point: Point, values: Mapping[_Stand, set[Variant]], variants: Mapping[str, tuple[str, ...]]) -> bool:
     """Whether every device has this point at the place that it is read from."""
     if point.when is not None or point.since is not None or point.until is not None:
         return False
-    axis = (point.variant or "").partition("=")[0]
-    return point.variant is None or {f"{axis}={value}" for value in variants.get(axis, ())} <= values[_stand(point)]
+    if point.variant is None:
+        return True
+    axis = point.variant.axis
+    return {Variant(axis, value) for value in variants.get(axis, ())} <= values[_stand(point)]
 
 
 def _blocks_of_lane(

@@ -41,7 +41,7 @@ _FACTS = (
 
 
 def _identity(point: Point) -> tuple[str, ...]:
-    return _cell(point.code or ""), _cell(point.name), _cell(point.variant or ""), _cell(point.group)
+    return _cell(point.code or ""), _cell(point.name), _cell(str(point.variant or "")), _cell(point.group)
 
 
 def _place(point: Point) -> tuple[str, ...]:

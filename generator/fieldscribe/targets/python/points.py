@@ -20,7 +20,7 @@ from fieldscribe.wording import codes_text, condition_text, range_text
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Point, Variant
 
 _DOC = WIDTH - 4 - 6  # less the indentation and two triple quotes
 _BODY = 8  # the indentation of an attribute's arguments
@@ -71,16 +71,16 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
     errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
-    by_name: dict[str, list[Point]] = {}
+    by_name: dict[str, dict[Variant, Point]] = {}
     for point in device.points:
         group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
             continue
         group.points.append(_point(point, family, scope, errata))
         if point.variant is not None:
-            by_name.setdefault(point.name, []).append(point)
+            by_name.setdefault(point.name, {})[point.variant] = point
     for same in by_name.values():
-        groups[same[0].group].points.append(_by_variant(same, scope))
+        groups[next(iter(same.values())).group].points.append(_by_variant(same, scope))
     command_views = tuple(PointView(*command, ()) for command in commands(device, scope))
     documented = tuple(_documented(point, scope) for point in device.points if not point.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
@@ -144,8 +144,8 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
     if point.changes_with:
         arguments.append(Group("changes_with=(", tuple([python_string(name) for name in point.changes_with])))
     if point.variant is not None:
-        axis, _, value = point.variant.partition("=")
-        arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
+        axis_and_value = (python_string(point.variant.axis), python_string(point.variant.value))
+        arguments.append(Group("variant=(", axis_and_value))
         arguments.append(f"name={python_string(point.name)}")
     if choice := only_for(point, scope.variants):
         values = Group("(", tuple([python_string(value) for value in choice[1]]))
@@ -185,16 +185,16 @@ def _references(point: Point) -> Group:
     return Group("references={", tuple(pairs), "}")
 
 
-def _by_variant(points: list[Point], scope: PackageScope) -> PointView:
+def _by_variant(points: Mapping[Variant, Point], scope: PackageScope) -> PointView:
     scope.used.add("ByVariant")
-    axis = (points[0].variant or "").partition("=")[0]
-    chosen = [f"{python_string((point.variant or '').partition('=')[2])}: {attribute(point.item)}" for point in points]
-    old_names = tuple(dict.fromkeys(name for point in points for name in point.was))
+    variant, first = next(iter(points.items()))
+    chosen = [f"{python_string(variant.value)}: {attribute(point.item)}" for variant, point in points.items()]
+    old_names = tuple(dict.fromkeys(name for point in points.values() for name in point.was))
     if old_names:
         scope.used.add("renamed")
-    arguments = (python_string(axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
-    doc = _wrapped(python_doc(f"{points[0].title['en']}, as the device's {axis} has it."))
-    return PointView(attribute(points[0].name), "ByVariant", arguments, tuple(doc), old_names)
+    arguments = (python_string(variant.axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
+    doc = _wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it."))
+    return PointView(attribute(first.name), "ByVariant", arguments, tuple(doc), old_names)
 
 
 def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) -> tuple[str, ...]:

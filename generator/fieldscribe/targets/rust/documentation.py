@@ -101,7 +101,7 @@ def _facts(point: Point) -> Iterator[str]:
         yield display_text(point)
     yield access_text(point.access)
     if point.variant:
-        yield f"for {rust_code(point.variant)}"
+        yield f"for {rust_code(str(point.variant))}"
     if point.when:
         yield f"only when {rust_code(condition_text(point.when))}"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.model import item_of
 from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
@@ -54,7 +55,7 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
         None if point.default is None else float(point.default),
         None if point.changes == "always" else point.changes,
         point.changes_with,
-        point.variant,
+        None if point.variant is None else str(point.variant),
         _only_for(point, variants),
         None if apart is None else point.space,
         None if apart is None else apart.addresses,
@@ -64,7 +65,7 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
 def aliases(lines: Lines, point: Point) -> None:
     """Add vectors of old names; variants keep their suffix."""
     for old in point.was:
-        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
+        lines.add("alias", item_of(old, point.variant), point.item)
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:

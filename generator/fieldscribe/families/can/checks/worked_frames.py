@@ -99,7 +99,7 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
             data[byte] = checksum(data, heard.message.roles[byte].number)
         printed, taken = (hex_of(bytes(data_bytes[byte] for byte in sums)) for data_bytes in (frame.printed, data))
         message = f"the checksum {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, open_frame.raw.span("bytes"), message))
+        subject.disagrees(Printed(open_frame.about, "xor", printed, taken, open_frame.raw.span("bytes"), message))
         right = bytes(data)
         parsed = parse(heard.message, heard.unit, CanFrame(number, right))
         return replace(frame, corrected=right, valid=False), replace(heard, parsed=parsed)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+from fieldscribe.model import Named
 from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def check(subject: Subject) -> None:
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
             span = raw["printed"].span("bytes")
-            subject.disagrees(Printed(f"function:{code.number}", "bytes", printed, right, span, message))
+            subject.disagrees(Printed(Named("function", code.number), "bytes", printed, right, span, message))
 
 
 def _reached(subject: Subject, bus: Map) -> None:

@@ -42,7 +42,7 @@ def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
         return frame
     printed, taken = hex_of(frame.printed[-2:]), hex_of(right)
     message = f"the CRC {printed} is printed, the bytes give {taken}"
-    subject.disagrees(Printed(f"frame:{frame.name}", "crc", printed, taken, open_frame.raw.span("bytes"), message))
+    subject.disagrees(Printed(open_frame.about, "crc", printed, taken, open_frame.raw.span("bytes"), message))
     return replace(frame, corrected=frame.printed[:-2] + right, valid=False)
 
 
@@ -56,8 +56,8 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
     if request.function in profile.most and request.count > most:
         message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
         span = open_frame.raw.span("bytes")
-        subject.disagrees(Printed(f"frame:{frame.name}", "count", request.count, None, span, message))
-        request = replace(request, count=_taken(subject, frame.name, "count", most))
+        subject.disagrees(Printed(open_frame.about, "count", request.count, None, span, message))
+        request = replace(request, count=_taken(subject, open_frame, "count", most))
         frame = replace(frame, valid=False)
     status, rebuilt = build(profile, frame.framing, request)
     if status != "ok":
@@ -106,8 +106,8 @@ def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
     return carries
 
 
-def _taken(subject: Subject, name: str, key: str, otherwise: int) -> int:
-    for erratum in subject.cited.get(f"frame:{name}", ()):
+def _taken(subject: Subject, open_frame: OpenFrame, key: str, otherwise: int) -> int:
+    for erratum in subject.cited.get(open_frame.about, ()):
         taken = erratum.raw["taken"]
         if isinstance(taken, Map) and isinstance(taken.get(key), int):
             return int(taken[key])

@@ -9,8 +9,8 @@ from fieldscribe.families.modbus.functions import framings_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names
-from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import Lines, array, chain
+from fieldscribe.targets.rust.families.spaces import space_variant
+from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def _profile(bus: Bus) -> Lines:
     profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
     pads = of_bus(bus).pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
     steps = [*([".padding_coils()"] if pads else []), *([".naming(exceptions::name)"] if bus.exceptions else [])]
-    return chain("pub static PROFILE: Profile", profile, steps)
+    return chain(Item("pub static PROFILE", "Profile"), profile, steps)
 
 
 def _most(code: Code) -> int:
@@ -74,8 +74,7 @@ def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """For each group: its constant, its name, and the lines of its array."""
     for group, blocks in device.blocks.items():
         items = [
-            f"Block::new({space(block.space).replace('runtime::', '')}, "
-            f"{block.function}, 0x{block.address:04X}, {block.count})"
+            f"Block::new(Space::{space_variant(block.space)}, {block.function}, 0x{block.address:04X}, {block.count})"
             for block in blocks
         ]
         yield group.upper(), group, array(items)

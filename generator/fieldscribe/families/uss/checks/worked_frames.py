@@ -67,17 +67,16 @@ def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
     data = bytearray(frame.printed)
     if len(data) < 4:
         return frame
-    about = f"frame:{frame.name}"
     if data[1] + 2 != len(data):
         printed, taken = f"{data[1]:02X}", f"{len(data) - 2 & 0xFF:02X}"
         message = f"the LGE {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(about, "lge", printed, taken, span, message))
+        subject.disagrees(Printed(open_frame.about, "lge", printed, taken, span, message))
         data[1] = len(data) - 2 & 0xFF
     right = check_byte(bytes(data[:-1]))
     if data[-1] != right:
         printed, taken = f"{data[-1]:02X}", f"{right:02X}"
         message = f"the BCC {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(about, "bcc", printed, taken, span, message))
+        subject.disagrees(Printed(open_frame.about, "bcc", printed, taken, span, message))
         data[-1] = right
     return replace(frame, corrected=bytes(data), valid=bytes(data) == frame.printed)
 

@@ -17,7 +17,7 @@ def limits(bus: Bus | None) -> dict[str, object]:
     return {
         "pkw": list(uss_bus.pkw),
         "pzd": list(uss_bus.pzd),
-        "variant_pzd": dict(uss_bus.variant_pzd),
+        "variant_pzd": {str(variant): most for variant, most in uss_bus.variant_pzd},
         "bitrate": uss_bus.bitrate,
     }
 
