@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import Point, Unit
+from fieldscribe.model import Point, Terms
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.alike import Kinds, Once, frozen
 from fieldscribe.resolve.allowed import Ranges
@@ -24,9 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
     from fractions import Fraction
 
-    from fieldscribe.existence import Condition
     from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Shape
+    from fieldscribe.model import Shape, Unit
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.names import Index
     from fieldscribe.resolve.telegrams import Telegrams
@@ -38,25 +37,6 @@ class Resolved:
 
     point: Point
     draft: Draft
-
-
-class _Terms(NamedTuple):
-    """What a point shares with those that are alike, beside its shape; `reason` is why it is not generated, if so."""
-
-    group: str
-    unit: Unit
-    steps: tuple[tuple[int, int], ...]
-    changes: str | None
-    keeps: str | None
-    conditions: tuple[str, ...]
-    when: Condition | None
-    since: str | None
-    until: str | None
-    reserved: bool
-    reason: str | None
-    telegram: str | None
-    changes_with: tuple[str, ...]
-    untyped: str | None
 
 
 def resolve_points(
@@ -87,7 +67,7 @@ class _Points:
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
         self._sources = Sources(scope)
-        self._terms: Once[_Terms] = Once(scope.report)
+        self._terms: Once[Terms] = Once(scope.report)
         self._defaults: Once[tuple[Fraction | None, int | None]] = Once(scope.report)
 
     def point(self, draft: Draft, kind: Hashable, word: Word, meaning: Meaning) -> Point:
@@ -95,43 +75,26 @@ class _Points:
         shape, get = meaning.shape, draft.get
         place, write_place = self._places.places(draft, word.space, word.type, word.bits)
         terms = self._terms.of(kind, draft, partial(self._computed_terms, word, meaning), _are_general)
-        reason = terms.reason if place.addresses else "the manual prints no address"
         default, default_raw = self._default(draft, kind, shape)
         return Point(
             draft.name,
             draft.variant,
             draft.code,
-            terms.group,
-            word.space,
-            place,
-            shape,
-            word.bits,
             draft.title,
             titles(get("note")),
-            terms.unit,
+            self._sources.of(draft),
+            place,
+            write_place,
+            shape,
+            terms if place.addresses else replace(terms, generated=False, reason="the manual prints no address"),
             meaning.allowed,
             default,
             default_raw,
-            terms.steps,
             draft.record,
             draft.set_number,
-            terms.changes,
-            terms.keeps,
-            terms.conditions,
-            terms.when,
-            terms.since,
-            terms.until,
-            tuple([f"{name}{draft.suffix}" for name in get("was", ())]),
-            terms.reserved,
-            self._sources.of(draft),
-            (),
-            reason is None,
-            reason,
-            terms.telegram,
             None if draft.element is None else draft.element.index,
-            terms.changes_with,
-            write_place,
-            terms.untyped,
+            tuple([f"{name}{draft.suffix}" for name in get("was", ())]),
+            (),
         )
 
     def _default(self, draft: Draft, kind: Hashable, shape: Shape) -> tuple[Fraction | None, int | None]:
@@ -141,10 +104,13 @@ class _Points:
         said = kind, frozen(draft.get("default")), frozen(draft.get("default_in_units"))
         return self._defaults.of(said, draft, lambda _: default_of(self._scope, draft, shape), lambda _: True)
 
-    def _computed_terms(self, word: Word, meaning: Meaning, draft: Draft) -> _Terms:
+    def _computed_terms(self, word: Word, meaning: Meaning, draft: Draft) -> Terms:
         get, scope, shape = draft.get, self._scope, meaning.shape
-        return _Terms(
+        reason = _reason(draft, shape.access, raw_alone=meaning.raw_alone)
+        return Terms(
             group=str(draft.group["group"]),
+            space=word.space,
+            bits=word.bits,
             unit=_unit(scope, draft),
             steps=_steps(scope, draft),
             changes=get("changes"),
@@ -154,14 +120,15 @@ class _Points:
             since=get("since"),
             until=get("until"),
             reserved=bool(get("reserved", False)),
-            reason=_reason(draft, shape.access, raw_alone=meaning.raw_alone),
+            generated=reason is None,
+            reason=reason,
             telegram=draft.group.get("telegram") if word.space == SPACE else None,
             changes_with=_changes_with(draft, self._scales.index),
             untyped=_untyped(scope, draft),
         )
 
 
-def _are_general(terms: _Terms) -> bool:
+def _are_general(terms: Terms) -> bool:
     """Whether alike points share them: not where no point may name itself."""
     return terms.when is None and not terms.changes_with
 
