@@ -12,7 +12,7 @@ from fieldscribe.conversation.listener import decode
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.requests import write_text
 from fieldscribe.export.points import export_point
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import write_request
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust

@@ -87,8 +87,8 @@ class Draft:
     @property
     def keeps(self) -> str | None:
         """Whether a written value is kept, or by which command: the nearer one of `keep_with` and `keeps`."""
-        keeps: str | None = self.get("keep_with", self.get("keeps"))
-        return keeps
+        keeps: str | bool | None = self.get("keep_with", self.get("keeps"))
+        return {True: "yes", False: "no"}[keeps] if isinstance(keeps, bool) else keeps
 
     def _rank(self, layer: Map) -> int:
         """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""

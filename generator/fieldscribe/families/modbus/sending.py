@@ -47,20 +47,20 @@ def write_request(
         )
     values = words_of(point, raw, addresses)
     to = device.bus.usual_unit if unit is None else unit
-    request = Request(to, _function(device, point.space, len(addresses)), min(addresses), len(values), values)
-    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
+    function = function_for(device, point.space, len(addresses)) or 0
+    request = Request(to, function, min(addresses), len(values), values)
+    chosen = framing or framings_of(device.bus)[0]
     status, data = build(profile_of(device.bus), chosen, request)
     if status != "ok":
         raise refused(device.bus, point, status, _hint(device, status))
     return request, data
 
 
-def _function(device: Device, space_name: str, count: int) -> int:
+def function_for(device: Device, space_name: str, count: int) -> int | None:
+    """The function that writes a place of so many words or bits: that for a single item, else that for several."""
     space = SPACES[space_name]
-    single = space.write_one if count == 1 else None
-    most = profile_of(device.bus).most
-    usable = [function for function in (single, space.write_many) if function is not None]
-    return next((function for function in usable if function in most), usable[0] if usable else 0)
+    single = count == 1 and space.write_one in profile_of(device.bus).most
+    return space.write_one if single else space.write_many or space.write_one
 
 
 def _hint(device: Device, status: str) -> str:

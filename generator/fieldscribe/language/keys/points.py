@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.kinds import (
+    BOOLEAN,
     NOTHING,
     YES_NO,
     Items,
@@ -179,6 +180,7 @@ USING = (
         "Whether a written value survives power-off: no, yes (each write wears the memory), or as the caller chooses "
         "with each write (`choice`).",
         ["yes"],
+        BOOLEAN,
         one_of("no", "yes", "choice"),
         inherited=(GROUP, USE),
     ),
@@ -234,8 +236,8 @@ USING = (
         "reserved",
         _USED,
         "The maker keeps this address to itself.",
-        [True],
-        YES_NO,
+        ["yes"],
+        *YES_NO,
         inherited=(GROUP,),
     ),
 )

@@ -12,7 +12,7 @@ from fieldscribe.targets.python.existence import only_for, uncertain
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, docstring, laid_out
 from fieldscribe.targets.python.scope import PackageScope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
@@ -35,6 +35,11 @@ class PointView:
     arguments: tuple[str, ...]
     doc: tuple[str, ...]
     old_names: tuple[str, ...]
+
+    @property
+    def docstring(self) -> tuple[str, ...]:
+        """The lines of the docstring."""
+        return docstring(self.doc)
 
 
 @dataclass(slots=True)

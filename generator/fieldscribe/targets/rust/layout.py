@@ -59,10 +59,12 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
     return (f"{name}(", *(f"    {parameter}," for parameter in parameters), f") -> {result} {{")
 
 
-def array(items: list[str]) -> Lines:
-    """The contents of an array's brackets: one line, else a line for each item."""
-    joined = ", ".join(items)
-    return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
+def array(item: Item, elements: list[str]) -> Lines:
+    """`item = &[elements];`: one line, else a line for each element."""
+    joined = ", ".join(elements)
+    if len(joined) <= _ARRAY_WIDTH:
+        return (f"{item} = &[{joined}];",)
+    return (f"{item} = &[", *(f"    {element}," for element in elements), "];")
 
 
 def comparison(indent: int, left: str, right: str) -> Lines:

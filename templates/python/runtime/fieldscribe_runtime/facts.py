@@ -168,7 +168,7 @@ class Facts:
 
     @property
     def where(self) -> str:
-        """The place for people: on the wire, which bits of the word, the manual's other numberings, where it is written."""
+        """The place for people: on the wire, which bits, the manual's other numberings, and where it is written."""
         bits = "" if self.bits is None else f" bits {self.bits[0]}..{self.bits[1]}"
         printed = ", ".join(f"{key} {number}" for key, number in self.references.items())
         written = "" if self.write_at is None else f", written at {self.write_at}"

@@ -59,7 +59,10 @@ def context(device: Device) -> dict[str, object]:
         "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
         "dialogues": tuple(_request_and_answer_constants(device.messages)),
         "messages": tuple(map(_message, device.messages)),
-        "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
+        "message_names": array(
+            Item("pub const MESSAGES", "&[&Message]"),
+            [f"&messages::{message.name.upper()}" for message in device.messages],
+        ),
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
         "telegrams": tuple(
             _telegram(telegram, carriers[telegram.message])

@@ -29,8 +29,14 @@ def context(device: Device) -> dict[str, object]:
         "exception_names": code_names(bus.exceptions),
         "profile": binding(0, Item("pub static PROFILE", "Profile"), _profile(bus)),
         "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "tasks": array([f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions]),
-        "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
+        "tasks": array(
+            Item("const TASKS", "&[Task]"),
+            [f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions],
+        ),
+        "fixed": array(
+            Item("const FIXED", "&[FixedBits]"),
+            [f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)],
+        ),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
             ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),
