@@ -59,7 +59,7 @@ class _Written(tuple[Point, ...]):
 
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
-    enums = {id(enum): _enum(enum) for enum in device.enums}
+    enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
     shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
@@ -81,7 +81,7 @@ def for_code(device: Device) -> Device:
         ),
         groups=tuple(replace(group, title=_title(group.name), note={}, source=_NOWHERE) for group in device.groups),
         points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
-        enums=tuple(enums.values()),
+        enums=tuple(map(enums.of, device.enums)),
         commands=tuple(
             replace(command, title=_title(command.name), note={}, source=_NOWHERE) for command in device.commands
         ),
@@ -157,19 +157,32 @@ def _terms(terms: Terms) -> Terms:
     )
 
 
-def _shape(shape: Shape, enums: dict[int, Enum]) -> Shape:
+def _shape(shape: Shape, enums: _Enums) -> Shape:
     digits = shape.digits
     return replace(
         shape,
-        enum=shape.enum and (enums.get(id(shape.enum)) or _enum(shape.enum)),
-        digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
+        enum=shape.enum and enums.of(shape.enum),
+        digits=digits and replace(digits, enum=enums.of(digits.enum)),
         flags=tuple(_flag(flag) for flag in shape.flags),
         specials=tuple(_special(special) for special in shape.specials),
     )
 
 
-def _enum(enum: Enum) -> Enum:
-    return replace(enum, title=_title(enum.name), entries=tuple(_entry(entry) for entry in enum.entries))
+class _Enums:
+    """The enums of a device for code; those that share their entries still do."""
+
+    def __init__(self) -> None:
+        self._enums: dict[int, Enum] = {}
+        self._entries: dict[int, tuple[Entry, ...]] = {}
+
+    def of(self, enum: Enum) -> Enum:
+        """An enum with names as titles."""
+        if id(enum) not in self._enums:
+            entries = self._entries.get(id(enum.entries))
+            if entries is None:
+                entries = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
+            self._enums[id(enum)] = Enum(enum.name, _title(enum.name), entries, enum.closed)
+        return self._enums[id(enum)]
 
 
 def _entry(entry: Entry) -> Entry:

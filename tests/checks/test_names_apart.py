@@ -33,8 +33,11 @@ def strangers(device: Device, kinds: Kinds, language: str) -> Iterator[str]:
     first: dict[object, str] = {}
     stands_for = {point.item: first.setdefault(kinds.kind(point), point.item) for point in device.points}
     for space, owner, names in identifiers(device):
-        item = owner.of.name if owner.kind in ("struct", "flag", "code") and owner.of is not None else owner.name
-        if plain(item) not in kinds.items or (owner.kind != "point" and owner.of is None):
+        whole = owner
+        while whole.of is not None:
+            whole = whole.of
+        item = whole.name
+        if plain(item) not in kinds.items or whole.kind not in ("point", "enum"):
             continue
         other = stands_for[item]
         for name in map(plain, names):

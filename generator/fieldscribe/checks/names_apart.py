@@ -8,9 +8,11 @@ Where the proof fails, nothing is wrong yet: then all identifiers are compared a
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
+from fieldscribe.model import Shape
 from fieldscribe.targets.identifiers import clashes
 
 if TYPE_CHECKING:
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Allowed, Device, Place, Point
     from fieldscribe.targets.identifiers import Names, Owner
+
+
+_BUT_ENUM = attrgetter(*[field.name for field in fields(Shape) if field.name not in ("enum", "flags", "specials")])
 
 
 class Kinds:
@@ -65,7 +70,7 @@ class Kinds:
     def kind(self, point: Point) -> object:
         """All that decides which identifiers a point has, but for its name."""
         return (
-            id(point.shape),
+            _form_of_shape(point),
             self._limits[id(point.allowed)],
             point.group,
             point.space,
@@ -134,6 +139,14 @@ def _is_special(point: Point) -> bool:
     return bool(point.variant or point.was or point.when or point.telegram or point.changes_with or point.index)
 
 
+def _form_of_shape(point: Point) -> object:
+    """A shape without the name of its enum, if that is called after the point."""
+    enum = point.shape.enum
+    if enum is None or enum.name != point.item or point.flags or point.specials:
+        return id(point.shape)
+    return id(enum.entries), enum.closed, _BUT_ENUM(point.shape)
+
+
 def _form_of_place(place: Place) -> object:
     """A place without its numbers."""
     first = min(place.addresses, default=0)
@@ -147,9 +160,9 @@ def _form(allowed: Allowed) -> object:
 
 
 def _point_of(owner: Owner) -> str | None:
-    """The item of the point that a thing is, or is a part of."""
+    """The item of the point that a thing is, or is a part of; of an enum the name, which may be that of a point."""
     whole: Owner | None = owner
-    while whole is not None and whole.kind != "point":
+    while whole is not None and whole.kind not in ("point", "enum"):
         whole = whole.of
     return None if whole is None else whole.name
 
