@@ -28,9 +28,9 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     texts = [subject for subject in scope.subjects if subject.form == "text"]
     digits = [subject for subject in scope.subjects if subject.form == "digits"]
     whole = [subject for subject in scope.subjects if subject.form not in ("scaled", "float", "text", "digits")]
-    plain = [subject for subject in whole if subject.carried == subject.raw and not subject.point.specials]
-    coded = [subject for subject in whole if subject.carried == subject.raw and subject.point.specials]
-    mixed = [subject for subject in whole if subject.carried != subject.raw]
+    plain = [subject for subject in whole if subject.shape.carried == subject.raw and not subject.point.specials]
+    coded = [subject for subject in whole if subject.shape.carried == subject.raw and subject.point.specials]
+    mixed = [subject for subject in whole if subject.shape.carried != subject.raw]
     counted = [subject for subject in scaled if subject.point.decimals is not None]
     encoding = [subject for subject in scaled if subject.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
@@ -220,7 +220,7 @@ def _digits(subjects: Iterable[CratePoint], access: str, *, coded: bool) -> Iter
 
 def _counted(subject: CratePoint) -> Tokens:
     digits = subject.point.digits
-    return _bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
+    return _bracketed(("digits", str(digits.count if digits is not None else 0), subject.shape.carried))
 
 
 def _has_place(point: Point) -> bool:
@@ -258,8 +258,8 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
 
 def _names(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:
     for subject in subjects:
-        if subject.enum is not None:
-            yield rust_string(subject.point.item), type_name(subject.enum.name), *_bracketed(("enum", subject.carried))
+        if subject.shape.enum is not None:
+            yield rust_string(subject.point.item), type_name(subject.shape.enum.name), *_bracketed(("enum", subject.shape.carried))
 
 
 def _flags(subjects: Iterable[CratePoint]) -> Iterator[Tokens]:

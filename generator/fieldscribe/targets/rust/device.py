@@ -13,13 +13,14 @@ from fieldscribe.targets.rust.example import example_lines, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
-from fieldscribe.targets.rust.points import point_view
+from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
 from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
+    from fieldscribe.render import Render
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CrateScope
 
@@ -45,9 +46,9 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     return point.item, binding(4, left, f"runtime::Documented::new({where})")
 
 
-def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
+def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
-    points = tuple(point_view(subject, scope) for subject in scope.subjects)
+    points = "".join(point_texts(scope, render))
     words = tuple(flags_views(scope))
     enums = tuple(enum_views(device, scope))
     structs = tuple(arguments_views(scope))
@@ -70,7 +71,7 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "example_uses": example_uses(device.id, (*example, heard, *received), of_family.names),
         "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
-        "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
+        "uses_runtime": "runtime::" in points,
         "uses_flags": bool(words),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),

@@ -65,7 +65,7 @@ def _writes(asked: list[CratePoint]) -> Iterator[str]:
 def _inside(subject: CratePoint) -> str:
     """A value in the middle of what the point takes."""
     low, high = subject.point.outer
-    rule = subject.rule
+    rule = subject.shape.rule
     if rule is None:
         return "1.0"
     return float_literal(float(round((((low + high) // 2) - rule.offset) / rule.ratio)))

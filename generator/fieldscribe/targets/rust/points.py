@@ -1,4 +1,4 @@
-"""The view of one point: the facts for the runtime's macro."""
+"""The text of each point, as facts for the runtime's macro: laid out once for all points that are alike."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import point_doc
+from fieldscribe.targets.rust.documentation import is_long, point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.layout import binding, filled
-from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
+from fieldscribe.targets.rust.identity import Identities, Words, words_of
+from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
 from fieldscribe.text import rust_string
@@ -21,56 +23,120 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
+    from fieldscribe.render import Render
+    from fieldscribe.targets.rust.identity import Limits
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
-def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
-    """All that the templates need of a point."""
-    point, code = subject.point, subject.point.code
-    return PointView(
-        doc=point_doc(point, scope.errata),
-        alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
-        name=subject.name,
-        facts=tuple(_facts(subject, scope)),
-        was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
+def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
+    """The text of each point."""
+    identities, patterns = Identities(), dict[object, Pattern]()
+    traits = in_rust(scope.family).traits
+    for subject in scope.subjects:
+        limits = identities.limits(subject)
+        words, own = words_of(subject, limits), tuple(traits(subject, scope))
+        key = _key(subject, words, limits, own)
+        pattern = patterns.get(key)
+        if pattern is None:
+            view = _view(subject, words, own, scope)
+            pattern = patterns[key] = Pattern(render("rust/point.rs.j2", {"point": view}))
+        yield pattern.filled(words)
+
+
+def _key(subject: CratePoint, words: Words, limits: Limits, traits: tuple[str, ...]) -> object:
+    """All that decides about the text of a point beside its words, and the widths of those that lines are broken at."""
+    point, name, shape = subject
+    code, span = words.shown_code, words.span
+    named = shape.factors or point.allowed.arguments or point.was
+    return (
+        shape.alike,
+        limits.form,
+        point.space,
+        point.unit.symbol,
+        point.bits,
+        point.steps,
+        point.telegram,
+        point.variant,
+        point.when,
+        point.errata,
+        point.places[0].function,
+        point.places[1:],
+        traits,
+        (point.was, subject.arguments, len(name)) if named else None,
+        name if name.endswith("_") else None,
+        _has_alias(words),
+        words.sentence if is_long(words.sentence) else None,
+        code if " " in code else len(code),
+        span if " " in span else len(span),
+        len(words.hexadecimal),
+        len(words.decimal),
+        len(words.index),
+        words.low == "",
+        words.addresses == "",
+        words.references == "",
     )
 
 
-def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
+def _blanked(words: Words) -> Words:
+    """Blanks for the words, but for names that would clash, and for those within which a line may be broken."""
+    kept = {"sentence": words.sentence} if is_long(words.sentence) else {}
+    kept |= {"name": words.name} if words.name.endswith("_") else {}
+    kept |= {name: word for name in ("shown_code", "span") if " " in (word := getattr(words, name))}
+    return Words(*blanks(words))._replace(**kept)
+
+
+def _has_alias(words: Words) -> bool:
+    """Whether people may search for the manual's code, which is not the name of the type."""
+    code = words.code[1:-1]
+    return bool(_ALIAS.fullmatch(code)) and code != words.name
+
+
+def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope) -> PointView:
+    """All that the template needs of a point, with blanks for its words."""
+    point, shown = subject.point, _blanked(words)
+    return PointView(
+        doc=point_doc(point, shown, scope.errata),
+        alias=shown.code if _has_alias(words) else "",
+        name=shown.name,
+        facts=(*_facts(subject._replace(name=shown.name), shown, scope), *traits),
+        was=tuple(binding(0, f"pub type {type_name(old)}", shown.name) for old in point.was),
+    )
+
+
+def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    names = ", ".join(rust_string(name) for name in (point.item, point.code) if name)
-    yield f"{subject.name}: {subject.raw} = {names};"
-    yield from _whereabouts(point)
-    yield from _references(point)
+    yield f"{words.name}: {subject.raw} = {words.item}{words.code and ', '}{words.code};"
+    yield from _whereabouts(point, words)
+    if words.references:
+        yield words.references
     if point.unit.symbol:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
-    yield from _outer_limits(subject)
-    yield from form_lines(subject, scope)
+    if words.low:
+        yield f"raw {words.low}..={words.high};"
+    yield from form_lines(subject, words, scope)
     yield from code_lines(subject)
     if point.readable:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from in_rust(scope.family).traits(subject, scope)
 
 
-def _whereabouts(point: Point) -> Iterator[str]:
+def _whereabouts(point: Point, words: Words) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
-    if len(addresses) > 1:
-        yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
+    yield f"at {space_variant(point.space)} {words.address};"
+    if words.addresses:
+        yield words.addresses
     if point.words != 1:
         yield f"words {point.words};"
-    if point.index is not None:
-        yield f"index {point.index};"
+    if words.index:
+        yield f"index {words.index};"
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
@@ -78,20 +144,3 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
-
-
-def _outer_limits(subject: CratePoint) -> Iterator[str]:
-    """The fact about the outer limits, unless they are those of the type."""
-    ends, raw = subject.point.outer, subject.raw
-    if subject.form not in ("float", "text", "digits") and ends != type_range(raw):
-        yield f"raw {raw_literal(ends[0], raw)}..={raw_literal(ends[1], raw)};"
-
-
-def _references(point: Point) -> Iterator[str]:
-    """The manual's other numberings of the point."""
-    for key, number in point.references.items():
-        if isinstance(number, str):
-            type_, literal = "&'static str", rust_string(number)
-        else:
-            type_, literal = "u32" if 0 <= number < 1 << 32 else "i64", integer(number)
-        yield f"const {key.upper()}: {type_} = {literal};"

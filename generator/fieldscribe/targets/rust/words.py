@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
-from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
+from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
 
@@ -128,7 +128,7 @@ def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
 
 
 def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
-    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
+    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), raw_type(scope.lowered.points[name].shape)) for name in names)
 
 
 def _source(name: str, scope: CrateScope) -> str:
