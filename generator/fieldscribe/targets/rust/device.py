@@ -15,7 +15,7 @@ from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
-from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
+from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
 from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
@@ -49,8 +49,8 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
 def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
     points = "".join(point_texts(scope, render))
-    words = tuple(flags_views(scope))
-    enums = tuple(enum_views(device, scope))
+    enums, long_enums = enum_texts(device, scope, render)
+    first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
     structs = tuple(arguments_views(scope))
     of_family, example = in_rust(device.family), example_lines(device, scope)
     heard, received = of_family.heard(scope)
@@ -62,8 +62,9 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
         "codes": tuple(shared_views(scope)),
-        "long_enums": any(map(is_long, enums)),
-        "words": words,
+        "long_enums": long_enums,
+        "words": "".join(word_texts(scope, render)),
+        "first_word": first_word,
         "structs": structs,
         "example": example,
         "heard": heard,
@@ -72,7 +73,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
         "uses_runtime": "runtime::" in points,
-        "uses_flags": bool(words),
+        "uses_flags": bool(first_word),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
