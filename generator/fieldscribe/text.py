@@ -80,15 +80,10 @@ def rust_code(text: str) -> str:
 @lru_cache(maxsize=65536)
 def rust_string(text: str) -> str:
     """A Rust string literal with its quotes."""
-    escaped = []
-    for char in line(text):
-        if char in '"\\':
-            escaped.append("\\" + char)
-        elif char.isprintable():
-            escaped.append(char)
-        else:
-            escaped.append(f"\\u{{{ord(char):x}}}")
-    return '"' + "".join(escaped) + '"'
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    if not cleaned.isprintable():
+        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
+    return f'"{cleaned}"'
 
 
 @lru_cache(maxsize=65536)

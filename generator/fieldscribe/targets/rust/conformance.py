@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.families import family
@@ -10,15 +9,14 @@ from fieldscribe.patterns import Pattern, blanks, widths
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
 from fieldscribe.targets.rust.families import Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
-from fieldscribe.targets.rust.subjects import CratePoint
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.conformance_rows import Spot
-    from fieldscribe.targets.rust.subjects import CrateScope
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALWAYS = {
     "decode": "decode",
@@ -74,43 +72,39 @@ def _rows(scope: CrateScope) -> Rows:
     plans: dict[object, _Plan] = {}
     for subject in scope.subjects:
         enum = subject.shape.enum
-        words = (subject.point.item, subject.name, "" if enum is None else type_name(enum.name))
-        plan = _plan(subject, words, scope, plans)
-        for spot, text in zip(plan.spots, plan.pattern.filled(words).split(_END), strict=True):
-            rows.setdefault(spot, []).append(text)
+        words = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
+        key = _key(subject, words)
+        plan = plans.get(key)
+        if plan is None:
+            plan = plans[key] = _laid_out(subject, [key[0] * bool(word) for word in words], scope, rows)
+        if not plan.fits:
+            exact = (*key, *widths(words))
+            plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
+        for append, text in zip(plan.appends, plan.pattern.filled(words).split(_END), strict=True):
+            append(text)
     return rows
 
 
 class _Plan(NamedTuple):
-    """The rows of points that have the same ones, and whether each fits in one line."""
+    """The rows of points that have the same ones, where they are appended, and whether each fits in one line."""
 
-    spots: tuple[Spot, ...]
+    appends: tuple[Callable[[str], None], ...]
     pattern: Pattern
     fits: bool
 
 
-def _plan(subject: CratePoint, words: tuple[str, str, str], scope: CrateScope, plans: dict[object, _Plan]) -> _Plan:
-    """The rows of a point. Those that fit even with wider names are not broken for any of them."""
-    width = max(map(len, words)) // _STEP * _STEP + _STEP
-    key = (width, *_key(subject, words))
-    plan = plans.get(key)
-    if plan is None:
-        plan = plans[key] = _laid_out(subject, [width * bool(word) for word in words], scope)
-    if plan.fits:
-        return plan
-    exact = (*key, *widths(words))
-    if exact not in plans:
-        plans[exact] = _laid_out(subject, widths(words), scope)
-    return plans[exact]
+def _key(subject: CratePoint, words: tuple[str, str, str]) -> tuple[int, *tuple[object, ...]]:
+    """All that decides which rows a point has, and what is in them beside names; first a width that no name exceeds.
 
-
-def _key(subject: CratePoint, words: tuple[str, str, str]) -> tuple[object, ...]:
-    """All that decides which rows a point has, and what is in them beside names."""
-    point, name, shape = subject
+    Rows that fit in a line with names of that width fit with all of them.
+    """
+    point, item, name, shape = subject
+    named = shape.factors or point.allowed.arguments
     return (
+        max(len(item), len(name), len(words[2])) // _STEP * _STEP + _STEP,
         shape.alike,
         words[2] == "",
-        subject.arguments,
+        subject.arguments if named else (),
         point.bits is None,
         point.index is None,
         point.unit.symbol == "",
@@ -122,14 +116,14 @@ def _key(subject: CratePoint, words: tuple[str, str, str]) -> tuple[object, ...]
     )
 
 
-def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope) -> _Plan:
+def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows: Rows) -> _Plan:
     """The rows with blanks in place of names; a name that would clash stays as it is."""
     item, name, enum = blanks(" " * width for width in wide)
     name = subject.name if subject.name.endswith("_") else name
-    blank = CratePoint(replace(subject.point, name=item, variant=None), name, subject.shape)
-    spots, rows = zip(*rows_of(blank, enum, scope), strict=True)
-    texts = [row_text(row) for row in rows]
-    return _Plan(spots, Pattern(_END.join(texts)), all("\n" not in text for text in texts))
+    laid_out = [(spot, row_text(row)) for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope)]
+    pattern = Pattern(_END.join([text for _, text in laid_out]))
+    appends = tuple([rows.setdefault(spot, []).append for spot, _ in laid_out])
+    return _Plan(appends, pattern, all("\n" not in text for _, text in laid_out))
 
 
 def _protocol(device: Device) -> Iterator[Table]:

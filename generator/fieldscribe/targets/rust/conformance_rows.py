@@ -37,7 +37,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield from _CONVERSIONS.get(subject.form, _whole)(subject)
     if enum:
         name = Spot("name", part=1 if subject.form == "digits" else 0)
-        yield name, (_quoted(point.item), enum, *bracketed(("enum", subject.shape.carried)))
+        yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.shape.carried)))
     for table, holds in (
         ("special", point.specials),
         ("special_name", point.specials),
@@ -117,7 +117,7 @@ _CONVERSIONS = {"scaled": _scaled, "float": _float, "digits": _digits, "text": _
 
 
 def _flags(subject: CratePoint) -> Iterator[Row]:
-    item = subject.point.item
+    item = subject.item
     for flag in subject.point.flags:
         if subject.form == "flags":
             calls = bracketed(("flag", subject.raw, getter_name(flag.name), f"with_{flag.name}"))
@@ -168,7 +168,7 @@ def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
 
 def row_of(subject: CratePoint, how: Tokens) -> Tokens:
     """The row of a point: its name in the vectors, its path in the crate, and further tokens."""
-    return _quoted(subject.point.item), subject.name, *how
+    return _quoted(subject.item), subject.name, *how
 
 
 def bracketed(tokens: Tokens) -> Tokens:

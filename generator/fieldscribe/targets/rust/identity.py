@@ -61,7 +61,7 @@ class Identities:
 
     def limits(self, subject: CratePoint) -> Limits:
         """The words of a point's limits; equal limits are one object."""
-        point, _, shape = subject
+        point, shape = subject.point, subject.shape
         key = (id(point.allowed), shape)
         limits = self._limits.get(key)
         if limits is None:
@@ -71,8 +71,8 @@ class Identities:
 
 def words_of(subject: CratePoint, limits: Limits) -> Words:
     """The words of a point."""
-    point, name, shape = subject
-    item, code, addresses = point.item, point.code or "", point.addresses
+    point, item, name, shape = subject
+    code, addresses = point.code or "", point.addresses
     address = addresses[0] if len(addresses) == 1 else min(addresses)
     hexadecimal, decimal = address_text(address).split(" ")
     return Words(

@@ -47,7 +47,7 @@ def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
 
 def _key(subject: CratePoint, words: Words, limits: Limits, traits: tuple[str, ...]) -> object:
     """All that decides about the text of a point beside its words, and the widths of those that lines are broken at."""
-    point, name, shape = subject
+    point, _, name, shape = subject
     code, span = words.shown_code, words.span
     named = shape.factors or point.allowed.arguments or point.was
     return (

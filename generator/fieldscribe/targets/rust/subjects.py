@@ -39,9 +39,10 @@ class CrateShape:
 
 
 class CratePoint(NamedTuple):
-    """A generated point: its name in Rust, and what Rust knows of its shape."""
+    """A generated point: its name in the description and in Rust, and what Rust knows of its shape."""
 
     point: Point
+    item: str
     name: str
     shape: CrateShape
 
@@ -110,12 +111,18 @@ def scope_of(device: Device) -> CrateScope:
     enums = _enum_types(shapes.values())
     numbers: dict[object, int] = {}
     known = {key: _shape(shape, enums, numbers) for key, shape in shapes.items()}
+    items = [point.item for point in generated]
     messages = {message.name: message for message in device.messages}
     return CrateScope(
         lower(device),
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple([CratePoint(point, type_name(point.item), known[id(point.shape)]) for point in generated]),
+        tuple(
+            [
+                CratePoint(point, item, type_name(item), known[id(point.shape)])
+                for point, item in zip(generated, items, strict=True)
+            ]
+        ),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
         frozenset(erratum.id for erratum in device.errata if erratum.facts),

@@ -12,7 +12,7 @@ from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, F
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Device, Entry, Enum, Flag
     from fieldscribe.render import Render
@@ -88,7 +88,7 @@ def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     patterns: dict[object, Pattern] = {}
     for subject in scope.subjects:
         if subject.form == "flags":
-            words = (subject.name, sentence(subject.point.item))
+            words = (subject.name, sentence(subject.item))
             key = (subject.shape.alike, len(subject.name))
             pattern = patterns.get(key)
             if pattern is None:
@@ -135,29 +135,41 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
-    for subject in scope.subjects:
-        if not subject.arguments:
-            continue
-        item = subject.point.item
+    needy = [subject for subject in scope.subjects if subject.arguments]
+    links = _links(scope) if needy else {}
+    for subject in needy:
+        item = subject.item
         parted = bool(subject.factors) and subject.factors != subject.arguments
         part = subject.factors_name if parted else ""
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", ())
         literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
-    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), raw_type(scope.lowered.points[name].shape)) for name in names)
+def _fields(
+    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
+) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple(
+        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
+        for name in names
+    )
 
 
-def _source(name: str, scope: CrateScope) -> str:
+def _source(name: str, links: Mapping[str, list[str]]) -> str:
     """The points whose raw number an argument is: several if variants of the device differ."""
-    types = [subject.name for subject in scope.subjects if name in (subject.point.item, subject.point.name)]
-    links = " or ".join(f"[`{type_}`](crate::points::{type_})" for type_ in types)
-    return f"The raw number of {links or f'`{name}`'}."
+    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
+
+
+def _links(scope: CrateScope) -> dict[str, list[str]]:
+    """Links to the points of each name and item."""
+    links: dict[str, list[str]] = {}
+    for subject in scope.subjects:
+        for name in {subject.item, subject.point.name}:
+            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
+    return links
 
 
 def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumView:

@@ -150,7 +150,7 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
 
 def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
     """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
-    come = {subject.point.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
+    come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
         return "", ()
