@@ -44,7 +44,7 @@ _CHAIN = 60
 """A chain of calls on one line has at most so many characters."""
 
 _STEP = 16
-"""Names are laid out as if they were as wide as the next multiple."""
+"""Names are laid out as if they were as wide as the next multiple: if their rows fit then, they fit with all."""
 
 _END = ";\n"
 
@@ -73,12 +73,13 @@ def _rows(scope: CrateScope) -> Rows:
     for subject in scope.subjects:
         enum = subject.shape.enum
         words = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
-        key = _key(subject, words)
+        wide = max(map(len, words)) // _STEP * _STEP + _STEP
+        key = (subject.kin, wide, enum is None)
         plan = plans.get(key)
         if plan is None:
-            plan = plans[key] = _laid_out(subject, [key[0] * bool(word) for word in words], scope, rows)
+            plan = plans[key] = _laid_out(subject, [wide * bool(word) for word in words], scope, rows)
         if not plan.fits:
-            exact = (*key, *widths(words))
+            exact = (subject.kin, *widths(words))
             plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
         for append, text in zip(plan.appends, plan.pattern.filled(words).split(_END), strict=True):
             append(text)
@@ -91,29 +92,6 @@ class _Plan(NamedTuple):
     appends: tuple[Callable[[str], None], ...]
     pattern: Pattern
     fits: bool
-
-
-def _key(subject: CratePoint, words: tuple[str, str, str]) -> tuple[int, *tuple[object, ...]]:
-    """All that decides which rows a point has, and what is in them beside names; first a width that no name exceeds.
-
-    Rows that fit in a line with names of that width fit with all of them.
-    """
-    point, item, name, shape = subject
-    named = shape.factors or point.allowed.arguments
-    return (
-        max(len(item), len(name), len(words[2])) // _STEP * _STEP + _STEP,
-        shape.alike,
-        words[2] == "",
-        subject.arguments if named else (),
-        point.bits is None,
-        point.index is None,
-        point.unit.symbol == "",
-        point.telegram,
-        point.keeps,
-        bool(point.places),
-        tuple(point.references),
-        name if name.endswith("_") else None,
-    )
 
 
 def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows: Rows) -> _Plan:

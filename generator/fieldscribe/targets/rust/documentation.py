@@ -90,7 +90,7 @@ def _place(point: Point, address: str, index: str) -> str:
 
 def _facts(point: Point, words: Words) -> Iterator[str]:
     where = _place(point, f"{words.hexadecimal} {words.decimal}", words.index)
-    yield f"{words.shown_code} at {where}" if words.code else f"At {where}"
+    yield f"{words.code_shown} at {where}" if words.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:
         yield f"{point.text.characters} characters of {rust_code(point.text.encoding)}"

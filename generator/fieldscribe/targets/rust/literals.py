@@ -86,7 +86,6 @@ def value_name(name: str) -> str:
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"
 
 
-@lru_cache(maxsize=65536)
 def integer(number: int) -> str:
     """A decimal literal: `4000`, `-70_000`."""
     return str(number) if -_UNGROUPED < number < _UNGROUPED else f"{number:_}"

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.patterns import Pattern, blanks
+from fieldscribe.patterns import Pattern
 from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import is_long, point_doc
+from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.identity import Identities, Words, words_of
+from fieldscribe.targets.rust.identity import KnownLimits, blanked, is_alias, words_of
 from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
@@ -24,20 +23,19 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.rust.identity import Limits
+    from fieldscribe.targets.rust.identity import Words
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
-
-_ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
 def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """The text of each point."""
-    identities, patterns = Identities(), dict[object, Pattern]()
+    known_limits, patterns = KnownLimits(), dict[object, Pattern]()
     traits = in_rust(scope.family).traits
     for subject in scope.subjects:
-        limits = identities.limits(subject)
-        words, own = words_of(subject, limits), tuple(traits(subject, scope))
-        key = _key(subject, words, limits, own)
+        limits = known_limits.of(subject)
+        words, layout = words_of(subject, limits)
+        own = tuple(traits(subject, scope))
+        key = (subject.kin, limits.form, layout, own)
         pattern = patterns.get(key)
         if pattern is None:
             view = _view(subject, words, own, scope)
@@ -45,60 +43,12 @@ def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
         yield pattern.filled(words)
 
 
-def _key(subject: CratePoint, words: Words, limits: Limits, traits: tuple[str, ...]) -> object:
-    """All that decides about the text of a point beside its words, and the widths of those that lines are broken at."""
-    point, _, name, shape = subject
-    code, span = words.shown_code, words.span
-    named = shape.factors or point.allowed.arguments or point.was
-    return (
-        shape.alike,
-        limits.form,
-        point.space,
-        point.unit.symbol,
-        point.bits,
-        point.steps,
-        point.telegram,
-        point.variant,
-        point.when,
-        point.errata,
-        point.places[0].function,
-        point.places[1:],
-        traits,
-        (point.was, subject.arguments, len(name)) if named else None,
-        name if name.endswith("_") else None,
-        _has_alias(words),
-        words.sentence if is_long(words.sentence) else None,
-        code if " " in code else len(code),
-        span if " " in span else len(span),
-        len(words.hexadecimal),
-        len(words.decimal),
-        len(words.index),
-        words.low == "",
-        words.addresses == "",
-        words.references == "",
-    )
-
-
-def _blanked(words: Words) -> Words:
-    """Blanks for the words, but for names that would clash, and for those within which a line may be broken."""
-    kept = {"sentence": words.sentence} if is_long(words.sentence) else {}
-    kept |= {"name": words.name} if words.name.endswith("_") else {}
-    kept |= {name: word for name in ("shown_code", "span") if " " in (word := getattr(words, name))}
-    return Words(*blanks(words))._replace(**kept)
-
-
-def _has_alias(words: Words) -> bool:
-    """Whether people may search for the manual's code, which is not the name of the type."""
-    code = words.code[1:-1]
-    return bool(_ALIAS.fullmatch(code)) and code != words.name
-
-
 def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope) -> PointView:
     """All that the template needs of a point, with blanks for its words."""
-    point, shown = subject.point, _blanked(words)
+    point, shown = subject.point, blanked(words)
     return PointView(
         doc=point_doc(point, shown, scope.errata),
-        alias=shown.code if _has_alias(words) else "",
+        alias=shown.code if is_alias(point.code or "", subject.name) else "",
         name=shown.name,
         facts=(*_facts(subject._replace(name=shown.name), shown, scope), *traits),
         was=tuple(binding(0, f"pub type {type_name(old)}", shown.name) for old in point.was),
@@ -108,7 +58,7 @@ def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: Cra
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    yield f"{words.name}: {subject.raw} = {words.item}{words.code and ', '}{words.code};"
+    yield f"{words.name}: {subject.raw} = \"{words.item}\"{words.code and ', '}{words.code};"
     yield from _whereabouts(point, words)
     if words.references:
         yield words.references

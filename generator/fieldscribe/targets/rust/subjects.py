@@ -9,7 +9,7 @@ from fieldscribe.lowered import lower
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
@@ -39,12 +39,18 @@ class CrateShape:
 
 
 class CratePoint(NamedTuple):
-    """A generated point: its name in the description and in Rust, and what Rust knows of its shape."""
+    """A generated point: its name in the description and in Rust, and what Rust knows of its shape.
+
+    `arguments` are the points whose raw numbers writing needs. `kin` is the number of all points that differ in nothing
+    but the words of their identity and limits.
+    """
 
     point: Point
     item: str
     name: str
     shape: CrateShape
+    arguments: tuple[str, ...]
+    kin: int
 
     @property
     def form(self) -> str:
@@ -55,11 +61,6 @@ class CratePoint(NamedTuple):
     def raw(self) -> str:
         """The type of its raw number."""
         return self.shape.raw
-
-    @property
-    def arguments(self) -> tuple[str, ...]:
-        """The points whose raw numbers writing needs."""
-        return self.point.arguments if self.shape.factors or self.point.allowed.arguments else ()
 
     @property
     def factors(self) -> tuple[str, ...]:
@@ -109,24 +110,50 @@ def scope_of(device: Device) -> CrateScope:
     generated = [point for point in device.points if point.generated]
     shapes = {id(point.shape): point.shape for point in generated}
     enums = _enum_types(shapes.values())
-    numbers: dict[object, int] = {}
-    known = {key: _shape(shape, enums, numbers) for key, shape in shapes.items()}
-    items = [point.item for point in generated]
     messages = {message.name: message for message in device.messages}
     return CrateScope(
         lower(device),
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple(
-            [
-                CratePoint(point, item, type_name(item), known[id(point.shape)])
-                for point, item in zip(generated, items, strict=True)
-            ]
-        ),
+        tuple(_subjects(generated, _shapes(shapes, enums))),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
         frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
+
+
+def _subjects(points: Iterable[Point], shapes: Mapping[int, CrateShape]) -> Iterator[CratePoint]:
+    kins: dict[object, int] = {}
+    for point in points:
+        shape, item = shapes[id(point.shape)], point.item
+        name = type_name(item)
+        arguments = point.arguments if shape.factors or point.allowed.arguments else ()
+        kin = (
+            shape.alike,
+            arguments,
+            point.space,
+            point.unit.symbol,
+            point.bits,
+            point.steps,
+            point.telegram,
+            point.index is None,
+            tuple(point.references),
+            point.places[0].function,
+            point.places[1:],
+            point.variant,
+            point.when,
+            point.errata,
+            point.keeps,
+            point.was,
+            name if name.endswith("_") else None,
+        )
+        yield CratePoint(point, item, name, shape, arguments, kins.setdefault(kin, len(kins)))
+
+
+def _shapes(shapes: Mapping[int, Shape], enums: Mapping[str, str]) -> dict[int, CrateShape]:
+    """What Rust knows of shapes, by the same keys."""
+    numbers: dict[object, int] = {}
+    return {key: _shape(shape, enums, numbers) for key, shape in shapes.items()}
 
 
 def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:

@@ -89,7 +89,7 @@ def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     for subject in scope.subjects:
         if subject.form == "flags":
             words = (subject.name, sentence(subject.item))
-            key = (subject.shape.alike, len(subject.name))
+            key = (subject.kin, len(subject.name))
             pattern = patterns.get(key)
             if pattern is None:
                 view = _word(subject, *blanks(words))
