@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
@@ -12,7 +11,7 @@ from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.example import example_lines, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import binding, in_lines
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
@@ -57,7 +56,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     return {
         "head": head(device, "//"),
         "points": points,
-        "table": wrap(" ".join(subject.name for subject in scope.subjects), 100, break_long_words=False),
+        "table": in_lines(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,

@@ -21,10 +21,9 @@ _ALWAYS = ("points as p", "Client", "ClientError", "Transport", "PROFILE")
 def example_lines(device: Device, scope: CrateScope) -> Lines:
     """What a function that talks to the device does; nothing if no point is read by itself alone."""
     asked = [one for one in scope.subjects if one.point.telegram is None]
-    plain = [one for one in asked if one.point.readable and not one.factors and not one.point.specials]
-    if not plain:
+    read = _first(one for one in _plain(asked) if one.form == "scaled") or _first(_plain(asked))
+    if read is None:
         return ()
-    read = next((one for one in plain if one.form == "scaled"), plain[0])
     return (
         f"let value = client.read::<p::{read.name}>()?;",
         'println!("it is {value:?}");',
@@ -46,20 +45,26 @@ def example_uses(device: str, lines: Sequence[str], names: Sequence[str]) -> Lin
 
 def _writes(asked: list[CratePoint]) -> Iterator[str]:
     """A point that needs no other, and one that does."""
-    written = [
-        one
-        for one in asked
-        if one.point.writable and one.point.encodes_values and not one.point.bits and one.form in _VALUED
-    ]
-    plain = _first(one for one in written if not one.arguments and not one.point.specials)
+    plain = _first(one for one in asked if not one.arguments and _takes_a_value(one))
     if plain is not None:
         yield f"client.write::<p::{plain.name}>({_inside(plain)})?;"
-    needy = _first(one for one in written if one.arguments and one.point.readable and not one.point.specials)
+    needy = _first(one for one in asked if one.arguments and _takes_a_value(one) and one.point.readable)
     if needy is not None:
         fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
         yield "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them."
         yield f"let with = with::{needy.name} {{ {fields} }};"
         yield f"client.write_with::<p::{needy.name}>(1.0, with)?;"
+
+
+def _plain(asked: Iterable[CratePoint]) -> Iterator[CratePoint]:
+    """Points that are read by themselves alone."""
+    return (one for one in asked if one.point.readable and not one.factors and not one.point.specials)
+
+
+def _takes_a_value(one: CratePoint) -> bool:
+    point = one.point
+    encodes = point.writable and point.encodes_values and not point.bits and not point.specials
+    return encodes and one.form in _VALUED
 
 
 def _inside(subject: CratePoint) -> str:
