@@ -45,6 +45,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
         ("words", _has_words(point)),
         ("symbol", point.unit.symbol),
         ("place", _has_place(point)),
+        ("write_address", point.write_place is not None),
         ("fixed", point.fixed),
         ("display", point.display is not None),
     ):
@@ -53,7 +54,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield Spot("address"), row_of(subject, _references(point))
     if point.display is not None:
         yield Spot("told"), _read(subject)
-    if point.places:
+    if point.addresses:
         yield from _exchanges(subject, scope)
 
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.example import example_lines, example_uses
+from fieldscribe.targets.rust.example import example_of, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import binding, in_lines
+from fieldscribe.targets.rust.layout import Item, binding, in_lines
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
@@ -41,17 +41,17 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     """A point that is reached raw only: its item, and the lines of its constant."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    left = f"pub const {upper(point.item)}: runtime::Documented"
-    return point.item, binding(4, left, f"runtime::Documented::new({where})")
+    item = Item(f"pub const {upper(point.item)}", "runtime::Documented")
+    return point.item, binding(4, item, f"runtime::Documented::new({where})")
 
 
 def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
-    points = "".join(point_texts(scope, render))
+    points, names_runtime = point_texts(scope, render)
     enums, long_enums = enum_texts(device, scope, render)
     first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
     structs = tuple(arguments_views(scope))
-    of_family, example = in_rust(device.family), example_lines(device, scope)
+    of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
@@ -65,13 +65,13 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "words": "".join(word_texts(scope, render)),
         "first_word": first_word,
         "structs": structs,
-        "example": example,
+        "example": example.lines,
         "heard": heard,
-        "received": received,
-        "example_uses": example_uses(device.id, (*example, heard, *received), of_family.names),
+        "received": received.lines,
+        "example_uses": example_uses(device.id, example + received, of_family.names),
         "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
-        "uses_runtime": "runtime::" in points,
+        "uses_runtime": names_runtime,
         "uses_flags": bool(first_word),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),

@@ -84,7 +84,9 @@ def _whereabouts(point: Point) -> Iterator[str]:
 
 def _place(point: Point, address: str, index: str) -> str:
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
-    where = f"{space} {address}{f' index {index}' if index else ''}"
+    where = f"{space} {address}"
+    where += "" if point.write_place is None else f" (written at {address_text(min(point.write_place.addresses))})"
+    where += f" index {index}" if index else ""
     return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
 
@@ -103,7 +105,7 @@ def _facts(point: Point, words: Words) -> Iterator[str]:
         yield display_text(point)
     yield access_text(point.access)
     if point.variant:
-        yield f"for {rust_code(point.variant)}"
+        yield f"for {rust_code(str(point.variant))}"
     if point.when:
         yield f"only when {rust_code(condition_text(point.when))}"
 

@@ -78,7 +78,7 @@ class KnownLimits:
 def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
     """The words of a point, and what decides where lines are broken."""
     point, item, name, shape, *_ = subject
-    addresses, code, title = point.addresses, point.code or "", sentence(item)
+    addresses, code, title = point.place.addresses, point.code or "", sentence(item)
     address = addresses[0] if len(addresses) == 1 else min(addresses)
     hexadecimal, decimal = address_text(address).split(" ")
     index = "" if point.index is None else str(point.index)
@@ -99,7 +99,7 @@ def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
         low,
         high,
         "" if len(addresses) == 1 else _addresses(addresses),
-        _references(point.references),
+        _references(point.place.references),
     )
     layout = (
         title if is_long(title) else None,

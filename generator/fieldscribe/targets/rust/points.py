@@ -12,7 +12,7 @@ from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.identity import KnownLimits, blanked, is_alias, words_of
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import Item, binding
 from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
-def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
-    """The text of each point."""
+def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
+    """The texts of all points, and whether one of them names items of the runtime."""
     known_limits, patterns = KnownLimits(), dict[object, Pattern]()
-    traits = in_rust(scope.family).traits
+    traits, texts, names_runtime = in_rust(scope.family).traits, [], False
     for subject in scope.subjects:
         limits = known_limits.of(subject)
         words, layout = words_of(subject, limits)
@@ -39,8 +39,10 @@ def point_texts(scope: CrateScope, render: Render) -> Iterator[str]:
         pattern = patterns.get(key)
         if pattern is None:
             view = _view(subject, words, own, scope)
+            names_runtime |= view.names_runtime
             pattern = patterns[key] = Pattern(render("rust/point.rs.j2", {"point": view}))
-        yield pattern.filled(words)
+        texts.append(pattern.filled(words))
+    return "".join(texts), names_runtime
 
 
 def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope) -> PointView:
@@ -51,7 +53,8 @@ def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: Cra
         alias=shown.code if is_alias(point.code or "", subject.name) else "",
         name=shown.name,
         facts=(*_facts(subject._replace(name=shown.name), shown, scope), *traits),
-        was=tuple(binding(0, f"pub type {type_name(old)}", shown.name) for old in point.was),
+        names_runtime=bool(traits) or _names_runtime(subject),
+        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), shown.name) for old in point.was),
     )
 
 
@@ -78,6 +81,13 @@ def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str
         yield from write_lines(subject, scope)
 
 
+def _names_runtime(subject: CratePoint) -> bool:
+    """Whether the facts name items of the runtime: the type of a text, the check of digits, or rules."""
+    point = subject.point
+    checked = point.digits is not None or bool(point.limit_arguments)
+    return point.text is not None or bool(subject.factors) or (point.writable and checked)
+
+
 def _whereabouts(point: Point, words: Words) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
     yield f"at {space_variant(point.space)} {words.address};"
@@ -85,6 +95,8 @@ def _whereabouts(point: Point, words: Words) -> Iterator[str]:
         yield words.addresses
     if point.words != 1:
         yield f"words {point.words};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
     if words.index:
         yield f"index {words.index};"
     if point.telegram is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -98,8 +98,8 @@ def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
 
 
 def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
-    all_flags, bits = subject.point.flags, subject.raw.replace("i", "u")
-    flags = tuple(_flag(flag, bits) for flag in all_flags)
+    all_flags, width = subject.point.flags, subject.point.info.bits
+    bits, flags = f"u{width}", tuple(_flag(flag, width) for flag in all_flags)
     low = sum(1 << flag.low for flag in all_flags if flag.width == 1 and not flag.active)
     return FlagsView(
         doc=doc,
@@ -108,13 +108,14 @@ def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
         bits=bits,
         false=mask(low, bits) if low else "0",
         flags=flags,
-        shown=(*binding(4, "const NAME: &'static str", f'"{name}"'), *_table(all_flags, flags)),
+        shown=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
     )
 
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
     """The constant that says how flags are shown, with the names of their numbers."""
-    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    item = Item("const FLAGS", "&'static [runtime::Flag]")
+    names, shown = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
         if view.values:
             names += _names(f"NAMES_{place}", flag)
@@ -123,14 +124,14 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
             made = "new" if view.active or not view.single else "active_low"
             shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
     if not names:
-        return calls(4, left, shown)
-    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+        return calls(4, item, shown)
+    return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
 
 
 def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
-    return calls(8, f"const {constant}: runtime::Names", rows)
+    return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
@@ -185,12 +186,12 @@ def _entry(entry: Entry, enum: str) -> EntryView:
     return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
 
 
-def _flag(flag: Flag, raw: str) -> FlagView:
-    ones = (1 << flag.width) - 1
+def _flag(flag: Flag, width: int) -> FlagView:
+    raw, ones = f"u{width}", (1 << flag.width) - 1
     bits = mask(ones << flag.low, raw)
     single = flag.width == 1
     constant = constant_name(flag)
-    full = ones << flag.low == (1 << int(raw[1:])) - 1
+    full = ones << flag.low == (1 << width) - 1
     masked = "self.0" if full else f"self.0 & Self::{constant}"
     number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
     placed = "number" if flag.low == 0 else f"(number << {flag.low})"
@@ -202,7 +203,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
         active=bool(flag.active),
         constant=constant,
-        constant_lines=binding(4, f"pub const {constant}: {raw}", bits),
+        constant_lines=binding(4, Item(f"pub const {constant}", raw), bits),
         getter=getter_name(flag.name),
         setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
         mask=bits,
@@ -215,7 +216,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         values=tuple(
             (
                 sentence(value.name),
-                binding(4, f"pub const {flag.name.upper()}_{value.name.upper()}: {raw}", integer(value.raw)),
+                binding(4, Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw), integer(value.raw)),
             )
             for value in (() if single else flag.values)
         ),
