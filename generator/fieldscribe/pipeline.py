@@ -112,8 +112,7 @@ def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, 
     for name in targets:
         try:
             loaded = target(name)
-            plain = plain or for_code(device)
-            for path, text in _of_target(loaded, device if loaded.FOR_PEOPLE else plain):
+            for path, text in _of_target(loaded, device if loaded.FOR_PEOPLE else (plain := plain or for_code(device))):
                 yield name, path, text
         except Exception as error:
             raise TargetError(name) from error

@@ -22,15 +22,8 @@ class BusView:
 
     note: str
     facts: str
-    functions: str
-    function_heading: str
-    responses: str
-    exceptions: str
-    messages: str
-    telegrams: str
-    serial: str
-    timing: str
-    commands: str
+    sections: tuple[tuple[str, str], ...]
+    """Headings with their tables."""
 
 
 def bus_view(device: Device) -> BusView:
@@ -44,18 +37,21 @@ def bus_view(device: Device) -> BusView:
         for setting, codes in bus.serial.items()
         for number, meaning in codes.items()
     ]
+    responses = _linked_codes(bus.codes("responses"), "Tasks")
+    sections = (
+        ("" if asks is None else f"{asks.kind.capitalize()}s", _answered(bus) if answered else _functions(bus, part)),
+        ("Responses", responses),
+        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks")),
+        ("Messages", _messages(device)),
+        ("Telegrams", _telegrams(device)),
+        ("Serial settings", by_rows(("Setting", "Code", "Meaning"), serial)),
+        ("Timing", by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()])),
+        ("Commands", _commands(device)),
+    )
     return BusView(
-        note=paragraph(title_text(bus.note)) if bus.note else "",
-        facts=by_rows(("Fact", "Value"), [*part.facts(bus)]),
-        functions=_answered(bus) if answered else _functions(bus, part),
-        function_heading="" if asks is None else f"{asks.kind.capitalize()}s",
-        responses=_linked_codes(bus.codes("responses"), "Tasks"),
-        exceptions=_linked_codes(bus.exceptions, "Tasks"),
-        messages=_messages(device),
-        telegrams=_telegrams(device),
-        serial=by_rows(("Setting", "Code", "Meaning"), serial),
-        timing=by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()]),
-        commands=_commands(device),
+        paragraph(title_text(bus.note)) if bus.note else "",
+        by_rows(("Fact", "Value"), [*part.facts(bus)]),
+        tuple((heading, table) for heading, table in sections if table),
     )
 
 

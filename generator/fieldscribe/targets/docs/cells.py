@@ -12,9 +12,12 @@ from fieldscribe.text import markdown
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+_BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
+"""What most cells are made of, and Markdown escapes nothing of it."""
 _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9]))*")
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _NUMBERED = re.compile(r"^([0-9]+)([.)])")
+_ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
@@ -35,7 +38,13 @@ def by_rows(heads: Iterable[str], rows: Sequence[Sequence[str]]) -> str:
 
 def cell(text: str) -> str:
     """Plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
-    return text.strip() if _PLAIN.fullmatch(text) and "://" not in text and "www." not in text else markdown(text)
+    plain = (_BARE.fullmatch(text) or _PLAIN.fullmatch(text)) and "://" not in text and "www." not in text
+    return text.strip() if plain else markdown(text)
+
+
+def number_cell(number: int | str) -> str:
+    """A number of the manual, which may have letters, as a table cell."""
+    return cell(number) if isinstance(number, str) else str(number)
 
 
 def paragraph(text: str) -> str:
@@ -50,7 +59,7 @@ def code(text: str) -> str:
 
 def anchor(kind: str, name: str) -> str:
     """The anchor that a link and its target share."""
-    return f"{kind}-{_NO_ANCHOR.sub('-', name.lower())}"
+    return f"{kind}-{name if _ANCHOR.fullmatch(name) else _NO_ANCHOR.sub('-', name.lower())}"
 
 
 def target(kind: str, name: str) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code, paragraph, source_cell, source_text, target
+from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code, number_cell, paragraph, source_cell, source_text, target
 from fieldscribe.targets.docs.remarks import NO_REMARKS, OwnRemarks, own_remarks, remarks
 from fieldscribe.targets.docs.subjects import reference_heads
 
@@ -110,12 +110,12 @@ class _Rows:
             kin = self._kins[number] = self._kin(point)
         return (
             cell(point.code) if point.code else "",
-            target("point", point.item),
+            target("point", point.item if point.variant else point.name),
             cell(wording.title_text(point.title)),
             kin.space if with_space else "",
             wording.words_text(point),
             "" if point.index is None else str(point.index),
-            *[cell(str(point.place.references.get(key, ""))) for key in references],
+            *[number_cell(point.place.references.get(key, "")) for key in references],
             *kin.meaning,
             *limits.page,
             kin.scale,

@@ -65,7 +65,7 @@ def _lines(scope: Scope, languages: tuple[str, ...], references: tuple[str, ...]
             "" if point.write_place is None else _written(point, point.write_place),
             "" if point.index is None else str(point.index),
             kin.telegram,
-            *[csv_cell(str(printed.get(key, ""))) for key in references],
+            *[_number(printed.get(key, "")) for key in references],
             kin.meaning,
             limits.sheet,
             kin.scale,
@@ -92,6 +92,10 @@ def _kin(scope: Scope, point: Point) -> _Kin:
 
 def _joined(texts: Iterable[str]) -> str:
     return ",".join(map(csv_cell, texts))
+
+
+def _number(number: int | str) -> str:
+    return csv_cell(number) if isinstance(number, str) else str(number)
 
 
 def _place(place: Place) -> str:
