@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.families import family
 from fieldscribe.patterns import Pattern, blanks, widths
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
-from fieldscribe.targets.rust.families import Table, in_rust, row_text
+from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.text import rust_string
 
@@ -46,7 +46,6 @@ _CHAIN = 60
 _STEP = 16
 """Names are laid out as if they were as wide as the next multiple: if their rows fit then, they fit with all."""
 
-_END = ";\n"
 
 Rows = dict["Spot", list[str]]
 
@@ -58,10 +57,10 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     for spot in sorted(rows, key=lambda spot: spot.part):
         parts.setdefault(spot.table, []).extend(rows[spot])
     return (
-        *(Table(name, run, tuple(parts.get(name, ()))) for name, run in _ALWAYS.items()),
-        *(Table(name, name, tuple(parts[name])) for name in _SOMETIMES if name in parts),
+        *(Table(name, run, parts.get(name, ())) for name, run in _ALWAYS.items()),
+        *(Table(name, name, parts[name]) for name in _SOMETIMES if name in parts),
         *in_rust(scope.family).tables_of_points(scope),
-        *(Table(spot.table, spot.run, tuple(rows[spot]), spot.kind) for spot in rows if spot.kind),
+        *(Table(spot.table, spot.run, rows[spot], spot.kind) for spot in rows if spot.kind),
         *_protocol(device),
     )
 
@@ -81,7 +80,7 @@ def _rows(scope: CrateScope) -> Rows:
         if not plan.fits:
             exact = (subject.kin, *widths(words))
             plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
-        for append, text in zip(plan.appends, plan.pattern.filled(words).split(_END), strict=True):
+        for append, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
             append(text)
     return rows
 
@@ -99,7 +98,7 @@ def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows:
     item, name, enum = blanks(" " * width for width in wide)
     name = subject.name if subject.name.endswith("_") else name
     laid_out = [(spot, row_text(row)) for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope)]
-    pattern = Pattern(_END.join([text for _, text in laid_out]))
+    pattern = Pattern(END.join([text for _, text in laid_out]))
     appends = tuple([rows.setdefault(spot, []).append for spot, _ in laid_out])
     return _Plan(appends, pattern, all("\n" not in text for _, text in laid_out))
 

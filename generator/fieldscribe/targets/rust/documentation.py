@@ -91,7 +91,7 @@ def _place(point: Point, address: str, index: str) -> str:
 
 
 def _facts(point: Point, words: Words) -> Iterator[str]:
-    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.index)
+    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.element)
     yield f"{words.code_shown} at {where}" if words.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:

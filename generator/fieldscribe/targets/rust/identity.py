@@ -10,7 +10,7 @@ from fieldscribe.targets.rust.documentation import is_long, sentence
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import integer, raw_literal, type_name, type_range
 from fieldscribe.text import rust_code, rust_string
-from fieldscribe.wording import address_text, raw_range_text
+from fieldscribe.wording import address_parts, raw_range_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,7 +43,7 @@ class Words(NamedTuple):
     address: str
     hexadecimal: str
     decimal: str
-    index: str
+    element: str
     span: str
     low: str
     high: str
@@ -80,7 +80,7 @@ def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
     point, item, name, shape, *_ = subject
     addresses, code, title = point.place.addresses, point.code or "", sentence(item)
     address = addresses[0] if len(addresses) == 1 else min(addresses)
-    hexadecimal, decimal = address_text(address).split(" ")
+    hexadecimal, decimal = address_parts(address)
     index = "" if point.index is None else str(point.index)
     shown = rust_code(code)
     _, span, low, high = limits
@@ -111,7 +111,6 @@ def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
         len(index),
         len(name) if point.was or subject.arguments else None,
         low == "",
-        len(addresses),
     )
     return words, layout
 
@@ -149,10 +148,11 @@ def _addresses(addresses: tuple[int, ...]) -> str:
 
 def _references(references: Mapping[str, int | str]) -> str:
     """The manual's other numberings of the point."""
-    return "\n    ".join([_reference(key.upper(), number) for key, number in references.items()])
+    return "\n    ".join([f"const {key.upper()}: {_typed(number)};" for key, number in references.items()])
 
 
-def _reference(name: str, number: int | str) -> str:
+def _typed(number: int | str) -> str:
+    """The type of a numbering and the number in it."""
     if isinstance(number, str):
-        return f"const {name}: &'static str = {rust_string(number)};"
-    return f"const {name}: {'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)};"
+        return f"&'static str = {rust_string(number)}"
+    return f"{'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)}"

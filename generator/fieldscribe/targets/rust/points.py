@@ -61,7 +61,7 @@ def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: Cra
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    yield f"{words.name}: {subject.raw} = \"{words.item}\"{words.code and ', '}{words.code};"
+    yield f'{words.name}: {subject.raw} = "{words.item}"{words.code and ", "}{words.code};'
     yield from _whereabouts(point, words)
     if words.references:
         yield words.references
@@ -97,8 +97,8 @@ def _whereabouts(point: Point, words: Words) -> Iterator[str]:
         yield f"words {point.words};"
     if point.write_place is not None:
         yield f"write_at 0x{min(point.write_place.addresses):04X};"
-    if words.index:
-        yield f"index {words.index};"
+    if words.element:
+        yield f"index {words.element};"
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
