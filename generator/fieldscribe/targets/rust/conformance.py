@@ -69,16 +69,18 @@ def _rows(scope: CrateScope) -> Rows:
     """All rows of all points where they belong."""
     rows: Rows = {}
     plans: dict[object, _Plan] = {}
+    kinds: dict[int, object] = {}
     for subject in scope.subjects:
         enum = subject.shape.enum
         words = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
         wide = max(map(len, words)) // _STEP * _STEP + _STEP
-        key = (subject.kin, wide, enum is None)
+        kind = kinds.get(subject.kin) or kinds.setdefault(subject.kin, _kind(subject))
+        key = (kind, wide)
         plan = plans.get(key)
         if plan is None:
             plan = plans[key] = _laid_out(subject, [wide * bool(word) for word in words], scope, rows)
         if not plan.fits:
-            exact = (subject.kin, *widths(words))
+            exact = (kind, *widths(words))
             plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
         for append, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
             append(text)
@@ -91,6 +93,23 @@ class _Plan(NamedTuple):
     appends: tuple[Callable[[str], None], ...]
     pattern: Pattern
     fits: bool
+
+
+def _kind(subject: CratePoint) -> tuple[object, ...]:
+    """All that decides which rows a kin has, and what is in them beside names."""
+    point = subject.point
+    return (
+        subject.shape.alike,
+        subject.arguments,
+        point.unit.symbol == "",
+        point.bits is None,
+        point.telegram,
+        point.index is None,
+        tuple(point.place.references),
+        point.write_place is None,
+        point.keeps,
+        subject.name if subject.name.endswith("_") else None,
+    )
 
 
 def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows: Rows) -> _Plan:

@@ -37,9 +37,14 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-def point_doc(point: Point, words: Words, errata: Collection[str]) -> tuple[str, ...]:
+def facts_text(point: Point, words: Words) -> str:
+    """The paragraph with the facts of a point."""
+    return f"{', '.join(_facts(point, words))}."
+
+
+def point_doc(point: Point, title: str, facts: str, errata: Collection[str]) -> tuple[str, ...]:
     """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
-    paragraphs = [words.sentence, f"{', '.join(_facts(point, words))}."]
+    paragraphs = [title, facts]
     if point.specials:
         paragraphs.append(f"{codes_text(point, '`')}.")
     named = [f"`{name}`" for name in point.errata if name in errata]

@@ -13,7 +13,7 @@ from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording import address_parts, raw_range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Allowed, Point
     from fieldscribe.targets.rust.subjects import CratePoint, CrateShape
@@ -24,7 +24,7 @@ _UNLIMITED = ("float", "text", "digits")
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 Layout = tuple[object, ...]
-"""The widths of words in whose lines there are others, and the words themselves where a line may be broken inside."""
+"""What decides where lines are broken."""
 
 
 class Words(NamedTuple):
@@ -75,52 +75,72 @@ class KnownLimits:
         return limits
 
 
-def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
-    """The words of a point, and what decides where lines are broken."""
+def words_of(subject: CratePoint, limits: Limits) -> Words:
+    """The words of a point."""
     point, item, name, shape, *_ = subject
-    addresses, code, title = point.place.addresses, point.code or "", sentence(item)
+    addresses, code = point.place.addresses, point.code or ""
     address = addresses[0] if len(addresses) == 1 else min(addresses)
     hexadecimal, decimal = address_parts(address)
-    index = "" if point.index is None else str(point.index)
-    shown = rust_code(code)
-    _, span, low, high = limits
-    words = Words(
+    return Words(
         item,
-        title,
+        sentence(item),
         name,
         "" if shape.enum is None else type_name(shape.enum.name),
         code and rust_string(code),
-        code and shown,
+        code and rust_code(code),
         f"0x{address:04X}",
         hexadecimal,
         decimal,
-        index,
-        span,
-        low,
-        high,
+        "" if point.index is None else str(point.index),
+        limits.span,
+        limits.low,
+        limits.high,
         "" if len(addresses) == 1 else _addresses(addresses),
         _references(point.place.references),
     )
-    layout = (
-        title if is_long(title) else None,
-        shown if " " in shown else len(code),
-        is_alias(code, name),
-        span if " " in span else len(span),
-        len(hexadecimal),
-        len(decimal),
-        len(index),
-        len(name) if point.was or subject.arguments else None,
-        low == "",
+
+
+def layout_of(subject: CratePoint, words: Words) -> Layout:
+    """What decides about the layout beside the widths of words in the doc comment."""
+    point = subject.point
+    return (
+        words.sentence if is_long(words.sentence) else None,
+        len(words.name) if point.was or subject.arguments else None,
+        words.code == "",
+        is_alias(point.code or "", words.name),
+        words.span == "",
+        words.low == "",
     )
-    return words, layout
 
 
-def blanked(words: Words) -> Words:
-    """Blanks for the words, but for names that would clash, and for those within which a line may be broken."""
-    kept = {"sentence": words.sentence} if is_long(words.sentence) else {}
-    kept |= {"name": words.name} if words.name.endswith("_") else {}
-    kept |= {key: word for key in ("code_shown", "span") if " " in (word := getattr(words, key))}
-    return Words(*blanks(words))._replace(**kept)
+def widths_of(words: Words) -> Layout:
+    """The widths of the words in a doc comment of several lines; words in which a line may be broken themselves."""
+    alone = [word if " " in word else len(word) for word in (words.code_shown, words.span)]
+    return (*alone, len(words.hexadecimal), len(words.decimal), len(words.element))
+
+
+def blanked(words: Words, *, kept: Iterable[str] = (), wider: int = 0) -> Words:
+    """Blanks for the words, but for those `kept`, for names that would clash and for titles of several lines.
+
+    The doc comment becomes `wider` than it would with the words.
+    """
+    wide = words._replace(decimal=words.decimal + " " * wider)
+    names = (
+        *kept,
+        *(("name",) if words.name.endswith("_") else ()),
+        *(("sentence",) if is_long(words.sentence) else ()),
+    )
+    return Words(*blanks(wide))._replace(**{name: getattr(words, name) for name in names})
+
+
+def broken(words: Words) -> tuple[str, ...]:
+    """The words of the doc comment within which a line may be broken."""
+    return tuple(name for name in ("code_shown", "span") if " " in getattr(words, name))
+
+
+def width_of(words: Words) -> int:
+    """The width of all words that share a paragraph of the doc comment."""
+    return len(words.code_shown) + len(words.hexadecimal) + len(words.decimal) + len(words.element) + len(words.span)
 
 
 def is_alias(code: str, name: str) -> bool:

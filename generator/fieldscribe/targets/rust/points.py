@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.patterns import Pattern
 from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import point_doc
+from fieldscribe.targets.rust.documentation import facts_text, is_long, point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.identity import KnownLimits, blanked, is_alias, words_of
+from fieldscribe.targets.rust.identity import (
+    KnownLimits,
+    blanked,
+    broken,
+    is_alias,
+    layout_of,
+    width_of,
+    widths_of,
+    words_of,
+)
 from fieldscribe.targets.rust.layout import Item, binding
 from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
@@ -27,35 +36,54 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
+_STEP = 16
+"""Doc comments are laid out as if they were as wide as the widest of so many: if they fit then, all fit."""
+
+
+class _Plan(NamedTuple):
+    """The text of points that are alike; `fits` says that their facts stand in one line of the doc comment."""
+
+    pattern: Pattern
+    fits: bool
+    names_runtime: bool
+
+
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
     """The texts of all points, and whether one of them names items of the runtime."""
-    known_limits, patterns = KnownLimits(), dict[object, Pattern]()
-    traits, texts, names_runtime = in_rust(scope.family).traits, [], False
+    known_limits, plans, texts = KnownLimits(), dict[object, _Plan](), []
+    traits = in_rust(scope.family).traits
     for subject in scope.subjects:
         limits = known_limits.of(subject)
-        words, layout = words_of(subject, limits)
-        own = tuple(traits(subject, scope))
-        key = (subject.kin, limits.form, layout, own)
-        pattern = patterns.get(key)
-        if pattern is None:
-            view = _view(subject, words, own, scope)
-            names_runtime |= view.names_runtime
-            pattern = patterns[key] = Pattern(render("rust/point.rs.j2", {"point": view}))
-        texts.append(pattern.filled(words))
-    return "".join(texts), names_runtime
+        words, own = words_of(subject, limits), tuple(traits(subject, scope))
+        kind = (subject.kin, limits.form, own, layout_of(subject, words))
+        steps, rest = divmod(width_of(words), _STEP)
+        plan = plans.get((kind, steps))
+        if plan is None:
+            shown = blanked(words, wider=_STEP - 1 - rest)
+            plan = plans[kind, steps] = _laid_out(subject, shown, own, scope, render)
+        if not plan.fits:
+            exact = (kind, widths_of(words))
+            plan = plans.get(exact)
+            if plan is None:
+                shown = blanked(words, kept=broken(words))
+                plan = plans[exact] = _laid_out(subject, shown, own, scope, render)
+        texts.append(plan.pattern.filled(words))
+    return "".join(texts), any(plan.names_runtime for plan in plans.values())
 
 
-def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope) -> PointView:
-    """All that the template needs of a point, with blanks for its words."""
-    point, shown = subject.point, blanked(words)
-    return PointView(
-        doc=point_doc(point, shown, scope.errata),
-        alias=shown.code if is_alias(point.code or "", subject.name) else "",
-        name=shown.name,
-        facts=(*_facts(subject._replace(name=shown.name), shown, scope), *traits),
-        names_runtime=bool(traits) or _names_runtime(subject),
-        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), shown.name) for old in point.was),
+def _laid_out(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope, render: Render) -> _Plan:
+    """The text of a point with blanks for its words."""
+    point = subject.point
+    facts = facts_text(point, words)
+    view = PointView(
+        doc=point_doc(point, words.sentence, facts, scope.errata),
+        alias=words.code if is_alias(point.code or "", subject.name) else "",
+        name=words.name,
+        facts=(*_facts(subject._replace(name=words.name), words, scope), *traits),
+        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), words.name) for old in point.was),
     )
+    pattern = Pattern(render("rust/point.rs.j2", {"point": view}))
+    return _Plan(pattern, not is_long(facts), bool(traits) or _names_runtime(subject))
 
 
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
