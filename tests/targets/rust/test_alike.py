@@ -11,9 +11,8 @@ from fieldscribe.existence import Comparison, Condition
 from fieldscribe.model import Limit, Place, Variant
 from fieldscribe.plain import for_code
 from fieldscribe.render import render
-from fieldscribe.targets.rust import identity, points, subjects
+from fieldscribe.targets.rust import conformance, identity, points, subjects
 from fieldscribe.targets.rust.conformance import conformance_tables
-from fieldscribe.targets.rust.identity import words_of
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.subjects import scope_of
 from fieldscribe.targets.rust.words import enum_texts, word_texts
@@ -25,8 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.rust.identity import Limits, Words
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+    from fieldscribe.targets.rust.subjects import CrateScope
 
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 MADE = ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss", "odd_names")
@@ -55,6 +53,7 @@ def alone(device: Device, monkeypatch: pytest.MonkeyPatch) -> Texts:
     own = tuple(subject._replace(kin=number) for number, subject in enumerate(scope.subjects))
     with monkeypatch.context() as patch:
         patch.setattr(identity, "blanks", lambda words: words)
+        patch.setattr(points, "_STEP", 1)
         return texts(device, replace(scope, subjects=own))
 
 
@@ -94,12 +93,11 @@ KINS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 """For each fact that makes a kin two points that differ in it alone, in the order of the key."""
 
 
-def of_kin(fact: str) -> Device:
-    """A device with the two points."""
-    first, second = KINS[fact]
-    base = point("first", 1), point("second", 1), point("other", 9)
-    pair = changed(base[0], **first), changed(base[1], **second), base[2]
-    return replace(uss_device(), points=pair) if fact == "keeps" else sample_device(pair)
+def of_kin(fact: str, pair: tuple[dict[str, Any], dict[str, Any]]) -> Device:
+    """A device with two points that differ in this."""
+    first, second = (changed(point(name, 1), **facts) for name, facts in zip(("first", "second"), pair, strict=True))
+    three = first, second, point("other", 9)
+    return replace(uss_device(), points=three) if fact == "keeps" else sample_device(three)
 
 
 def without(part: int, key: Callable[..., tuple[object, ...]], *facts: object) -> tuple[object, ...]:
@@ -110,7 +108,7 @@ def without(part: int, key: Callable[..., tuple[object, ...]], *facts: object) -
 
 @pytest.mark.parametrize("fact", KINS)
 def test_each_fact_of_a_kin_is_needed(fact: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    device = of_kin(fact)
+    device = of_kin(fact, KINS[fact])
     right = texts(device, scope_of(device))
     assert right == alone(device, monkeypatch)
     monkeypatch.setattr(subjects, "_kin", partial(without, list(KINS).index(fact), subjects._kin))
@@ -124,21 +122,26 @@ def test_every_fact_of_a_kin_has_its_points() -> None:
 
 LAYOUT: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "title": ({"name": "a_" * 60 + "b"}, {"name": "b" * 121}),
-    "code": ({"code": "A1"}, {"code": "A12345678"}),
-    "alias": ({"code": "A1"}, {"code": "A?"}),
-    "span": ({"allowed": allowed((0, 1))}, {"allowed": allowed((0, 10000))}),
-    "hexadecimal": ({"place": Place((10000,), {})}, {"place": Place((99999,), {})}),
-    "decimal": ({"place": Place((1,), {})}, {"place": Place((1000,), {})}),
-    "index": ({"index": 1}, {"index": 1000}),
     "name": ({"was": ("former",)}, {"was": ("former",), "name": "c" * 99}),
+    "code": ({}, {"code": "?"}),
+    "alias": ({"code": "A1"}, {"code": "A?"}),
+    "span": ({"type": "bit", "allowed": allowed()}, {"type": "bit", "allowed": allowed((0, 1))}),
     "limits": ({"allowed": allowed((0, 65535))}, {"allowed": allowed((0, 65534))}),
 }
 """The same for each part of a layout, in the order of the key."""
 
+WIDTHS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "code": ({"code": "A1"}, {"code": "A12345678"}),
+    "span": ({"allowed": allowed((0, 1))}, {"allowed": allowed((0, 10000))}),
+    "hexadecimal": ({"place": Place((10000,), {})}, {"place": Place((99999,), {})}),
+    "decimal": ({"place": Place((1,), {})}, {"place": Place((1000,), {})}),
+    "index": ({"index": 1}, {"index": 1000}),
+}
+"""The same for the widths of words in a doc comment of several lines."""
 
-def of_layout(part: str) -> Device:
+
+def of_layout(first: dict[str, Any], second: dict[str, Any]) -> Device:
     """A device with two such points for each place where a line may be broken."""
-    first, second = LAYOUT[part]
     pairs = []
     for width in range(1, 60):
         when = Condition(((Comparison("w" * width, ">", (3,)),),))
@@ -147,18 +150,32 @@ def of_layout(part: str) -> Device:
     return sample_device(tuple(pairs))
 
 
-@pytest.mark.parametrize("part", LAYOUT)
-def test_each_part_of_a_layout_is_needed(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    device = of_layout(part)
+@pytest.mark.parametrize(
+    ("key", "facts", "fact"),
+    [
+        *(("layout_of", LAYOUT, fact) for fact in LAYOUT),
+        *(("widths_of", WIDTHS, fact) for fact in WIDTHS),
+    ],
+)
+def test_each_part_of_a_layout_is_needed(
+    key: str, facts: dict[str, tuple[dict[str, Any], dict[str, Any]]], fact: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    device = of_layout(*facts[fact])
     right = texts(device, scope_of(device))
     assert right == alone(device, monkeypatch)
+    monkeypatch.setattr(points, key, partial(without, list(facts).index(fact), getattr(points, key)))
+    assert texts(device, scope_of(device)) != right
 
-    def lacking(subject: CratePoint, limits: Limits) -> tuple[Words, tuple[object, ...]]:
-        words, layout = words_of(subject, limits)
-        assert len(layout) == len(LAYOUT)
-        return words, without(list(LAYOUT).index(part), lambda: layout)
 
-    monkeypatch.setattr(points, "words_of", lacking)
+ROWS = ("shape", "arguments", "unit", "bits", "telegram", "index", "references", "write_place", "keeps", "name")
+
+
+@pytest.mark.parametrize("fact", ROWS)
+def test_each_fact_about_rows_is_needed(fact: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    device = of_kin(fact, ({}, {"bits": (15, 0)}) if fact == "bits" else KINS[fact])
+    right = texts(device, scope_of(device))
+    assert right == alone(device, monkeypatch)
+    monkeypatch.setattr(conformance, "_kind", partial(without, ROWS.index(fact), conformance._kind))
     assert texts(device, scope_of(device)) != right
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.conformance_rows import Spot
+    from fieldscribe.targets.rust.families import Tokens
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALWAYS = {
@@ -82,15 +83,16 @@ def _rows(scope: CrateScope) -> Rows:
         if not plan.fits:
             exact = (kind, *widths(words))
             plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
-        for append, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
-            append(text)
+        for appends, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
+            for append in appends:
+                append(text)
     return rows
 
 
 class _Plan(NamedTuple):
-    """The rows of points that have the same ones, where they are appended, and whether each fits in one line."""
+    """The different rows of points, where each is appended, and whether each fits in one line."""
 
-    appends: tuple[Callable[[str], None], ...]
+    appends: list[list[Callable[[str], None]]]
     pattern: Pattern
     fits: bool
 
@@ -116,10 +118,12 @@ def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows:
     """The rows with blanks in place of names; a name that would clash stays as it is."""
     item, name, enum = blanks(" " * width for width in wide)
     name = subject.name if subject.name.endswith("_") else name
-    laid_out = [(spot, row_text(row)) for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope)]
-    pattern = Pattern(END.join([text for _, text in laid_out]))
-    appends = tuple([rows.setdefault(spot, []).append for spot, _ in laid_out])
-    return _Plan(appends, pattern, all("\n" not in text for _, text in laid_out))
+    spots: dict[Tokens, list[Spot]] = {}
+    for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope):
+        spots.setdefault(row, []).append(spot)
+    texts = [row_text(row) for row in spots]
+    appends = [[rows.setdefault(spot, []).append for spot in alike] for alike in spots.values()]
+    return _Plan(appends, Pattern(END.join(texts)), all("\n" not in text for text in texts))
 
 
 def _protocol(device: Device) -> Iterator[Table]:

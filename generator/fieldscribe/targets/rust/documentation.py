@@ -61,6 +61,9 @@ def is_long(text: str) -> bool:
 
 def wrapped(text: str) -> Iterator[str]:
     """The text in lines, none of which begins like a list or a heading."""
+    if not is_long(text):
+        yield text
+        return
     line = ""
     for word in text.split(" "):
         if len(line) + len(word) >= _WIDTH and _BEGINS.match(word):

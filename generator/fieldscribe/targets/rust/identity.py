@@ -124,13 +124,15 @@ def blanked(words: Words, *, kept: Iterable[str] = (), wider: int = 0) -> Words:
 
     The doc comment becomes `wider` than it would with the words.
     """
-    wide = words._replace(decimal=words.decimal + " " * wider)
-    names = (
-        *kept,
-        *(("name",) if words.name.endswith("_") else ()),
-        *(("sentence",) if is_long(words.sentence) else ()),
+    names = [*kept]
+    if words.name.endswith("_"):
+        names.append("name")
+    if is_long(words.sentence):
+        names.append("sentence")
+    shown = Words(*blanks(words))
+    return shown._replace(
+        decimal=shown.decimal + shown.decimal[:1] * wider, **{name: getattr(words, name) for name in names}
     )
-    return Words(*blanks(wide))._replace(**{name: getattr(words, name) for name in names})
 
 
 def broken(words: Words) -> tuple[str, ...]:

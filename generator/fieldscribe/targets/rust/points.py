@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.patterns import Pattern
@@ -40,50 +40,60 @@ _STEP = 16
 """Doc comments are laid out as if they were as wide as the widest of so many: if they fit then, all fit."""
 
 
-class _Plan(NamedTuple):
-    """The text of points that are alike; `fits` says that their facts stand in one line of the doc comment."""
-
-    pattern: Pattern
-    fits: bool
-    names_runtime: bool
-
-
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
     """The texts of all points, and whether one of them names items of the runtime."""
-    known_limits, plans, texts = KnownLimits(), dict[object, _Plan](), []
+    known_limits, layouts, texts = KnownLimits(), _Layouts(scope, render), []
     traits = in_rust(scope.family).traits
     for subject in scope.subjects:
         limits = known_limits.of(subject)
         words, own = words_of(subject, limits), tuple(traits(subject, scope))
         kind = (subject.kin, limits.form, own, layout_of(subject, words))
+        texts.append(layouts.pattern(subject, words, kind, own).filled(words))
+    return "".join(texts), layouts.names_runtime
+
+
+class _Layouts:
+    """The texts of points, laid out once for all that are of one kind and have words of one width.
+
+    If the facts of the doc comment fit in one line, the width of all words together is enough, and rounded up.
+    """
+
+    def __init__(self, scope: CrateScope, render: Render) -> None:
+        self._scope, self._render = scope, render
+        self._patterns: dict[object, Pattern | None] = {}
+        self.names_runtime = False
+
+    def pattern(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
+        """The text with blanks for the words."""
         steps, rest = divmod(width_of(words), _STEP)
-        plan = plans.get((kind, steps))
-        if plan is None:
-            shown = blanked(words, wider=_STEP - 1 - rest)
-            plan = plans[kind, steps] = _laid_out(subject, shown, own, scope, render)
-        if not plan.fits:
-            exact = (kind, widths_of(words))
-            plan = plans.get(exact)
-            if plan is None:
-                shown = blanked(words, kept=broken(words))
-                plan = plans[exact] = _laid_out(subject, shown, own, scope, render)
-        texts.append(plan.pattern.filled(words))
-    return "".join(texts), any(plan.names_runtime for plan in plans.values())
+        key: object = (kind, steps)
+        if key not in self._patterns:
+            self.names_runtime |= bool(traits) or _names_runtime(subject)
+            wide = blanked(words, wider=_STEP - 1 - rest)
+            facts = facts_text(subject.point, wide)
+            self._patterns[key] = None if is_long(facts) else self._laid_out(subject, wide, facts, traits)
+        return self._patterns[key] or self._exact(subject, words, kind, traits)
 
+    def _exact(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
+        key = (kind, widths_of(words))
+        pattern = self._patterns.get(key)
+        if pattern is None:
+            shown = blanked(words, kept=broken(words))
+            pattern = self._laid_out(subject, shown, facts_text(subject.point, shown), traits)
+            self._patterns[key] = pattern
+        return pattern
 
-def _laid_out(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope, render: Render) -> _Plan:
-    """The text of a point with blanks for its words."""
-    point = subject.point
-    facts = facts_text(point, words)
-    view = PointView(
-        doc=point_doc(point, words.sentence, facts, scope.errata),
-        alias=words.code if is_alias(point.code or "", subject.name) else "",
-        name=words.name,
-        facts=(*_facts(subject._replace(name=words.name), words, scope), *traits),
-        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), words.name) for old in point.was),
-    )
-    pattern = Pattern(render("rust/point.rs.j2", {"point": view}))
-    return _Plan(pattern, not is_long(facts), bool(traits) or _names_runtime(subject))
+    def _laid_out(self, subject: CratePoint, words: Words, facts: str, traits: tuple[str, ...]) -> Pattern:
+        """The text with these words; `facts` are those of the doc comment."""
+        point = subject.point
+        view = PointView(
+            doc=point_doc(point, words.sentence, facts, self._scope.errata),
+            alias=words.code if is_alias(point.code or "", subject.name) else "",
+            name=words.name,
+            facts=(*_facts(subject._replace(name=words.name), words, self._scope), *traits),
+            was=tuple(binding(0, Item(f"pub type {type_name(old)}"), words.name) for old in point.was),
+        )
+        return Pattern(self._render("rust/point.rs.j2", {"point": view}))
 
 
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:

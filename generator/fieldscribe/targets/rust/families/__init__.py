@@ -50,8 +50,7 @@ class Table:
 
 def row_text(row: Tokens) -> str:
     """A row in as few lines as possible, without its semicolon."""
-    lines = filled("", " ", row, ";")
-    return "    " + "\n    ".join(lines)[:-1]
+    return "    " + "\n    ".join(filled("", " ", row, ";"))[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:
