@@ -44,7 +44,7 @@ _SOMETIMES = (
 _CHAIN = 60
 """A chain of calls on one line has at most so many characters."""
 
-_STEP = 16
+_STEP = 12
 """Names are laid out as if they were as wide as the next multiple: if their rows fit then, they fit with all."""
 
 

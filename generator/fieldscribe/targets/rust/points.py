@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
-_STEP = 16
+_STEP = 8
 """Doc comments are laid out as if they were as wide as the widest of so many: if they fit then, all fit."""
 
 
