@@ -466,7 +466,7 @@ def probe_source(device: str) -> str:
         reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         bodies += parameter_probes(subject, name) if reached else ()
-        item = subject.point.item
+        item = subject.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
 
