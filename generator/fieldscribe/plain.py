@@ -102,7 +102,7 @@ def digest(device: Device) -> str:
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
     plain = replace(for_code(device), digest="")
-    shown = [(point.item, point.display) for point in plain.points if point.display is not None]
+    shown = [(point.item, point.display) for point in plain.points if point.shape.display is not None]
     text = f"{replace(plain, points=_Written(plain.points))!r}"
     text += f"{shown or ''}"  # appended only if there is some, so that other digests stay
     checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()

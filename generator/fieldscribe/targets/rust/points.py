@@ -61,7 +61,7 @@ def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: Cra
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    yield f"{words.name}: {subject.raw} = \"{words.item}\"{words.code and ', '}{words.code};"
+    yield f'{words.name}: {subject.raw} = "{words.item}"{words.code and ", "}{words.code};'
     yield from _whereabouts(point, words)
     if words.references:
         yield words.references
