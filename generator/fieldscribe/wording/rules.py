@@ -48,7 +48,8 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
             _bound_text(interval.high, False, point, line, points),
         ]
         parts.append(_span_text(interval, ends, falling, listed))
-        remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
+        if point.allowed.moves:
+            remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
     if unit and parts:
         parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
