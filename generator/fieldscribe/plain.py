@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 _NOWHERE = Source("", None, None, None)
 
 
-_SHARED = ("source", "shape", "terms", "allowed")
+_SHARED = ("source", "shape", "terms")
 """What many points have in common, so that its text is written once."""
 _common = attrgetter(*_SHARED)
 _identity = attrgetter(
-    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "place")],
+    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
     *[f"place.{field.name}" for field in fields(Place)],
 )
 
@@ -107,14 +107,15 @@ def with_digest(device: Device) -> tuple[Device, Device]:
 def _texts(plain: Device) -> Iterator[str]:
     """Texts that differ wherever a fact of the device does: all but the points, then each point."""
     yield repr(replace(plain, points=()))
-    texts: dict[tuple[int, ...], str] = {}
+    texts: dict[object, str] = {}
     for point in plain.points:
         shared = _common(point)
-        key = tuple(map(id, shared))
-        text = texts.get(key)
-        if text is None:
-            text = texts[key] = repr(shared)
-        yield f"{_identity(point)!r}{text}"
+        key, limits = tuple(map(id, shared)), id(point.allowed)
+        if key not in texts:
+            texts[key] = repr(shared)
+        if limits not in texts:
+            texts[limits] = repr(point.allowed)
+        yield f"{_identity(point)!r}{texts[limits]}{texts[key]}"
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
