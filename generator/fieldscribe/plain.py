@@ -43,16 +43,8 @@ _identity = attrgetter(
 )
 
 
-_kept: list[tuple[Device, Device]] = []
-"""The device that got its digest last, with what code may know of it: that is what its targets ask for next."""
-
-
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
-    return _kept[0][1] if _kept and _kept[0][0] is device else _for_code(device)
-
-
-def _for_code(device: Device) -> Device:
     enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
@@ -95,13 +87,12 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
-    plain = replace(_for_code(device), digest="")
+    plain = replace(for_code(device), digest="")
     checksum = hashlib.sha256()
     for text in _texts(plain):
         checksum.update(text.encode("utf-8", "surrogatepass"))
     digest = checksum.hexdigest()
-    _kept[:] = [(replace(device, digest=digest), replace(plain, digest=digest))]
-    return _kept[0]
+    return replace(device, digest=digest), replace(plain, digest=digest)
 
 
 def _texts(plain: Device) -> Iterator[str]:
