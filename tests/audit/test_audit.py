@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.audit.manual import Manual, tokens_of
 from fieldscribe.cli import main
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, together, write
 

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
 from hypothesis import given

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.existence import Comparison, Condition
 from fieldscribe.families.modbus.blocks import plan_blocks
+from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
+from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
-from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
+from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.model import Bus, Code, Place, Point
 from hypothesis import given
 from hypothesis import strategies as st
@@ -211,7 +213,7 @@ def test_any_bytes_are_safe(request: Request, data: bytes, framing: str) -> None
     reply = parse_reply(framing, request, data)
     assert reply.status == "ok" or reply.values == ()
     asked = parse_request(framing, data)
-    assert isinstance(asked, str | Request)
+    assert isinstance(asked, Flaw | Request)
 
 
 @given(requests(), st.binary(min_size=1, max_size=260), st.sampled_from(("rtu", "tcp")))
@@ -302,7 +304,8 @@ def test_tcp_echo_has_five_bytes(size: int, status: str) -> None:
     ("framing", "data", "reason"),
     [
         ("rtu", bytes(3), "an RTU frame has at least 4 bytes, here are 3"),
-        ("rtu", bytes.fromhex("05 06 10 28 01 F4 A8 54"), "the CRC is A8 54, the bytes give 0C 91"),
+        ("rtu", bytes.fromhex("05 06 10 28 01 F4 A8 54"), "the checksum is wrong"),
+        ("rtu", bytes.fromhex("05 06 10 28 01 F4 91 0C"), "the bytes of the checksum are swapped"),
         ("rtu", rtu("01 07 00 00"), "function 07h is not one of the Modbus functions known here"),
         ("rtu", rtu("01 03 00 00"), "a request of function 03h has at least 5 bytes from the function on, here are 3"),
         ("rtu", rtu("01 03 00 00 00 01 00"), "a request of function 03h has 5 bytes from the function on, here are 6"),
@@ -313,12 +316,14 @@ def test_tcp_echo_has_five_bytes(size: int, status: str) -> None:
         ("rtu", rtu("01 10 00 00 00 01 01 00"), "1 words are 2 bytes, here are 1"),
         ("rtu", rtu("01 0F 00 00 00 05 03 00 00 00"), "5 coils are 1 bytes (or padded to an even number), here are 3"),
         ("tcp", bytes(7), "a TCP frame has at least 8 bytes, here are 7"),
-        ("tcp", bytes.fromhex("00 00 00 01 00 06 01 03 00 00 00 01"), "the protocol number is 1, Modbus is 0"),
-        ("tcp", bytes.fromhex("00 00 00 00 00 07 01 03 00 00 00 01"), "the length field says 7 bytes, here are 6"),
+        ("tcp", bytes.fromhex("00 00 00 01 00 06 01 03 00 00 00 01"), "the header does not say Modbus"),
+        ("tcp", bytes.fromhex("00 00 00 00 00 07 01 03 00 00 00 01"), "the length in the header is wrong"),
     ],
 )
 def test_what_is_wrong_with_a_request(framing: str, data: bytes, reason: str) -> None:
-    assert parse_request(framing, data) == reason
+    flaw = parse_request(framing, data)
+    assert isinstance(flaw, Flaw)
+    assert flaw_text(flaw) == reason
 
 
 def at(*addresses: int, **facts: Any) -> Point:

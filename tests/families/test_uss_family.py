@@ -6,16 +6,8 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.families.uss.facts import UssBus, of_bus
-from fieldscribe.families.uss.telegrams import (
-    Link,
-    Request,
-    broadcast,
-    build,
-    check_byte,
-    parameter_words,
-    parse,
-    telegram,
-)
+from fieldscribe.families.uss.parts import Link, parameter_words
+from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_byte, parse, telegram
 from fieldscribe.model import Bus, Code
 from hypothesis import given
 from hypothesis import strategies as st

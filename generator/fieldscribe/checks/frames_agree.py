@@ -106,6 +106,14 @@ def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Se
     return Seen(replace(open_frame.frame, valid=False))
 
 
+def report_refused(subject: Subject, open_frame: OpenFrame, status: str) -> Seen:
+    """A finding for a request that the device does not take, or a response that is no answer to its request."""
+    frame = open_frame.frame
+    asks = frame.direction == "request"
+    what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
+    return report_no_frame(subject, open_frame, f"{what}: {status.replace('_', ' ')}")
+
+
 def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
     """A finding for a response that does not say what it answers."""
     if open_frame.frame.answers is None:
@@ -122,6 +130,16 @@ def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | N
         subject.disagrees(
             Printed(f"frame:{open_frame.frame.name}", "error", stated, carried, open_frame.raw.span("error"), message)
         )
+
+
+def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: bytes, right: bytes) -> None:
+    """A finding for a checksum or a length that is not the one that the bytes give."""
+    printed, taken = hex_of(here), hex_of(right)
+    if printed != taken:
+        what = "checksum" if key == "xor" else key.upper()
+        message = f"the {what} {printed} is printed, the bytes give {taken}"
+        span = open_frame.raw.span("bytes")
+        subject.disagrees(Printed(f"frame:{open_frame.frame.name}", key, printed, taken, span, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:

@@ -152,7 +152,8 @@ class Speech(Protocol):
         """The frames that people pasted. Raises UnclearError."""
 
     def space_of(self, place: Place) -> str:
-        """The space through which a place is reached."""
+        """The space through which a place is reached: its own, unless the family says otherwise."""
+        return place.space
 
     def hear(self, frame: Any, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

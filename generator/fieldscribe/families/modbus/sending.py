@@ -47,22 +47,21 @@ def write_request(
         )
     values = words_of(point, raw, place.addresses)
     to = device.bus.usual_unit if unit is None else unit
-    request = Request(to, _function(device, place), min(place.addresses), len(values), values)
-    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
+    request = Request(to, function_for(device, place) or 0, min(place.addresses), len(values), values)
+    chosen = framing or framings_of(device.bus)[0]
     status, data = build(profile_of(device.bus), chosen, request)
     if status != "ok":
         raise refused(device.bus, point, status, _hint(device, status))
     return request, data
 
 
-def _function(device: Device, place: Place) -> int:
+def function_for(device: Device, place: Place) -> int | None:
+    """The function that writes a place: its own, else the one for a single item, else the one for several."""
     if place.function in BROADCAST:
         return place.function
     space = SPACES[place.space]
-    single = space.write_one if len(place.addresses) == 1 else None
-    most = profile_of(device.bus).most
-    usable = [function for function in (single, space.write_many) if function is not None]
-    return next((function for function in usable if function in most), usable[0] if usable else 0)
+    single = len(place.addresses) == 1 and space.write_one in profile_of(device.bus).most
+    return space.write_one if single else space.write_many or space.write_one
 
 
 def _hint(device: Device, status: str) -> str:

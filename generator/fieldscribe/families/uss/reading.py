@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss.facts import UssBus, UssFrame, of_bus
-from fieldscribe.families.uss.telegrams import VARIABLE
+from fieldscribe.families.uss.parts import VARIABLE
 from fieldscribe.resolve.bus import codes_under, ends_of
 from fieldscribe.resolve.families import Reading
 from fieldscribe.resolve.values import integer, interval

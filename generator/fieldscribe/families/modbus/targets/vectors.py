@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FRAMINGS, FUNCTIONS, Profile, profile_of
 from fieldscribe.families.modbus.replies import Reply, parse_reply
-from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
+from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
@@ -85,7 +86,7 @@ class ModbusWire:
         del point, writes
         [(sent, good)] = script
         request = parse_request(self.framing, sent)
-        if isinstance(request, str):
+        if isinstance(request, Flaw):
             return
         code = next((code.number for code in self.bus.exceptions), 2)
         pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
@@ -310,7 +311,7 @@ def printed(lines: Lines, device: Device) -> None:
     for example in device.frames:
         if example.direction == "request":
             request = parse_request(example.framing, example.corrected)
-            if isinstance(request, str):
+            if isinstance(request, Flaw):
                 continue
             requests[example.name] = request
             status, data = build(profile, example.framing, request)

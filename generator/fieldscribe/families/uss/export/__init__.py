@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import UssBus, of_bus
-from fieldscribe.families.uss.telegrams import READ_TASK, write_task
+from fieldscribe.families.uss.parts import READ_TASK, write_task
 from fieldscribe.model import Place
 
 if TYPE_CHECKING:

@@ -6,19 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus, of_frame
-from fieldscribe.families.uss.telegrams import (
-    DOUBLE_RESPONSES,
-    LAST_PARAMETER,
-    START,
-    VARIABLE,
-    Link,
-    Request,
-    broadcast,
-    build,
-    parameter_words,
-    parse,
-    telegram,
-)
+from fieldscribe.families.uss.parts import DOUBLE_RESPONSES, VARIABLE, Link, parameter_words
+from fieldscribe.families.uss.telegrams import LAST_PARAMETER, START, Request, broadcast, build, parse, telegram
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
