@@ -38,19 +38,25 @@ class Pattern:
     """A text with blanks. Two blanks of the same word never touch."""
 
     def __init__(self, text: str) -> None:
-        numbers, parts, at = [], [], 0
+        parts, numbers, at = [], [], 0
         for run in _RUN.finditer(text):
             number = _NUMBERS.get(run[1])
             if number is not None:
+                parts += [text[at : run.start()], ""]
                 numbers.append(number)
-                parts.append(text[at : run.start()])
                 at = run.end()
-        self._text = "%s".join([part.replace("%", "%%") for part in (*parts, text[at:])])
-        self._order = numbers
-        self._words = itemgetter(*numbers) if len(numbers) > 1 else None
+        self._parts = [*parts, text[at:]]
+        self._words = _getter(numbers)
 
     def filled(self, words: Sequence[str]) -> str:
         """The text with these words, in the order in which the blanks were made."""
-        if self._words is None:
-            return self._text % tuple(words[number] for number in self._order)
-        return self._text % self._words(words)
+        parts = self._parts.copy()
+        parts[1::2] = self._words(words)
+        return "".join(parts)
+
+
+def _getter(numbers: list[int]) -> Callable[[Sequence[str]], Sequence[str]]:
+    """A function that takes the words of these numbers."""
+    if len(numbers) > 1:
+        return itemgetter(*numbers)
+    return lambda words: [words[number] for number in numbers]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -53,6 +54,7 @@ SAME = Line(1, 0, 1)
 """The rule whose result is its argument."""
 
 
+@lru_cache(maxsize=4096)
 def value_line(rule: Linear) -> Line:
     """The line from raw numbers to values, for a rule without factors."""
     return count_line(rule, 0).inverse

@@ -73,7 +73,8 @@ def range_words(point: Point) -> str:
         return f"{point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
         return f"{point.digits.count} digits, the highest first"
-    units, raws = range_text(point), raw_range_text(point)
+    units = range_text(point)
+    raws = "" if units else raw_range_text(point)
     return units or (f"raw {raws}" if raws else "")
 
 

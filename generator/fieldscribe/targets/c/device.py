@@ -49,6 +49,7 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
         aliases=tuple(
             alias
             for point, kind, _ in placed
+            if point.was
             for old, item in old_items(point)
             for alias in _aliases(point, kind.view, AliasView(old, item, point.item), scope)
         ),
@@ -98,8 +99,7 @@ def _point_text(kind: Kind, scope: HeaderScope, render: Render) -> str:
 
 def old_items(point: Point) -> Iterator[tuple[str, str]]:
     """The point's old names, each with the item that it had then: variants keep their suffix."""
-    if point.was:
-        yield from ((old, replace(point, name=old).item) for old in point.was)
+    yield from ((old, replace(point, name=old).item) for old in point.was)
 
 
 def _title(group: str, scope: HeaderScope) -> str:

@@ -84,7 +84,7 @@ class Frames:
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
         """The descriptors of renamed points under their old names."""
         for point, kind, _ in self._placed:
-            for old, item in old_items(point):
+            for old, item in old_items(point) if point.was else ():
                 for descriptor in self._descriptors(kind):
                     name = f"{scope.prefix}_{item}{descriptor.tail}"
                     yield AliasView(old, item, point.item, name, descriptor.name, "OBJECT")

@@ -88,10 +88,11 @@ class Kinds:
         alike = self._shapes.get(id(point.shape)) or self._alike(point.shape)
         number = alike.own if alike.enum == item else alike.number
         limits = self._limits.get((number, id(point.allowed), point.unit.symbol)) or self._limits_of(point, number)
-        words = filling_of(point, item, limits)
+        words = filling_of(point, item, addresses, limits)
         first_names = bool(alike.enum) and _is_first(alike.enum, self._enums)
         first_codes = bool(alike.codes) and _is_first(alike.codes, self._codes)
-        if alike.alone or limits.alone or point.was or point.untyped is not None:
+        places = point.places
+        if alike.alone or limits.alone or point.was or point.untyped is not None or len(places) > 1:
             view = point_view(point, Words.of(words), scope, first_names=first_names, first_codes=first_codes)
             return Placed(point, Kind(point, view, _comment(words)), words)
         key = (
@@ -106,7 +107,7 @@ class Kinds:
             tuple([address - addresses[0] for address in addresses]) if len(addresses) > 1 else len(addresses),
             tuple(point.references),
             # what few points have
-            point.places[1:],
+            places[0].function if places else None,
             point.telegram,
             point.index,
             point.keeps,

@@ -63,7 +63,8 @@ class HeaderScope:
 
 def scope_of(device: Device) -> HeaderScope:
     """A fresh scope for a device."""
-    digits = frozenset(point.digits.enum.name for point in device.points if point.digits is not None)
+    shapes = {id(point.shape): point.shape for point in device.points}.values()
+    digits = frozenset(shape.digits.enum.name for shape in shapes if shape.digits is not None)
     known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
     return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device))
 

@@ -78,35 +78,34 @@ _IN_COMMENT = slice(Words._fields.index("range"), Words._fields.index("default")
 """Words of which no width matters: comments are laid out later."""
 
 
-def filling_of(point: Point, item: str, limits: Limits) -> Filling:
+def filling_of(point: Point, item: str, addresses: tuple[int, ...], limits: Limits) -> Filling:
     """The words of a point."""
-    addresses, code = point.addresses, point.code
-    if not addresses:
-        lowest = start = end = number = ""
-    elif len(addresses) == 1:
+    if len(addresses) == 1:
         lowest = start = end = hexadecimal(addresses[0])
         number = str(addresses[0])
-    else:
+    elif addresses:
         least = min(addresses)
         lowest, start, end = hexadecimal(least), hexadecimal(addresses[0]), hexadecimal(addresses[-1])
         number = str(least)
+    else:
+        lowest = start = end = number = ""
     default = "" if point.default is None and point.default_raw is None else c_comment(default_text(point))
-    said, literal = ("", "") if code is None else (c_comment(code), c_string(code))
-    filling: Filling = (
-        item, upper(item), *limits[:7], item.replace("_", " "), said, default, lowest, start, end, number, literal,
-    )  # fmt: skip
+    said, literal = ("", "") if point.code is None else (c_comment(point.code), c_string(point.code))
+    references: list[str] = []
     for reference in point.references.values():
-        filling += (
-            (c_comment(reference), c_string(reference))
-            if isinstance(reference, str)
-            else (str(reference), signed(reference))
-        )
-    return filling
+        if isinstance(reference, str):
+            references += (c_comment(reference), c_string(reference))
+        else:
+            references += (str(reference), signed(reference))
+    return (
+        item, upper(item), *limits[:7], item.replace("_", " "), said, default,
+        lowest, start, end, number, literal, *references,
+    )  # fmt: skip
 
 
 def words_of(point: Point) -> Words:
     """The words of a single point."""
-    return Words.of(filling_of(point, point.item, limits_of(point)))
+    return Words.of(filling_of(point, point.item, point.addresses, limits_of(point)))
 
 
 def stand_ins(filling: Filling) -> Filling:
