@@ -29,9 +29,37 @@ class Numbers(NamedTuple):
         return max(abs(self.low), abs(self.high), 1)
 
 
-@lru_cache(maxsize=4096)
+Range = tuple[int, int]
+
+
 def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
-    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`."""
+    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`.
+
+    What fails for some numbers fails for more, and what serves some serves fewer: so numbers that lie between a
+    narrower and a wider range with the same reciprocal have it too.
+    """
+    low, high = numbers.low, numbers.high
+    met = _met(numbers.num, numbers.den, most)
+    for factors, (narrow, wide) in met.items():
+        if wide[0] <= low <= narrow[0] and narrow[1] <= high <= wide[1]:
+            return factors
+    factors = _fewest(numbers, most)
+    narrow, wide = met.get(factors, ((low, high), (low, high)))
+    if narrow[0] <= low and high <= narrow[1]:
+        narrow = low, high
+    if low <= wide[0] and wide[1] <= high:
+        wide = low, high
+    met[factors] = narrow, wide
+    return factors
+
+
+@lru_cache(maxsize=4096)
+def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, tuple[Range, Range]]:
+    """The reciprocals of a ratio that were asked for, with a narrow and a wide range of numbers that have each."""
+    return {}
+
+
+def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
     for bits in range(1, most.bit_length()):
         much = (numbers.num << bits) // numbers.den
         if numbers.size * (much + 1) + (1 << bits) > most:
