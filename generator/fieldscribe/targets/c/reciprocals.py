@@ -29,34 +29,30 @@ class Numbers(NamedTuple):
         return max(abs(self.low), abs(self.high), 1)
 
 
-Range = tuple[int, int]
-
-
 def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
     """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`.
 
-    What fails for some numbers fails for more, and what serves some serves fewer: so numbers that lie between a
-    narrower and a wider range with the same reciprocal have it too.
+    What fails for some numbers fails for more: the first reciprocal for fewer numbers is the first here if it serves.
     """
-    low, high = numbers.low, numbers.high
     met = _met(numbers.num, numbers.den, most)
-    for factors, (narrow, wide) in met.items():
-        if wide[0] <= low <= narrow[0] and narrow[1] <= high <= wide[1]:
+    for factors, fewer in met.items():
+        if numbers.low <= fewer.low and fewer.high <= numbers.high and (not factors or _serves(factors, numbers, most)):
             return factors
-    factors = _fewest(numbers, most)
-    narrow, wide = met.get(factors, ((low, high), (low, high)))
-    if narrow[0] <= low and high <= narrow[1]:
-        narrow = low, high
-    if low <= wide[0] and wide[1] <= high:
-        wide = low, high
-    met[factors] = narrow, wide
-    return factors
+    first = _fewest(numbers, most)
+    met[first] = numbers
+    return first
 
 
 @lru_cache(maxsize=4096)
-def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, tuple[Range, Range]]:
-    """The reciprocals of a ratio that were asked for, with a narrow and a wide range of numbers that have each."""
+def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, Numbers]:
+    """The reciprocals of a ratio that were found, with the numbers for which they were."""
     return {}
+
+
+def _serves(factors: Reciprocal, numbers: Numbers, most: int) -> bool:
+    """Whether a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
+    whole = numbers.size * (factors.much + 1) + (1 << factors.bits) <= most
+    return whole and numbers.size * factors.little <= most and _is_exact(factors, numbers)
 
 
 def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
