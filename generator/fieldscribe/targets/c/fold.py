@@ -21,7 +21,9 @@ _WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
 def folded(text: str) -> str:
     """The same C in lines of at most 120 characters; a macro goes on behind a backslash."""
     lines = text.split("\n")
-    return text if max(map(len, lines)) <= MOST else "\n".join([part for line in lines for part in _parts(line)])
+    if max(map(len, lines)) <= MOST:
+        return text
+    return "\n".join([part for line in lines for part in (_parts(line) if len(line) > MOST else (line,))])
 
 
 def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
