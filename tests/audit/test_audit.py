@@ -256,7 +256,7 @@ USS_BUS = """
   pzd: 0..2
   functions:
     1: {name: read_value, answers: [1, 2]}
-    15: {name: text, refusals: [7], line: 10, printed: {refusals: []}}
+    0Fh: {name: text, refusals: [7], line: 10, printed: {refusals: []}}
   responses:
     1: {name: word, answers: [1]}
     2: {name: double_word, answers: [1]}

@@ -13,7 +13,7 @@ from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Prof
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
-from fieldscribe.model import Bus, Code, Place, Point
+from fieldscribe.model import Bus, Code, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -356,7 +356,7 @@ def test_blocks_keep_several_words_together() -> None:
 
 
 def test_blocks_cross_reserved_addresses_but_no_unknown_ones() -> None:
-    reserved = replace(at(11), generated=False, reserved=True)
+    reserved = changed(at(11), generated=False, reserved=True)
     assert planned([at(10), reserved, at(12)]) == [(10, 3, ("p10", "p12"))]
     assert planned([at(10), at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
     write_only = changed(at(11), access="w")
@@ -365,7 +365,7 @@ def test_blocks_cross_reserved_addresses_but_no_unknown_ones() -> None:
 
 
 def test_blocks_do_not_cross_gaps() -> None:
-    points = [at(10), replace(at(11), generated=False), at(12)]
+    points = [at(10), changed(at(11), generated=False), at(12)]
     assert planned(points, gaps={"holding": ((11, 11),)}) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
     assert planned(points, gaps={"coil": ((11, 11),)}) == [(10, 3, ("p10", "p12"))]
 
@@ -373,24 +373,32 @@ def test_blocks_do_not_cross_gaps() -> None:
 def test_points_at_one_address_count_once() -> None:
     group = changed(at(10), name="low", bits=(3, 0), type="u8")
     other = changed(at(10), name="high", bits=(7, 4), type="u8")
-    variants = [replace(at(11), variant=f"class={name}") for name in ("200V", "400V")]
+    variants = [replace(at(11), variant=Variant("class", name)) for name in ("200V", "400V")]
     assert planned([group, other, *variants, at(12)]) == [(10, 3, ("high", "low", "p11", "p12"))]
 
 
 def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
     """A device refuses all of a read that touches one address that it does not have."""
     large = Condition(((Comparison("class", "==", ("400V",)),),))
-    for facts in ({"when": large}, {"since": "firmware 2"}, {"until": "firmware 3"}, {"variant": "class=400V"}):
+    for facts in (
+        {"when": large},
+        {"since": "firmware 2"},
+        {"until": "firmware 3"},
+        {"variant": Variant("class", "400V")},
+    ):
         found = planned([at(10), changed(at(11), **facts), at(12)])
         assert found == [(10, 1, ("p10",)), (11, 1, ("p11",)), (12, 1, ("p12",))], facts
-    both = [replace(at(11), variant="class=200V"), replace(at(12), name="p11", variant="class=400V")]
+    both = [
+        replace(at(11), variant=Variant("class", "200V")),
+        replace(at(12), name="p11", variant=Variant("class", "400V")),
+    ]
     assert planned([at(10), *both, at(13)]) == [
         (10, 1, ("p10",)),
         (11, 1, ("p11",)),
         (12, 1, ("p11",)),
         (13, 1, ("p13",)),
     ]
-    reserved = replace(at(11), generated=False, reserved=True, when=large)
+    reserved = changed(at(11), generated=False, reserved=True, when=large)
     assert planned([at(10), reserved, at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
 
 
@@ -412,12 +420,12 @@ def test_what_no_read_can_bring_is_in_no_block() -> None:
 
 def test_blocks_come_by_space_then_address() -> None:
     coil = point("coil", 5, "bit", space="coil")
-    other = point("other", 1, places=(Place("read", "holding", (1,), 4),))
-    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [at(2), other, coil], {})
+    other = point("other", 1, space="input")
+    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [other, at(2), coil], {})
     assert [(block.space, block.function, block.address) for block in blocks] == [
         ("coil", 1, 5),
-        ("holding", 4, 1),
         ("holding", 3, 2),
+        ("input", 4, 1),
     ]
 
 

@@ -55,7 +55,7 @@ class Listener:
         self._device = device
         self._given = dict(settings)
         self._speech = speech
-        self._directory = Directory(device, speech.space_of)
+        self._directory = Directory(device)
         self._course = Course()
         self._parties: dict[int | None, Hearing] = {}
 

@@ -40,7 +40,7 @@ def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
     for point, place in directory.starting_at(span.space, span.address - 1):
         if len(place.addresses) > span.count:
             continue
-        keys = [key for key, number in point.references.items() if number == span.address]
+        keys = [key for key, number in place.references.items() if number == span.address]
         called = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
         below = hex_text(span.address - 1)
         yield (

@@ -38,12 +38,11 @@ def read_frame(device: Device, address: int, unit: int | None = None) -> str:
 def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int | None) -> tuple[str, ...]:
     """A request for each word of a point. Raises RefusedError."""
     message = request_of(device, writes=True)
-    place = point.write_place
-    if message is None or place is None or place.space != "parameter":
+    if message is None or point.space != "parameter":
         raise refused(device.bus, point, "no_message")
     chosen = device.bus.usual_unit if unit is None else unit
     frames = []
-    for address, word in zip(place.addresses, words, strict=True):
+    for address, word in zip(point.addresses, words, strict=True):
         status, frame = build(message, device.bus.units, chosen, address, word)
         if status != "ok":
             raise refused(device.bus, point, status)

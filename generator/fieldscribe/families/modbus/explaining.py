@@ -17,22 +17,19 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
-    place = point.places[0]
-    function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
-    if function is None:
+    if point.space not in SPACES:
         return ""
-    count = len(place.addresses)
+    function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, 'bit' if point.type == 'bit' else 'word')}"
-    return how + _example(device, function, min(place.addresses), count, ())
+    return how + _example(device, function, min(point.addresses), count, ())
 
 
 def way_to_write(device: Device, point: Point) -> Way | None:
     """How to write the point; None if it cannot be written."""
-    place = point.write_place
-    function = function_for(device, place) if place and place.space in SPACES else None
-    if place is None or function is None:
+    addresses = point.written.addresses
+    function = function_for(device, point.space, len(addresses)) if point.space in SPACES else None
+    if function is None:
         return None
-    addresses = place.addresses
     how = f"function {hex_text(function, 2)}"
     if point.bits is not None:
         return Way(f"{how}; read the word first, replace the bits and write it back, for other points share the word")

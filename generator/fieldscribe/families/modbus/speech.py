@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.asked import Options
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Course
-    from fieldscribe.model import Device, Place
+    from fieldscribe.model import Device
 
 
 class ModbusSpeech:
@@ -35,10 +35,6 @@ class ModbusSpeech:
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The frames that people pasted. Raises UnclearError."""
         return [typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2)]
-
-    def space_of(self, place: Place) -> str:
-        """The space that the function of the place reads or writes."""
-        return SPACE_OF.get(place.function or 0, place.space)
 
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

@@ -37,7 +37,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
     suite = conformance_view(device, placed, scope)
     adapters = {"adapters": adapters_text(placed, scope, sections.values(), render)}
-    program = framed(render, "c/conformance.c.j2", {**context, "suite": suite}, adapters)
+    program = framed(render, f"c/{device.family}_conformance.c.j2", {**context, "suite": suite}, adapters)
     yield f"c/conformance/{device.id}_conformance.c", program
 
 

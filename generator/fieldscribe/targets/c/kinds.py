@@ -13,7 +13,7 @@ from fieldscribe.targets.c.words import Filling, Limits, Words, filling_of, limi
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Point, Terms
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
 
@@ -79,52 +79,52 @@ class Kinds:
         self._shapes: dict[int, _Alike] = {}
         self._owners: dict[Hashable, int] = {}
         self._limits: dict[tuple[int, int, str], Limits] = {}
+        self._terms: dict[int, int] = {}
+        self._said: dict[Hashable, int] = {}
         self._enums: set[str] = set()
         self._codes: set[str] = set()
 
     def placed(self, point: Point) -> Placed:
         """The next point with its kind and its words."""
-        item, scope, addresses = point.item, self._scope, point.addresses
+        item, addresses, terms = point.item, point.place.addresses, point.terms
         alike = self._shapes.get(id(point.shape)) or self._alike(point.shape)
         number = alike.own if alike.enum == item else alike.number
-        limits = self._limits.get((number, id(point.allowed), point.unit.symbol)) or self._limits_of(point, number)
+        limits = self._limits.get((number, id(point.allowed), terms.unit.symbol)) or self._limits_of(point, number)
         words = filling_of(point, item, addresses, limits)
         first_names = bool(alike.enum) and _is_first(alike.enum, self._enums)
         first_codes = bool(alike.codes) and _is_first(alike.codes, self._codes)
-        places = point.places
-        if alike.alone or limits.alone or point.was or point.untyped is not None or len(places) > 1:
-            view = point_view(point, Words.of(words), scope, first_names=first_names, first_codes=first_codes)
+        if alike.alone or limits.alone or point.was or point.write_place is not None:
+            view = point_view(point, Words.of(words), self._scope, first_names=first_names, first_codes=first_codes)
             return Placed(point, Kind(point, view, _comment(words)), words)
         key = (
             number,
+            self._terms.get(id(terms)) or self._number_of(terms),
             limits.form,
             first_names,
             first_codes,
             widths_of(words),
-            point.space,
-            scope.spaces.get(point.group),
-            point.bits,
             tuple([address - addresses[0] for address in addresses]) if len(addresses) > 1 else len(addresses),
-            tuple(point.references),
-            # what few points have
-            places[0].function if places else None,
-            point.telegram,
+            tuple(point.place.references),
             point.index,
-            point.keeps,
-            point.steps,
-            point.when,
             point.errata,
         )
         kind = self._kinds.get(key)
         if kind is None:
             shown = Words.of(stand_ins(words))
-            view = point_view(point, shown, scope, first_names=first_names, first_codes=first_codes)
+            view = point_view(point, shown, self._scope, first_names=first_names, first_codes=first_codes)
             kind = self._kinds[key] = Kind(point, view, _comment(words))
         return Placed(point, kind, words)
 
     def _limits_of(self, point: Point, number: int) -> Limits:
         limits = self._limits[number, id(point.allowed), point.unit.symbol] = limits_of(point)
         return limits
+
+    def _number_of(self, terms: Terms) -> int:
+        """A number of all terms that say the same in C."""
+        space = terms.space, self._scope.spaces.get(terms.group)
+        said = (*space, terms.bits, terms.steps, terms.keeps, terms.when, terms.telegram, terms.untyped)
+        number = self._terms[id(terms)] = self._said.setdefault(said, len(self._said) + 1)
+        return number
 
     def _alike(self, shape: Shape) -> _Alike:
         enum, number = shape.digits.enum if shape.digits is not None else shape.enum, len(self._shapes)

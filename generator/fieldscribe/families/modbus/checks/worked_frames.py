@@ -16,7 +16,7 @@ from fieldscribe.checks.frames_agree import (
     report_wrong_sum,
 )
 from fieldscribe.families.modbus.frames import Flaw, unwrap
-from fieldscribe.families.modbus.functions import SPACE_OF, profile_of
+from fieldscribe.families.modbus.functions import SPACE_OF, SPACES, profile_of
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import build, parse_request
@@ -56,8 +56,8 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
     if request.function in profile.most and request.count > most:
         message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
         span = open_frame.raw.span("bytes")
-        subject.disagrees(Printed(f"frame:{frame.name}", "count", request.count, None, span, message))
-        request = replace(request, count=_taken(subject, frame.name, "count", most))
+        subject.disagrees(Printed(open_frame.about, "count", request.count, None, span, message))
+        request = replace(request, count=_taken(subject, open_frame, "count", most))
         frame = replace(frame, valid=False)
     status, rebuilt = build(profile, frame.framing, request)
     if status != "ok":
@@ -84,20 +84,22 @@ def _reply(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Se
 
 def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
     """Finds the raw numbers in a frame: values from an address on, in the space of its function."""
+    writes = function not in {by.read for by in SPACES.values()}
 
     def carries(point: Point) -> int | None:
-        if not point.addresses or point.space != SPACE_OF.get(function):
+        addresses = point.written.addresses if writes else point.addresses
+        if not addresses or point.space != SPACE_OF.get(function):
             return None
-        inside = (first <= word < first + len(values) for word in point.addresses)
+        inside = (first <= word < first + len(values) for word in addresses)
         if not all(inside):
             return None
-        return from_words(point, tuple(values[word - first] for word in point.addresses))
+        return from_words(point, tuple(values[word - first] for word in addresses))
 
     return carries
 
 
-def _taken(subject: Subject, name: str, key: str, otherwise: int) -> int:
-    for erratum in subject.cited.get(f"frame:{name}", ()):
+def _taken(subject: Subject, open_frame: OpenFrame, key: str, otherwise: int) -> int:
+    for erratum in subject.cited.get(open_frame.about, ()):
         taken = erratum.raw["taken"]
         if isinstance(taken, Map) and isinstance(taken.get(key), int):
             return int(taken[key])

@@ -29,7 +29,7 @@ from fieldscribe.text import c_comment
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from fieldscribe.model import Block, Command, Device, Place, Point
+    from fieldscribe.model import Block, Command, Device, Point
     from fieldscribe.targets.c.kinds import Placed
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, Define, PointView
@@ -104,7 +104,7 @@ def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> Bu
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
     all_blocks = [block for blocks in device.blocks.values() for block in blocks]
-    frames = Frames(placed, lambda point, view: _frame(point, view, numbers, layouts) if point.places else None)
+    frames = Frames(placed, lambda point, view: _frame(point, view, numbers, layouts) if point.addresses else None)
     return BusView(
         guard=f"{scope.upper}_MODBUS_H",
         functions=functions,
@@ -159,17 +159,15 @@ def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
 
 def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> Frame | None:
     """The requests of a point; None if no function of the device reaches it or its word must be read before a write."""
-    place = point.places[0]
-    read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
-    target = point.write_place or place
-    write = _writing(point, target, functions) if point.writable else 0
+    read = _READS.get(point.space, 0) if point.readable else 0
+    write = _writing(point, functions) if point.writable else 0
     read = read if read in functions else 0
     if point.bits is not None and not read:
         write = 0
     if not read and not write:
         return None
     address = view.words.address
-    to = hexadecimal(min(target.addresses)) if target is not place and target.addresses else address
+    to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
     text = f"{{{view.function}_addresses, {address}, {point.words}U}}" if point.text is not None else ""
     parts = [text or layouts.of(point, places_of(point))]
     parts += [_place(read, address, point.words)] if read else []
@@ -184,13 +182,11 @@ def _place(function: int, address: str, words: int) -> str:
     return f"{{{unsigned(function)}, {address}, {words}U}}"
 
 
-def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
-    """The function that writes a point: that of the manual, else the one for one item, else that for several."""
-    if place.function in (5, 6, 15, 16) and place is not point.places[0]:
-        return place.function
-    if place.space == "coil":
+def _writing(point: Point, functions: frozenset[int]) -> int:
+    """The function that writes a point: the one for one item, else that for several; 0 if the device has neither."""
+    if point.space == "coil":
         wanted = (5, 15)
-    elif place.space == "holding":
+    elif point.space == "holding":
         wanted = (6, 16) if point.words == 1 else (16, 16)
     else:
         return 0

@@ -79,7 +79,7 @@ def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> Bu
     bus = device.bus
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
     telegrams = {telegram.name: telegram for telegram in device.telegrams}
-    numbers = [each for each in placed if each.point.places and each.point.text is None]
+    numbers = [each for each in placed if each.point.addresses and each.point.text is None]
     parameters = [each for each in numbers if each.point.space == "parameter"]
     heard = [each for each in numbers if each.point.telegram in telegrams and each.point.words <= 2]
     layouts = Layouts(scope)
