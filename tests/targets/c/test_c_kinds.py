@@ -124,7 +124,8 @@ def test_a_key_has_the_parts_that_are_tested(monkeypatch: pytest.MonkeyPatch) ->
     sorted_points = kinds.Kinds(scope_of(device))
     for each in device.points:
         sorted_points.placed(each)
-    assert {len(key) for key in sorted_points._kinds} == {len(PARTS)}
+    keys: Any = sorted_points._kinds
+    assert {len(key) for key in keys} == {len(PARTS)}
 
 
 class CutTerms(dict[Any, Any]):
