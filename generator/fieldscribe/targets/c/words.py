@@ -96,7 +96,8 @@ def filling_of(point: Point, item: str, addresses: tuple[int, ...], limits: Limi
         if isinstance(reference, str):
             references += (c_comment(reference), c_string(reference))
         else:
-            references += (str(reference), signed(reference))
+            number_text = str(reference)
+            references += (number_text, number_text if reference >= 0 else signed(reference))
     return (
         item, upper(item), *limits[:7], item.replace("_", " "), said, default,
         lowest, start, end, number, literal, *references,
