@@ -49,6 +49,12 @@ class Line(NamedTuple):
         for argument in arguments:
             yield from (argument, argument * self.factor, argument * self.factor + self.add)
 
+    def largest(self, low: int, high: int) -> int:
+        """The largest magnitude that occurs between these arguments and the division."""
+        first, last = low * self.factor, high * self.factor
+        met = (low, high, first, last, first + self.add, last + self.add)
+        return max(*met, -min(met))
+
 
 SAME = Line(1, 0, 1)
 """The rule whose result is its argument."""

@@ -72,7 +72,7 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
         to_value,
         raws,
         count_wide,
-        encode_wide=max(map(abs, to_raw.meets(counts))) + to_raw.divisor > INT32[1],
+        encode_wide=to_raw.largest(*counts) + to_raw.divisor > INT32[1],
         decode_wide=decode_wide,
         numerator=numerator,
         counts=counts,
@@ -86,12 +86,12 @@ def _unlimited(rule: Linear, decimals: int, raws: tuple[int, int]) -> _Unlimited
     to_raw, to_value = count_line(rule, decimals), value_line(rule)
     to_count = to_raw.inverse
     ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
-    numerator = max(map(abs, to_value.meets(raws)))
+    numerator = to_value.largest(*raws)
     return _Unlimited(
         to_raw,
         to_value,
         count_wide=not (INT32[0] <= min(ends) and max(ends) <= INT32[1]),
-        decode_wide=max(map(abs, to_count.meets(raws))) + to_count.divisor > INT32[1],
+        decode_wide=to_count.largest(*raws) + to_count.divisor > INT32[1],
         numerator=numerator,
         beyond=_countable(to_raw, raws),
         largest=max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator),

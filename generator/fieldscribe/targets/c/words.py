@@ -124,14 +124,21 @@ def limits_of(point: Point) -> Limits:
     """The words of a point's limits."""
     allowed, (low, high) = point.allowed, (0, 0) if point.info.floating else point.outer
     scale = scaled(point, *encoded_limits(point)) if point.form == "scaled" and not point.scale_arguments else None
-    counts = (0, 0) if scale is None else scale.counts
-    ends = (bare(low), bare(high), signed(low), signed(high), bare(counts[0]), bare(counts[1]))
+    first, last = (0, 0) if scale is None else scale.counts
+    low_text, high_text = bare(low), bare(high)
+    ends = (
+        low_text, high_text,
+        low_text if low >= 0 else signed(low), high_text if high >= 0 else signed(high),
+        bare(first), bare(last),
+    )  # fmt: skip
+    is_simple, said = allowed.fixed == ((low, high),), range_words(point)
     form = (
-        (low, high) == point.held if allowed.fixed == ((low, high),) and not point.specials else allowed.fixed,
+        (low, high) == point.held if is_simple and not point.specials else allowed.fixed,
         allowed.units,
-        scale and (scale.wide, scale.inside, counts == (low, high), point.writable and scale.raw_of_count),
+        scale and (scale.wide, scale.inside, (first, last) == (low, high), point.writable and scale.raw_of_count),
         tuple(map(len, ends)),
         point.unit.symbol,
     )
+    is_plain = is_simple and c_comment(point.unit.symbol) == point.unit.symbol
     alone = allowed.moves or has_ranges_table(point)
-    return Limits(*ends, c_comment(range_words(point)), form, alone)
+    return Limits(*ends, said if is_plain else c_comment(said), form, alone)
