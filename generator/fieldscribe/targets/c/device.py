@@ -60,29 +60,31 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
 
 def header(device: Device, view: DeviceView, placed: Iterable[Placed], scope: HeaderScope, render: Render) -> str:
     """The text of `<device>.h`."""
-    groups = "".join(
-        framed(render, "c/group.h.j2", {"title": _title(name, scope)}, {"points": text})
-        for name, text in _points_by_group(device, placed, scope, render)
-    )
-    return framed(render, "c/device.h.j2", {"device": view}, {"points": groups})
+    texts: list[str] = []
+    for name, of_points in _points_by_group(device, placed, scope, render).items():
+        if of_points:
+            texts += [folded(render("c/group.h.j2", {"title": _title(name, scope)})), *of_points]
+    return framed(render, "c/device.h.j2", {"device": view}, {"points": "".join(texts)})
 
 
 def _points_by_group(
     device: Device, placed: Iterable[Placed], scope: HeaderScope, render: Render
-) -> Iterator[tuple[str, str]]:
-    """The text of each group's points."""
+) -> dict[str, list[str]]:
+    """The texts of each group's points."""
     comments = Texts(lambda kind: comment_text(kind.point, kind.view.words, scope))
     headers = Texts(lambda kind: _point_text(kind, scope, render))
     by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
     generated = iter(placed)
     for point in device.points:
-        texts = by_group.setdefault(point.group, [])
-        if point.generated:
+        terms = point.terms
+        if terms.generated:
             _, kind, words = next(generated)
-            texts.append(headers.of(kind).filled((*words, laid_out(comments.of(kind).filled(words)))))
+            comment = laid_out(comments.of(kind).filled(words))
+            text = headers.of(kind).filled((*words, comment))
         else:
-            texts.append(folded(_remark(point, scope, render)))
-    yield from ((name, "".join(texts)) for name, texts in by_group.items() if texts)
+            text = folded(_remark(point, scope, render))
+        by_group.setdefault(terms.group, []).append(text)
+    return by_group
 
 
 def _point_text(kind: Kind, scope: HeaderScope, render: Render) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from fieldscribe.patterns import Pattern, blanks
+from fieldscribe.patterns import blanks
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,7 +29,10 @@ def folded(text: str) -> str:
 def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
     """The template, folded, around texts that are folded already."""
     places = dict(zip(texts, blanks(["_" if text else "" for text in texts.values()]), strict=True))
-    return Pattern(folded(render(template, {**context, **places}))).filled(tuple(texts.values()))
+    result = folded(render(template, {**context, **places}))
+    for name, text in texts.items():
+        result = text.join(result.split(places[name])) if text else result
+    return result
 
 
 def _parts(line: str) -> list[str]:
