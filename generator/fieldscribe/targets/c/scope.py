@@ -70,7 +70,7 @@ def scope_of(device: Device) -> HeaderScope:
 def _spaces(device: Device) -> dict[str, str | None]:
     """The space of each group; None if its points have different ones."""
     spaces: dict[str, str | None] = {}
-    for point in device.points:
-        if spaces.setdefault(point.group, point.space) != point.space:
-            spaces[point.group] = None
+    for terms in {id(point.terms): point.terms for point in device.points}.values():
+        if spaces.setdefault(terms.group, terms.space) != terms.space:
+            spaces[terms.group] = None
     return spaces
