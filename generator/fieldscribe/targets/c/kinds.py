@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.model import Shape
-from fieldscribe.patterns import Pattern
+from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.c.points import point_view
 from fieldscribe.targets.c.words import Filling, Limits, Words, filling_of, limits_of, stand_ins, widths_of
 
@@ -95,7 +95,7 @@ class Kinds:
         first_codes = bool(alike.codes) and _is_first(alike.codes, self._codes)
         if alike.alone or limits.alone or point.was or point.write_place is not None:
             view = point_view(point, Words.of(words), self._scope, first_names=first_names, first_codes=first_codes)
-            return Placed(point, Kind(point, view, _comment(words)), words)
+            return Placed(point, Kind(point, view, _comment_blank(words)), words)
         key = (
             number,
             self._terms.get(id(terms)) or self._number_of(terms),
@@ -112,7 +112,7 @@ class Kinds:
         if kind is None:
             shown = Words.of(stand_ins(words))
             view = point_view(point, shown, self._scope, first_names=first_names, first_codes=first_codes)
-            kind = self._kinds[key] = Kind(point, view, _comment(words))
+            kind = self._kinds[key] = Kind(point, view, _comment_blank(words))
         return Placed(point, kind, words)
 
     def _limits_of(self, point: Point, number: int) -> Limits:
@@ -150,6 +150,6 @@ def _is_first(name: str, met: set[str]) -> bool:
     return True
 
 
-def _comment(words: Filling) -> str:
+def _comment_blank(words: Filling) -> str:
     """The blank for the comment, which follows the words."""
-    return stand_ins((*words, "_"))[-1]
+    return blanks((*[""] * len(words), "_"))[-1]
