@@ -41,6 +41,8 @@ def line(text: str) -> str:
 @lru_cache(maxsize=65536)
 def c_comment(text: str) -> str:
     """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
+    if text.isalnum() and text.isascii():
+        return text
     cleaned = line(text).translate(_TYPEWRITER).replace("*/", "* /").replace("/*", "/ *")
     return _QUERIES.sub("? ", cleaned).rstrip("\\ ")
 
@@ -48,6 +50,8 @@ def c_comment(text: str) -> str:
 @lru_cache(maxsize=65536)
 def c_string(text: str) -> str:
     """A C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes (they end by themselves)."""
+    if text.isalnum() and text.isascii():
+        return f'"{text}"'
     escaped = []
     for byte in line(text).encode():
         char = chr(byte)
