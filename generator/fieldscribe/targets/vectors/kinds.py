@@ -9,12 +9,11 @@ line. A runner compares every field with something, except notes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from struct import Struct
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.numbers import bits64
-
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
 ABSENT = "-"
 
@@ -138,6 +137,8 @@ def text(value: object) -> str:
         raise TypeError(f"{value!r} is no text")
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
+    if value.isalnum():
+        return value
     return "".join(
         character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
     )
@@ -150,44 +151,47 @@ def _escaped(character: str) -> str:
 def _bytes(value: object) -> str:
     if not isinstance(value, bytes):
         raise TypeError(f"{value!r} is no bytes")
-    return value.hex()
+    return value.hex() or ABSENT
 
 
 def _real(value: object) -> str:
     """The pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
     if not isinstance(value, float):
         raise TypeError(f"{value!r} is no float")
-    return f"{bits64(value):016x}".rstrip("0") or "0"
+    return _BINARY64(value).hex().rstrip("0") or "0"
+
+
+_BINARY64 = Struct(">d").pack
 
 
 def _ints(value: object) -> str:
     if not isinstance(value, (tuple, list)):
         raise TypeError(f"{value!r} is no list")
-    return ",".join(map(_int, value))
+    return ",".join([_int(item) for item in value]) or ABSENT
 
 
 def _names(value: object) -> str:
     if not isinstance(value, tuple):
         raise TypeError(f"{value!r} is no list")
-    return ",".join(map(text, value))
+    return ",".join([text(item) for item in value]) or ABSENT
 
 
 def _pairs(value: object) -> str:
     if not isinstance(value, dict):
         raise TypeError(f"{value!r} is no map")
-    return ",".join(f"{text(key)}={text(str(part))}" for key, part in value.items())
+    return ",".join([f"{text(key)}={text(str(part))}" for key, part in value.items()]) or ABSENT
 
 
 def _frames(value: object) -> str:
     if not isinstance(value, (tuple, list)):
         raise TypeError(f"{value!r} is no list")
-    return ",".join(f"{number}={_bytes(data)}" for number, data in value)
+    return ",".join([f"{number}={data.hex()}" for number, data in value]) or ABSENT
 
 
 def _script(value: object) -> str:
     if not isinstance(value, (tuple, list)):
         raise TypeError(f"{value!r} is no list")
-    return ",".join(f"{_bytes(sent)}={_bytes(received)}" for sent, received in value)
+    return ",".join([f"{sent.hex()}={received.hex()}" for sent, received in value]) or ABSENT
 
 
 FORMS: dict[str, Callable[[object], str]] = {
@@ -206,27 +210,31 @@ FORMS: dict[str, Callable[[object], str]] = {
 """The notation of each form of field: lists with commas; `pairs`, `frames` and `script` have items of two parts."""
 
 
-class Shape:
+class Row:
     """Writes the lines of one kind or set, and checks each value against its field."""
 
     def __init__(self, name: str, kind: Kind) -> None:
-        self.name = name
-        self._fields = [(key, FORMS[form], key in kind.optional) for key, form in kind.fields]
+        self.name, self.kind = name, kind
+        self._writers = [FORMS[form] for _, form in kind.fields]
+        needed = [place + 1 for place, (key, _) in enumerate(kind.fields) if key not in kind.optional]
+        self._least, self._most = max(needed, default=0), len(self._writers)
 
-    def line(self, values: Iterable[object]) -> str:
+    def line(self, values: Sequence[object]) -> str:
         """The line of one vector; fields without a value are absent."""
-        parts = [self.name]
-        remaining = iter(values)
-        for key, write, optional in self._fields:
-            value = next(remaining, None)
-            if value is None or (not value and value not in (0, "")):
-                if not optional:
-                    raise ValueError(f"{self.name} lacks {key}")
-                parts.append(ABSENT)
-            else:
-                parts.append(write(value))
-        if next(remaining, None) is not None:
-            raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
-        while parts[-1] == ABSENT:
-            parts.pop()
-        return "\t".join(parts)
+        words = [
+            ABSENT if value is None else write(value) for write, value in zip(self._writers, values, strict=False)
+        ]
+        if self._least <= len(values) <= self._most and ABSENT not in words:
+            return "\t".join((self.name, *words))
+        return self._with_gaps(words, values)
+
+    def _with_gaps(self, words: list[str], values: Sequence[object]) -> str:
+        """The line of a vector in which fields are absent, without those at its end."""
+        if len(values) > self._most:
+            raise ValueError(f"{self.name} has no more than {self._most} fields")
+        for place, (key, _) in enumerate(self.kind.fields):
+            if key not in self.kind.optional and (place >= len(words) or words[place] == ABSENT):
+                raise ValueError(f"{self.name} lacks {key}")
+        while words and words[-1] == ABSENT:
+            words.pop()
+        return "\t".join((self.name, *words))

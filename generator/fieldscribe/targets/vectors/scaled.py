@@ -11,60 +11,62 @@ from fieldscribe.targets.vectors.numbers import quotient
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, admit, code_of, quantity_at_most
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point
+    from fieldscribe.model import Shape
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning
 
 INT32 = 1 << 31
 
 
-def scaled(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
+def scaled(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
     """Add the vectors of a scaled point, for each setting of the points that it depends on; fewer unless `deep`."""
     full = deep
-    for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
+    for settings in samples.settings(oracle, meaning, deep=deep) if meaning.arguments else [{}]:
         lines.set("with", settings)
-        ratio = oracle.ratio(point, settings)
-        limits = oracle.limits(point, settings)
+        ratio = oracle.ratio(meaning.shape, settings)
+        limits = oracle.limits(meaning.shape, meaning.allowed, settings)
         if isinstance(ratio, str):
-            _without_rule(lines, point, ratio)
+            _without_rule(lines, meaning.shape, ratio)
         elif isinstance(limits, str):
-            _without_limits(lines, point, ratio, limits)
+            _without_limits(lines, meaning, ratio, limits)
         else:
-            _Vectors(lines, point, ratio, limits, deep, full).write()
+            _Vectors(lines, meaning, ratio, limits, deep, full).write()
             full = False
 
 
-def _without_rule(lines: Lines, point: Point, status: str) -> None:
+def _without_rule(lines: Lines, shape: Shape, status: str) -> None:
     """Add the vectors for a setting under which nothing can be computed."""
-    raw = quantity_at_most(point, 1)
-    if point.readable:
+    raw = quantity_at_most(shape, 1)
+    if shape.readable:
         lines.add("decode", raw, status)
-        if point.decimals is not None:
+        if shape.decimals is not None:
             lines.add("decode_count", raw, status)
-    if point.writable:
-        if point.encodes_values:
+    if shape.writable:
+        if shape.encodes_values:
             lines.add("encode", 1.0, status)
-        if point.decimals is not None:
+        if shape.decimals is not None:
             lines.add("encode_count", 1, status)
-        if point.encodes_values:
+        if shape.encodes_values:
             lines.add("encode", nan, "not_a_number")
 
 
-def _without_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
+def _without_limits(lines: Lines, meaning: Meaning, ratio: Ratio, status: str) -> None:
     """Add the vectors for a setting under which values can be computed, but not the limits."""
-    if point.writable:
+    shape = meaning.shape
+    if shape.writable:
         # Inside the outer bounds of the limit, so that only the limit itself can refuse it.
-        raw = quantity_at_most(point, samples.limits_of(point)[0].greatest)
+        raw = quantity_at_most(shape, samples.limits_of(meaning.allowed)[0].greatest)
         value = quotient(ratio.numerator(raw), ratio.denominator)
-        if point.encodes_values:
+        if shape.encodes_values:
             lines.add("encode", value, status)
-        if point.decimals is not None:
-            lines.add("encode_count", ratio.count_of_raw(raw, point.decimals), status)
+        if shape.decimals is not None:
+            lines.add("encode_count", ratio.count_of_raw(raw, shape.decimals), status)
         lines.add("check", raw, status)
 
 
-def _is_too_large(point: Point, raw: int) -> bool:
+def _is_too_large(shape: Shape, raw: int) -> bool:
     """Whether a raw number is too large to compute with."""
-    return point.most_raw is not None and abs(raw) > point.most_raw
+    return shape.most_raw is not None and abs(raw) > shape.most_raw
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,7 @@ class _Vectors:
     """
 
     lines: Lines
-    point: Point
+    meaning: Meaning
     ratio: Ratio
     limits: samples.Limits
     deep: bool
@@ -83,50 +85,50 @@ class _Vectors:
 
     def write(self) -> None:
         """Add the vectors of all kinds, decoding first."""
-        if self.point.readable:
-            raws = samples.raws_to_decode(self.point, self.limits, deep=self.deep)
+        if self.meaning.shape.readable:
+            raws = samples.raws_to_decode(self.meaning.shape, self.limits, deep=self.deep)
             self._decode(raws)
-            if self.point.decimals is not None:
-                self._decode_count(raws, self.point.decimals)
-        if self.point.writable:
-            if self.point.encodes_values:
+            if self.meaning.shape.decimals is not None:
+                self._decode_count(raws, self.meaning.shape.decimals)
+        if self.meaning.shape.writable:
+            if self.meaning.shape.encodes_values:
                 self._encode()
-            if self.point.decimals is not None:
-                self._encode_count(self.point.decimals)
-            if self.full or not self.deep or self.point.limit_arguments:
+            if self.meaning.shape.decimals is not None:
+                self._encode_count(self.meaning.shape.decimals)
+            if self.full or not self.deep or self.meaning.allowed.arguments:
                 self._check()
 
     def _decode(self, raws: list[int]) -> None:
         ratio, add, under = self.ratio, self.lines.add, self.ratio.denominator
         telling = samples.raw_telling_division(ratio)
-        held = telling is not None and self.point.least <= telling <= self.point.greatest
+        held = telling is not None and self.meaning.shape.least <= telling <= self.meaning.shape.greatest
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
-            if (code := code_of(self.point, raw)) is not None:
+            if (code := code_of(self.meaning.shape, raw)) is not None:
                 add("decode", raw, "special", None, code.name)
-            elif _is_too_large(self.point, raw):
+            elif _is_too_large(self.meaning.shape, raw):
                 add("decode", raw, "overflow")
-            elif ratio.divides_exactly(raw) or not (self.point.scale_arguments and self.point.encodes_values):
+            elif ratio.divides_exactly(raw) or not (self.meaning.shape.scale_arguments and self.meaning.shape.encodes_values):
                 add("decode", raw, "ok", ratio.numerator(raw) / under)
 
     def _decode_count(self, raws: list[int], decimals: int) -> None:
         ratio, add = self.ratio, self.lines.add
         for raw in raws:
-            if (code := code_of(self.point, raw)) is not None:
+            if (code := code_of(self.meaning.shape, raw)) is not None:
                 add("decode_count", raw, "special", None, code.name)
                 continue
             count = ratio.count_of_raw(raw, decimals)
-            fits = -INT64 <= count < INT64 and not _is_too_large(self.point, raw)
+            fits = -INT64 <= count < INT64 and not _is_too_large(self.meaning.shape, raw)
             add("decode_count", raw, *(("ok", count) if fits else ("overflow",)))
 
     def _encoded(self, raw: int | None) -> tuple[object, ...]:
-        status = "out_of_range" if raw is None else admit(self.point, raw, self.limits, by_value=True)
+        status = "out_of_range" if raw is None else admit(self.meaning.shape, raw, self.limits, by_value=True)
         return (status, raw if status == "ok" else None)
 
     def _edges(self) -> dict[int, None]:
         """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
         if not self.deep:
             return samples.edges(samples.limits_to_try(self.limits))
-        return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.point))}
+        return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.meaning.shape))}
 
     def _encode(self) -> None:
         ratio, add = self.ratio, self.lines.add
@@ -150,7 +152,7 @@ class _Vectors:
 
     def _counts(self, decimals: int) -> list[int]:
         """Counts to encode: of limits and their neighbours, around the halves beside them, ends of the integers."""
-        point, ratio, power = self.point, self.ratio, 10**decimals
+        shape, ratio, power = self.meaning.shape, self.ratio, 10**decimals
         counts = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
         if self.deep and ratio.denominator != power * abs(ratio.den) * ratio.under:  # else each count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
@@ -160,12 +162,12 @@ class _Vectors:
                 counts.update({below if rest else below - 1: None, below + 1: None})
                 if not rest:
                     counts[below] = None
-        ends = [ratio.count_of_raw(raw, decimals) for raw in (point.least, point.greatest)]
+        ends = [ratio.count_of_raw(raw, decimals) for raw in (shape.least, shape.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:
             counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
         return [count for count in counts if -edge <= count < edge]
 
     def _check(self) -> None:
-        for raw in samples.raws_to_check(self.point, self.limits, deep=self.deep):
-            self.lines.add("check", raw, admit(self.point, raw, self.limits))
+        for raw in samples.raws_to_check(self.meaning.shape, self.limits, deep=self.deep):
+            self.lines.add("check", raw, admit(self.meaning.shape, raw, self.limits))

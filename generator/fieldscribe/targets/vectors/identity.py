@@ -1,10 +1,9 @@
-"""Vectors of facts beside the conversions: the places of a point, its constants and its words."""
+"""Vectors of what tells a point from others: its places, references, old names, type and limits, read from the point."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
 
@@ -16,11 +15,19 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
 
 
-def address(lines: Lines, point: Point) -> None:
+def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
+    """Name the point, and add what is its own. Nothing here is shared, so that whoever shares too much is caught."""
+    lines.set("point", point.item)
+    _address(lines, point)
+    _facts(lines, point, variants)
+    _aliases(lines, point)
+
+
+def _address(lines: Lines, point: Point) -> None:
     """Add vectors of addresses on the wire and in the manual, of the outer raw limits and the unit of counts."""
     if point.address is None:
         return
-    low, high = outer_bounds(point) if point.form not in ("float", "text", "digits") else (None, None)
+    low, high = outer_bounds(point.shape, point.allowed) if point.form not in ("float", "text", "digits") else (None, None)
     lines.add(
         "address",
         point.places[0].space,
@@ -40,7 +47,7 @@ def address(lines: Lines, point: Point) -> None:
         lines.add("display", point.display)
 
 
-def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
+def _facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
     """Add the vector of what a point is beside its numbers: group, type, unit, default, variant, place for writing."""
     other = next((place for place in point.places if place.purpose == "write"), None)
     apart = other is not None and other is not point.places[0]
@@ -60,7 +67,7 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
     )
 
 
-def aliases(lines: Lines, point: Point) -> None:
+def _aliases(lines: Lines, point: Point) -> None:
     """Add vectors of old names; variants keep their suffix."""
     for old in point.was:
         lines.add("alias", old + point.item.removeprefix(point.name), point.item)
@@ -82,34 +89,3 @@ def _possible_for(condition: Condition, axis: str, value: str) -> bool:
     return any(
         all(comparison.of != axis or comparison.holds(value) for comparison in clause) for clause in condition.clauses
     )
-
-
-def words(lines: Lines, point: Point) -> None:
-    """Add vectors of the words of a point, in ascending order of the addresses."""
-    if (
-        not point.places
-        or point.bits is not None
-        or point.text is not None
-        or (point.words < 2 and not point.info.signed)
-    ):
-        return
-    count = point.words
-    addresses = point.places[0].addresses
-    # words that share one address (a USS parameter) travel with the high word first
-    order = sorted(range(count), key=addresses.__getitem__) if len(addresses) == count else list(range(count))
-    for pattern in _wide_patterns(count) if count > 1 else _NARROW:
-        raw = as_raw(point, pattern)
-        whole = raw & (1 << 16 * count) - 1  # a signed byte is extended to its whole word
-        parts = [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order]
-        lines.add("words", raw, parts)
-
-
-_NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
-"""Samples of a signed word: the least number, negative odd numbers, a positive number."""
-
-
-def _wide_patterns(count: int) -> tuple[int, ...]:
-    top = 1 << 16 * count - 1
-    ascending = sum(0x0001_0203_0405_0607 >> 64 - 16 * count & 0xFFFF << 16 * place for place in range(count))
-    mixed = sum((0x8000 if place % 2 else 0x8001) << 16 * place for place in range(count))
-    return (0, 1, ascending, top, top + 1, top - 1, mixed, (1 << 16 * count) - 1, 0xFFFF)

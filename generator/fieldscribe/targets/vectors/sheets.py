@@ -1,0 +1,57 @@
+"""The vectors of the raw numbers of a point, written once for all points whose numbers mean the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.characters import digits, text
+from fieldscribe.targets.vectors.floats import floats
+from fieldscribe.targets.vectors.words import words
+from fieldscribe.targets.vectors.scaled import scaled
+from fieldscribe.targets.vectors.shown import shown
+from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
+
+if TYPE_CHECKING:
+    from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning, Meanings
+    from fieldscribe.targets.vectors.oracle import Oracle
+
+
+class Sheets:
+    """The sheets of one device."""
+
+    def __init__(self, lines: Lines, oracle: Oracle, meanings: Meanings) -> None:
+        self._lines, self._oracle, self._meanings = lines, oracle, meanings
+        self._written: dict[Meaning, Lines] = {}
+
+    def of(self, meaning: Meaning) -> Lines:
+        """The sheet of a meaning; a deep one for the first point of all that are computed alike."""
+        sheet = self._written.get(meaning)
+        if sheet is None:
+            deep = self._meanings.is_new(meaning)
+            sheet = self._lines.apart()
+            _write(sheet, self._oracle, meaning, deep=deep)
+            if not deep:
+                self._written[meaning] = sheet
+        return sheet
+
+
+def _write(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
+    shape = meaning.shape
+    if shape.form == "scaled":
+        scaled(lines, oracle, meaning, deep=deep)
+    elif shape.form == "float":
+        floats(lines, meaning, deep=deep)
+    elif shape.form == "text":
+        text(lines, shape)
+    elif shape.form == "digits":
+        digits(lines, shape)
+    else:
+        whole(lines, oracle, meaning, deep=deep)
+    shown(lines, oracle, meaning, deep=deep)
+    names(lines, shape, deep=deep)
+    specials(lines, shape)
+    flags(lines, shape)
+    fixed(lines, shape)
+    bits(lines, meaning)
+    words(lines, meaning)
