@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families import family
 from fieldscribe.targets.vectors.bus import add_limits
 from fieldscribe.targets.vectors.exchanges import Exchanges
-from fieldscribe.targets.vectors.identity import identity
+from fieldscribe.targets.vectors.identity import Identities
 from fieldscribe.targets.vectors.lines import Lines, rows
 from fieldscribe.targets.vectors.meaning import Meanings
 from fieldscribe.targets.vectors.oracle import Oracle
@@ -46,6 +46,7 @@ def collect(device: Device) -> Lines:
     oracle = Oracle({point.name: point for point in reversed(device.points)})
     meanings = Meanings()
     sheets = Sheets(lines, oracle, meanings)
+    identities = Identities(lines, device.variants)
     exchanges = [Exchanges(lines, oracle, meanings, device, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
@@ -56,7 +57,7 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.generated:
             meaning = meanings.of(point)
-            identity(lines, point, device.variants)
+            identities.add(point)
             lines.include(sheets.of(meaning))
             for collector in usual:
                 collector.of(point, meaning)

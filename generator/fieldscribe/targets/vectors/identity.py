@@ -1,84 +1,141 @@
-"""Vectors of what tells a point from others: its places, references, old names, type and limits, read from the point."""
+"""Vectors of what tells a point from others: its places, references, old names, type and limits, read from the point.
+
+Points whose identities have the same form share one pattern, into which each puts its own words.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.patterns import Pattern, blanks
+from fieldscribe.targets.vectors.kinds import Written, text, word
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.existence import Condition
-    from fieldscribe.model import Point
+    from fieldscribe.model import Place, Point
     from fieldscribe.targets.vectors.lines import Lines
 
 
-def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """Name the point, and add what is its own. Nothing here is shared, so that whoever shares too much is caught."""
-    lines.set("point", point.item)
-    _address(lines, point)
-    _facts(lines, point, variants)
-    _aliases(lines, point)
+class _Form(NamedTuple):
+    """All that the lines of an identity follow from beside its words."""
+
+    type: str
+    words: int
+    decimals: int | None
+    """Of counts, where there are some."""
+    display: int | None
+    space: str | None
+    """None without an address."""
+    has_code: bool
+    has_limits: bool
+    references: tuple[str, ...]
+    placed: tuple[tuple[int, ...], int | None, str | None] | None
+    """Addresses, index and telegram of a point that its lowest address does not find."""
+    symbol: str
+    default: float | None
+    changes: str | None
+    changes_with: tuple[str, ...]
+    variant: str | None
+    only_for: tuple[str, ...] | None
+    written: tuple[str, tuple[int, ...]] | None
+    """The space and the addresses where the point is written, if not where it is read."""
+    aliases: tuple[str, ...]
 
 
-def _address(lines: Lines, point: Point) -> None:
-    """Add vectors of addresses on the wire and in the manual, of the outer raw limits and the unit of counts."""
-    if point.address is None:
-        return
-    low, high = outer_bounds(point.shape, point.allowed) if point.form not in ("float", "text", "digits") else (None, None)
-    lines.add(
-        "address",
-        point.places[0].space,
-        point.address,
-        point.words,
-        None if point.code is None else line(point.code),
-        low,
-        high,
-        point.decimals if point.form == "scaled" else None,
-        {key: line(str(number)) for key, number in point.references.items()},
+class Identities:
+    """The identities of the points of a device."""
+
+    def __init__(self, lines: Lines, variants: Mapping[str, tuple[str, ...]]) -> None:
+        self._lines, self._variants = lines, variants
+        self._parts: dict[_Form, tuple[Lines, Pattern]] = {}
+
+    def add(self, point: Point) -> None:
+        """Name the point, and add what is its own: facts in which whoever shares too much goes wrong."""
+        form, words = self._form(point), _words(point)
+        if form not in self._parts:
+            part = self._lines.apart()
+            _write(part, form, blanks(word and "?" for word in words))
+            self._parts[form] = part, Pattern(part.joined)
+        part, pattern = self._parts[form]
+        self._lines.set("point", point.item)
+        self._lines.include(part, pattern.filled(words))
+
+    def _form(self, point: Point) -> _Form:
+        shape, places = point.shape, point.places
+        special = point.index is not None or point.telegram is not None or shape.text is not None
+        return _Form(
+            shape.type,
+            shape.words,
+            shape.decimals if shape.form == "scaled" else None,
+            shape.display,
+            places[0].space if places else None,
+            point.code is not None,
+            shape.form not in _WITHOUT_LIMITS,
+            tuple(point.references),
+            (point.addresses, point.index, point.telegram) if special else None,
+            point.unit.symbol,
+            None if point.default is None else float(point.default),
+            None if point.changes == "always" else point.changes,
+            point.changes_with,
+            point.variant,
+            None if point.when is None else _only_for(point.when, self._variants),
+            _written_elsewhere(places) if len(places) > 1 else None,
+            tuple(old + point.item.removeprefix(point.name) for old in point.was),
+        )
+
+
+_WITHOUT_LIMITS = ("float", "text", "digits")
+
+
+def _words(point: Point) -> tuple[str, ...]:
+    """What most points have of their own, in the notation of its field."""
+    shape, places = point.shape, point.places
+    addresses = places[0].addresses if places else ()
+    low, high = outer_bounds(shape, point.allowed) if shape.form not in _WITHOUT_LIMITS else ("", "")
+    return (
+        word(point.item),
+        word(point.name),
+        word(point.group),
+        str(min(addresses)) if addresses else "",
+        "" if point.code is None else text(line(point.code)),
+        str(low),
+        str(high),
+        *[str(number) if type(number) is int else text(line(str(number))) for number in point.references.values()],
     )
-    if point.index is not None or point.telegram is not None or point.text is not None:
-        lines.add("place", point.addresses, point.index, point.telegram)
-    if point.unit.symbol:
-        lines.add("symbol", point.unit.symbol)
-    if point.display is not None:
-        lines.add("display", point.display)
 
 
-def _facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """Add the vector of what a point is beside its numbers: group, type, unit, default, variant, place for writing."""
-    other = next((place for place in point.places if place.purpose == "write"), None)
-    apart = other is not None and other is not point.places[0]
-    lines.add(
-        "facts",
-        point.group,
-        point.name,
-        point.type,
-        point.unit.symbol or None,
-        None if point.default is None else float(point.default),
-        None if point.changes == "always" else point.changes,
-        point.changes_with,
-        point.variant,
-        _only_for(point, variants),
-        other.space if other is not None and apart else None,
-        other.addresses if other is not None and apart else None,
-    )
+def _write(lines: Lines, form: _Form, words: Iterable[str]) -> None:
+    """The lines of a form; a word that is empty is absent."""
+    item, name, group, address, code, low, high, *references = (Written(word) if word else None for word in words)
+    if form.space is not None:
+        printed = dict(zip(form.references, references, strict=True))
+        lines.add("address", form.space, address, form.words, code, low, high, form.decimals, printed)
+        if form.placed is not None:
+            lines.add("place", *form.placed)
+        if form.symbol:
+            lines.add("symbol", form.symbol)
+        if form.display is not None:
+            lines.add("display", form.display)
+    held = form.type, form.symbol or None, form.default, form.changes, form.changes_with, form.variant, form.only_for
+    lines.add("facts", group, name, *held, *(form.written or ()))
+    for old in form.aliases:
+        lines.add("alias", old, item)
 
 
-def _aliases(lines: Lines, point: Point) -> None:
-    """Add vectors of old names; variants keep their suffix."""
-    for old in point.was:
-        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
+def _written_elsewhere(places: tuple[Place, ...]) -> tuple[str, tuple[int, ...]] | None:
+    """The space and the addresses where a point is written, if not where it is read."""
+    place = next((place for place in places if place.purpose == "write"), places[0])
+    return None if place is places[0] else (place.space, place.addresses)
 
 
-def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
+def _only_for(when: Condition, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
     """The axis that decides whether the point exists, followed by the values for which it can."""
-    if point.when is None:
-        return None
-    for axis in point.when.names:
-        left = [value for value in variants.get(axis, ()) if _possible_for(point.when, axis, value)]
+    for axis in when.names:
+        left = [value for value in variants.get(axis, ()) if _possible_for(when, axis, value)]
         if len(left) < len(variants.get(axis, ())):
             return (axis, *left)
     return None

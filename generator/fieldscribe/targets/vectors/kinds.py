@@ -120,13 +120,19 @@ KINDS = table(
 """The kinds of vectors of all families: the fields of their lines. The sets in force apply to every line."""
 
 
+class Written(str):
+    """A word in the notation of its field, which is part of a line as it is."""
+
+
 def _int(value: object) -> str:
-    if type(value) is not int:
-        raise TypeError(f"{value!r} is no integer")
-    return str(value)
+    if type(value) is int:
+        return str(value)
+    if isinstance(value, Written):
+        return value
+    raise TypeError(f"{value!r} is no integer")
 
 
-def _word(value: object) -> str:
+def word(value: object) -> str:
     """A name; it must not need an escape."""
     return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
 
@@ -137,7 +143,7 @@ def text(value: object) -> str:
         raise TypeError(f"{value!r} is no text")
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
-    if value.isalnum():
+    if value.isalnum() or isinstance(value, Written):
         return value
     return "".join(
         character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
@@ -179,7 +185,7 @@ def _names(value: object) -> str:
 def _pairs(value: object) -> str:
     if not isinstance(value, dict):
         raise TypeError(f"{value!r} is no map")
-    return ",".join([f"{text(key)}={text(str(part))}" for key, part in value.items()]) or ABSENT
+    return ",".join([f"{text(key)}={text(part if isinstance(part, str) else str(part))}" for key, part in value.items()]) or ABSENT
 
 
 def _frames(value: object) -> str:
@@ -196,8 +202,8 @@ def _script(value: object) -> str:
 
 FORMS: dict[str, Callable[[object], str]] = {
     "int": _int,
-    "word": _word,
-    "note": _word,
+    "word": word,
+    "note": word,
     "text": text,
     "bytes": _bytes,
     "real": _real,

@@ -53,12 +53,12 @@ class Lines:
         """No lines yet, of the same kinds: for vectors that are included in several places."""
         return Lines(self._rows)
 
-    def include(self, part: Lines) -> None:
-        """Add all vectors of a part, which set only what comes after the sets in force."""
+    def include(self, part: Lines, text: str | None = None) -> None:
+        """Add all vectors of a part, which set only what comes after the sets in force; `text` if blanks are filled."""
         if part.kinds:
             if self._wanted:
                 self._settle()
-            self._open.append(part.joined)
+            self._open.append(part.joined if text is None else text)
             self._included.append(part)
         self._held.update(part._held)
         self._wanted.update(part._wanted)
