@@ -9,6 +9,7 @@ line. A runner compares every field with something, except notes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import call
 from struct import Struct
 from typing import TYPE_CHECKING
 
@@ -124,27 +125,32 @@ class Written(str):
     """A word in the notation of its field, which is part of a line as it is."""
 
 
-def _int(value: object) -> str:
-    if type(value) is int:
-        return str(value)
-    if isinstance(value, Written):
+def _other(value: object, kind: str) -> str:
+    """What stands for any field: nothing, or a word that is written already."""
+    if value is None:
+        return ABSENT
+    if type(value) is Written:
         return value
-    raise TypeError(f"{value!r} is no integer")
+    raise TypeError(f"{value!r} is no {kind}")
+
+
+def _int(value: object) -> str:
+    return str(value) if type(value) is int else _other(value, "integer")
 
 
 def word(value: object) -> str:
     """A name; it must not need an escape."""
-    return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
+    return value if type(value) is str and value.isidentifier() and value.isascii() else text(value)
 
 
 def text(value: object) -> str:
     """A text; unprintable characters, `%`, `,` and `=` become `%` and two hexadecimal digits a byte of UTF-8."""
-    if not isinstance(value, str):
-        raise TypeError(f"{value!r} is no text")
+    if type(value) is not str:
+        return _other(value, "text")
+    if value.isalnum():
+        return value
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
-    if value.isalnum() or isinstance(value, Written):
-        return value
     return "".join(
         character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
     )
@@ -155,16 +161,12 @@ def _escaped(character: str) -> str:
 
 
 def _bytes(value: object) -> str:
-    if not isinstance(value, bytes):
-        raise TypeError(f"{value!r} is no bytes")
-    return value.hex() or ABSENT
+    return value.hex() or ABSENT if type(value) is bytes else _other(value, "bytes")
 
 
-def _real(value: object) -> str:
+def real(value: object) -> str:
     """The pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
-    if not isinstance(value, float):
-        raise TypeError(f"{value!r} is no float")
-    return _BINARY64(value).hex().rstrip("0") or "0"
+    return _BINARY64(value).hex().rstrip("0") or "0" if type(value) is float else _other(value, "float")
 
 
 _BINARY64 = Struct(">d").pack
@@ -172,31 +174,32 @@ _BINARY64 = Struct(">d").pack
 
 def _ints(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
+        return _other(value, "list")
     return ",".join([_int(item) for item in value]) or ABSENT
 
 
 def _names(value: object) -> str:
     if not isinstance(value, tuple):
-        raise TypeError(f"{value!r} is no list")
+        return _other(value, "list")
     return ",".join([text(item) for item in value]) or ABSENT
 
 
 def _pairs(value: object) -> str:
     if not isinstance(value, dict):
-        raise TypeError(f"{value!r} is no map")
-    return ",".join([f"{text(key)}={text(part if isinstance(part, str) else str(part))}" for key, part in value.items()]) or ABSENT
+        return _other(value, "map")
+    pairs = [(key, part if isinstance(part, str) else str(part)) for key, part in value.items()]
+    return ",".join([f"{text(key)}={text(part)}" for key, part in pairs]) or ABSENT
 
 
 def _frames(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
+        return _other(value, "list")
     return ",".join([f"{number}={data.hex()}" for number, data in value]) or ABSENT
 
 
 def _script(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
+        return _other(value, "list")
     return ",".join([f"{sent.hex()}={received.hex()}" for sent, received in value]) or ABSENT
 
 
@@ -206,7 +209,7 @@ FORMS: dict[str, Callable[[object], str]] = {
     "note": word,
     "text": text,
     "bytes": _bytes,
-    "real": _real,
+    "real": real,
     "ints": _ints,
     "names": _names,
     "pairs": _pairs,
@@ -227,9 +230,7 @@ class Row:
 
     def line(self, values: Sequence[object]) -> str:
         """The line of one vector; fields without a value are absent."""
-        words = [
-            ABSENT if value is None else write(value) for write, value in zip(self._writers, values, strict=False)
-        ]
+        words = [*map(call, self._writers, values)]
         if self._least <= len(values) <= self._most and ABSENT not in words:
             return "\t".join((self.name, *words))
         return self._with_gaps(words, values)

@@ -55,13 +55,14 @@ class Lines:
 
     def include(self, part: Lines, text: str | None = None) -> None:
         """Add all vectors of a part, which set only what comes after the sets in force; `text` if blanks are filled."""
-        if part.kinds:
+        if part.joined:
             if self._wanted:
                 self._settle()
             self._open.append(part.joined if text is None else text)
             self._included.append(part)
-        self._held.update(part._held)
-        self._wanted.update(part._wanted)
+        if part._held or part._wanted:
+            self._held.update(part._held)
+            self._wanted.update(part._wanted)
 
     @cached_property
     def joined(self) -> str:
@@ -70,13 +71,12 @@ class Lines:
         self._open.clear()
         return text
 
-    @cached_property
-    def kinds(self) -> Counter[str]:
+    def _counts(self) -> Counter[str]:
         """How many vectors of each kind there are."""
         counts = Counter(self._kinds)
         for part, times in Counter(self._included).items():
-            for kind, number in part.kinds.items():
-                counts[kind] += times * number
+            for kind in part._kinds:
+                counts[kind] += times
         return counts
 
     def _settle(self) -> None:
@@ -104,11 +104,12 @@ class Lines:
         return "\n".join([*self._head(device, version, digest), *chunks, ""])
 
     def _head(self, device: str, version: str, digest: str) -> Iterator[str]:
+        counts = self._counts()
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
         for name, row in _SETS.items():
             yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.kind.fields)))
         for name, row in self._rows.items():
-            if number := self.kinds[name]:
+            if number := counts[name]:
                 fields = (f"{key}:{form}" for key, form in row.kind.fields)
                 only = (f"only:{row.kind.only}",) if row.kind.only else ()
                 yield "\t".join(("kind", name, str(number), *only, *fields))

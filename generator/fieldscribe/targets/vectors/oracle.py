@@ -197,12 +197,12 @@ def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value
 
     `by_value` says that it was computed from a value, which never means a special code.
     """
-    code = code_of(shape, raw)
-    if code is not None:
+    if shape.specials and (code := code_of(shape, raw)) is not None:
         return "ok" if code.writable and not by_value else "special"
-    if any(low <= raw <= high for low, high in limits):
-        return "ok"
-    closed = shape.form == "enum" and shape.enum is not None and shape.enum.closed
+    for low, high in limits:
+        if low <= raw <= high:
+            return "ok"
+    closed = shape.enum is not None and shape.enum.closed and shape.form == "enum"
     return "unknown_value" if closed else "out_of_range"
 
 
