@@ -231,17 +231,16 @@ class Row:
     def line(self, values: Sequence[object]) -> str:
         """The line of one vector; fields without a value are absent."""
         words = [*map(call, self._writers, values)]
-        if self._least <= len(values) <= self._most and ABSENT not in words:
-            return "\t".join((self.name, *words))
-        return self._with_gaps(words, values)
+        while words and words[-1] == ABSENT:
+            words.pop()
+        if len(words) < self._least or len(values) > self._most or ABSENT in words:
+            self._look_at(words, values)
+        return "\t".join((self.name, *words))
 
-    def _with_gaps(self, words: list[str], values: Sequence[object]) -> str:
-        """The line of a vector in which fields are absent, without those at its end."""
+    def _look_at(self, words: list[str], values: Sequence[object]) -> None:
+        """Refuse too many fields, and the lack of one that every line needs."""
         if len(values) > self._most:
             raise ValueError(f"{self.name} has no more than {self._most} fields")
         for place, (key, _) in enumerate(self.kind.fields):
             if key not in self.kind.optional and (place >= len(words) or words[place] == ABSENT):
                 raise ValueError(f"{self.name} lacks {key}")
-        while words and words[-1] == ABSENT:
-            words.pop()
-        return "\t".join((self.name, *words))

@@ -113,13 +113,6 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     return list(values)
 
 
-def just_outside(ratio: Ratio, limits: Limits) -> list[tuple[int, int]]:
-    """Values a quarter of a raw step beyond the outer limits, as exact quotients: they round to the limits."""
-    step = ratio.numerator(1) - ratio.numerator(0)
-    ends = ((limits[0][0], -1), (limits[-1][1], 1))
-    return [(4 * ratio.numerator(raw) + side * step, 4 * ratio.denominator) for raw, side in ends]
-
-
 @lru_cache(maxsize=4096)
 def raw_telling_division(ratio: Ratio) -> int | None:
     """The lowest raw number that shows a multiplication by the reciprocal where a division is right."""

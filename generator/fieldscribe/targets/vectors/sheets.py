@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.words import words
-from fieldscribe.targets.vectors.scaled import scaled
+from fieldscribe.targets.vectors.scaled import Scaled
 from fieldscribe.targets.vectors.shown import shown
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
@@ -22,6 +22,7 @@ class Sheets:
 
     def __init__(self, lines: Lines, oracle: Oracle, meanings: Meanings) -> None:
         self._lines, self._oracle, self._meanings = lines, oracle, meanings
+        self._scaled = Scaled(oracle)
         self._written: dict[Meaning, Lines] = {}
 
     def of(self, meaning: Meaning) -> Lines:
@@ -30,28 +31,27 @@ class Sheets:
         if sheet is None:
             deep = self._meanings.is_new(meaning)
             sheet = self._lines.apart()
-            _write(sheet, self._oracle, meaning, deep=deep)
+            self._write(sheet, meaning, deep=deep)
             if not deep:
                 self._written[meaning] = sheet
         return sheet
 
-
-def _write(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
-    shape = meaning.shape
-    if shape.form == "scaled":
-        scaled(lines, oracle, meaning, deep=deep)
-    elif shape.form == "float":
-        floats(lines, meaning, deep=deep)
-    elif shape.form == "text":
-        text(lines, shape)
-    elif shape.form == "digits":
-        digits(lines, shape)
-    else:
-        whole(lines, oracle, meaning, deep=deep)
-    shown(lines, oracle, meaning, deep=deep)
-    names(lines, shape, deep=deep)
-    specials(lines, shape)
-    flags(lines, shape)
-    fixed(lines, shape)
-    bits(lines, meaning)
-    words(lines, meaning)
+    def _write(self, lines: Lines, meaning: Meaning, *, deep: bool) -> None:
+        shape, oracle = meaning.shape, self._oracle
+        if shape.form == "scaled":
+            self._scaled.add(lines, meaning, deep=deep)
+        elif shape.form == "float":
+            floats(lines, meaning, deep=deep)
+        elif shape.form == "text":
+            text(lines, shape)
+        elif shape.form == "digits":
+            digits(lines, shape)
+        else:
+            whole(lines, oracle, meaning, deep=deep)
+        shown(lines, oracle, meaning, deep=deep)
+        names(lines, shape, deep=deep)
+        specials(lines, shape)
+        flags(lines, shape)
+        fixed(lines, shape)
+        bits(lines, meaning)
+        words(lines, meaning)
