@@ -59,6 +59,7 @@ def collect(device: Device) -> Lines:
             meaning = meanings.of(point)
             identities.add(point)
             lines.include(sheets.of(meaning))
+            lines.include(sheets.of_bits(meaning))
             for collector in usual:
                 collector.of(point, meaning)
             lines.gather()

@@ -99,7 +99,7 @@ class Exchanges:
         """What exchanges with this meaning carry; None without an address, or if what it needs cannot be read."""
         if meaning.order is None:
             return None
-        settings = samples.settings(self.oracle, meaning)[0] if meaning.arguments else {}
+        settings = samples.settings(self.oracle, meaning)[0]
         needs = self._needs(settings)
         raw = None if needs is None else typical(self.oracle, meaning, settings)
         if needs is None or raw is None:

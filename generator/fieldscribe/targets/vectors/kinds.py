@@ -231,16 +231,16 @@ class Row:
     def line(self, values: Sequence[object]) -> str:
         """The line of one vector; fields without a value are absent."""
         words = [*map(call, self._writers, values)]
-        while words and words[-1] == ABSENT:
-            words.pop()
-        if len(words) < self._least or len(values) > self._most or ABSENT in words:
+        if ABSENT in words or not self._least <= len(values) <= self._most:
             self._look_at(words, values)
         return "\t".join((self.name, *words))
 
     def _look_at(self, words: list[str], values: Sequence[object]) -> None:
-        """Refuse too many fields, and the lack of one that every line needs."""
+        """Refuse too many fields, and the lack of one that every line needs; leave out what is absent at the end."""
         if len(values) > self._most:
             raise ValueError(f"{self.name} has no more than {self._most} fields")
         for place, (key, _) in enumerate(self.kind.fields):
             if key not in self.kind.optional and (place >= len(words) or words[place] == ABSENT):
                 raise ValueError(f"{self.name} lacks {key}")
+        while words and words[-1] == ABSENT:
+            words.pop()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.vectors.kinds import KINDS, SETS, Row, table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
 FORMAT = 2
 
@@ -48,6 +48,13 @@ class Lines:
             self._settle()
         self._open.append(self._rows[kind].line(values))
         self._kinds.append(kind)
+
+    def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
+        """Add vectors of one kind."""
+        if self._wanted and rows_of_fields:
+            self._settle()
+        self._open += map(self._rows[kind].line, rows_of_fields)
+        self._kinds += [kind] * len(rows_of_fields)
 
     def apart(self) -> Lines:
         """No lines yet, of the same kinds: for vectors that are included in several places."""

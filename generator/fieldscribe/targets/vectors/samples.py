@@ -124,9 +124,11 @@ def raw_telling_division(ratio: Ratio) -> int | None:
 def settings(oracle: Oracle, meaning: Meaning, *, deep: bool = True) -> list[dict[str, int]]:
     """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
-    Unless `deep`, each argument has only one other number, which shows exchanged arguments, and each case is met once.
+    Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number, which shows exchanged arguments, and each case is met once.
     """
     names = meaning.arguments
+    if not names:
+        return [{}]
     base = {name: _typical(oracle, meaning, name) for name in names}
     if not deep:
         cases = [(case.point, case.raw) for case in meaning.shape.scale or () if case.point is not None]

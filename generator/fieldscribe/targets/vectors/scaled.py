@@ -29,8 +29,9 @@ class Scaled:
     def add(self, lines: Lines, meaning: Meaning, *, deep: bool) -> None:
         """Add the vectors for each setting of the points that it depends on; fewer unless `deep`."""
         full, oracle, shape = deep, self._oracle, meaning.shape
-        for settings in samples.settings(oracle, meaning, deep=deep) if meaning.arguments else _NO_SETTINGS:
-            lines.set("with", settings)
+        for settings in samples.settings(oracle, meaning, deep=deep):
+            if settings:
+                lines.set("with", settings)
             ratio = oracle.ratio(shape, settings)
             limits = oracle.limits(shape, meaning.allowed, settings)
             if isinstance(ratio, str):
@@ -46,9 +47,6 @@ class Scaled:
         if key not in self._conversions:
             self._conversions[key] = Conversions(shape, ratio)
         return self._conversions[key]
-
-
-_NO_SETTINGS: list[dict[str, int]] = [{}]
 
 
 def _without_rule(lines: Lines, shape: Shape, status: str) -> None:
@@ -110,17 +108,15 @@ class _Vectors:
                 self._check()
 
     def _decode(self, raws: list[int]) -> None:
-        add, by = self.lines.add, self.by
-        for raw in dict.fromkeys((*raws, *by.telling)):
-            if decoded := by.decoded(raw):
-                add("decode", raw, *decoded)
-        for raw in raws if self.meaning.shape.decimals is not None else ():
-            add("decode_count", raw, *by.counted(raw))
+        by, told = self.by, dict.fromkeys((*raws, *self.by.telling))
+        self.lines.add_all("decode", [(raw, *decoded) for raw in told if (decoded := by.decoded(raw))])
+        if self.meaning.shape.decimals is not None:
+            self.lines.add_all("decode_count", [(raw, *by.counted(raw)) for raw in raws])
 
-    def _encoded(self, raw: int | None) -> tuple[object, ...]:
-        """The status of a value or a count with this raw number, and that number if it may be written."""
+    def _encoded(self, number: object, raw: int | None) -> tuple[object, ...]:
+        """A value or a count with this raw number, the status, and the raw number if it may be written."""
         status = "out_of_range" if raw is None else admit(self.meaning.shape, raw, self.limits, by_value=True)
-        return (status, raw) if status == "ok" else (status,)
+        return (number, status, raw) if status == "ok" else (number, status)
 
     def _edges(self) -> dict[int, None]:
         """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
@@ -129,32 +125,28 @@ class _Vectors:
         return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.meaning.shape))}
 
     def _encode(self, edges: dict[int, None]) -> None:
-        add, by = self.lines.add, self.by
+        by, encoded = self.by, self._encoded
         values = dict.fromkeys(map(by.value, edges))
         values[by.outside(self.limits[0][0], -1)] = None
         values[by.outside(self.limits[-1][1], 1)] = None
         for half in samples.halves(by.ratio, self.limits) if self.deep else ():
             values.update({half: None, nextafter(half, 0.0): None})
-        for value in values:
-            written, raw = by.encoded(value)
-            add("encode", written, *self._encoded(raw))
+        self.lines.add_all("encode", [encoded(*by.encoded(value)) for value in values])
         if self.full:
-            add("encode", -0.0, *self._encoded(by.ratio.raw_of_float(-0.0)))
-            add("encode", nan, "not_a_number")
-            add("encode", inf, "out_of_range")
-            add("encode", -inf, "out_of_range")
-            add("encode", 1e300, *self._encoded(by.ratio.raw_of_float(1e300)))
+            tried = ((value, by.ratio.raw_of_float(value)) for value in (-0.0, 1e300))
+            zero, large = (encoded(*pair) for pair in tried)
+            none = (nan, "not_a_number"), (inf, "out_of_range"), (-inf, "out_of_range")
+            self.lines.add_all("encode", (zero, *none, large))
 
     def _encode_count(self, edges: dict[int, None], decimals: int) -> None:
-        add, by, edge = self.lines.add, self.by, self.by.edge
+        by, encoded, edge = self.by, self._encoded, self.by.edge
         counts = dict.fromkeys(map(by.count, edges))
         if self.deep:
             counts.update(dict.fromkeys(self._halves(10**decimals)))
         if self.full:
             counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
-        for count in counts:
-            if -edge <= count < edge:
-                add("encode_count", count, *self._encoded(by.raw_of_count(count)))
+        fitting = [count for count in counts if -edge <= count < edge]
+        self.lines.add_all("encode_count", [encoded(count, by.raw_of_count(count)) for count in fitting])
 
     def _halves(self, power: int) -> Iterator[int]:
         """The counts around the halves beside the outer limits; none where each count is a raw number."""
@@ -168,5 +160,6 @@ class _Vectors:
             yield from (below, below + 1) if rest else (below - 1, below + 1, below)
 
     def _check(self) -> None:
-        for raw in samples.raws_to_check(self.meaning.shape, self.limits, deep=self.deep):
-            self.lines.add("check", raw, admit(self.meaning.shape, raw, self.limits))
+        shape, limits = self.meaning.shape, self.limits
+        raws = samples.raws_to_check(shape, limits, deep=self.deep)
+        self.lines.add_all("check", [(raw, admit(shape, raw, limits)) for raw in raws])

@@ -12,6 +12,8 @@ from fieldscribe.targets.vectors.shown import shown
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
+    from collections.abc import Hashable
+
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.meaning import Meaning, Meanings
     from fieldscribe.targets.vectors.oracle import Oracle
@@ -24,9 +26,10 @@ class Sheets:
         self._lines, self._oracle, self._meanings = lines, oracle, meanings
         self._scaled = Scaled(oracle)
         self._written: dict[Meaning, Lines] = {}
+        self._parts: dict[Hashable, Lines] = {}
 
     def of(self, meaning: Meaning) -> Lines:
-        """The sheet of a meaning; a deep one for the first point of all that are computed alike."""
+        """The sheet of what limits decide about; a deep one for the first point of all that are computed alike."""
         sheet = self._written.get(meaning)
         if sheet is None:
             deep = self._meanings.is_new(meaning)
@@ -48,10 +51,19 @@ class Sheets:
             digits(lines, shape)
         else:
             whole(lines, oracle, meaning, deep=deep)
-        shown(lines, oracle, meaning, deep=deep)
+        if shape.display is not None:
+            shown(lines, oracle, meaning, deep=deep)
         names(lines, shape, deep=deep)
-        specials(lines, shape)
-        flags(lines, shape)
-        fixed(lines, shape)
-        bits(lines, meaning)
-        words(lines, meaning)
+
+    def of_bits(self, meaning: Meaning) -> Lines:
+        """The sheet of what no limits decide about: special codes, flags, groups of bits, words."""
+        key = id(meaning.shape), meaning.bits, meaning.order
+        sheet = self._parts.get(key)
+        if sheet is None:
+            sheet = self._parts[key] = self._lines.apart()
+            specials(sheet, meaning.shape)
+            flags(sheet, meaning.shape)
+            fixed(sheet, meaning.shape)
+            bits(sheet, meaning)
+            words(sheet, meaning)
+        return sheet

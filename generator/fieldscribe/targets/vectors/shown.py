@@ -28,8 +28,9 @@ def shown(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None
     shape = meaning.shape
     if shape.display is None:
         return
-    for settings in samples.settings(oracle, meaning, deep=deep) if meaning.arguments else [{}]:
-        lines.set("with", settings)
+    for settings in samples.settings(oracle, meaning, deep=deep):
+        if settings:
+            lines.set("with", settings)
         if shape.info.floating:
             _told(lines, meaning, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
             continue

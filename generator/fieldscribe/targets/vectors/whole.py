@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 def whole(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
     """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
     shape = meaning.shape
-    for settings in samples.settings(oracle, meaning, deep=deep) if meaning.arguments else [{}]:
+    for settings in samples.settings(oracle, meaning, deep=deep):
         limits = oracle.limits(shape, meaning.allowed, settings)
-        lines.set("with", settings)
+        if settings:
+            lines.set("with", settings)
         if isinstance(limits, str):
             raw = quantity_at_most(shape, samples.limits_of(meaning.allowed)[0].greatest)
             if shape.writable:
@@ -37,31 +38,45 @@ def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool
     if deep:
         checked = decoded = {**checked, **decoded}
     if shape.readable:
-        for raw in decoded:
-            if raw < INT64:
-                code = code_of(shape, raw)
-                lines.add("decode_count", raw, *(("ok", raw) if code is None else ("special", None, code.name)))
+        lines.add_all("decode_count", [(raw, *_decoded(shape, raw)) for raw in decoded if raw < INT64])
     if not shape.writable:
         return
     ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
-    for count in {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}:
-        if -top <= count < top:
-            put = with_fixed(meaning, count)
-            status = admit(shape, put, limits, by_value=True)
-            lines.add("encode_count", count, status, put if status == "ok" else None)
-    for raw in checked:
-        fits = with_fixed(meaning, raw) == raw or code_of(shape, raw) is not None
-        lines.add("check", raw, admit(shape, raw, limits) if fits else "out_of_range")
+    counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
+    fitting = [count for count in counts if -top <= count < top]
+    lines.add_all("encode_count", [(count, *_encoded(meaning, count, limits)) for count in fitting])
+    lines.add_all("check", [(raw, _checked(meaning, raw, limits)) for raw in checked])
+
+
+def _decoded(shape: Shape, raw: int) -> tuple[object, ...]:
+    """Status and count."""
+    code = code_of(shape, raw)
+    return ("ok", raw) if code is None else ("special", None, code.name)
+
+
+def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> tuple[object, ...]:
+    """The status of a count, and its raw number if it may be written."""
+    put = with_fixed(meaning, count)
+    status = admit(meaning.shape, put, limits, by_value=True)
+    return (status, put) if status == "ok" else (status,)
+
+
+def _checked(meaning: Meaning, raw: int, limits: samples.Limits) -> str:
+    """The status of a raw number that is written as it is."""
+    fits = with_fixed(meaning, raw) == raw or code_of(meaning.shape, raw) is not None
+    return admit(meaning.shape, raw, limits) if fits else "out_of_range"
 
 
 def _raws(meaning: Meaning, raws: list[int], *, deep: bool) -> dict[int, None]:
     """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
     shape = meaning.shape
     raws_to_try = dict.fromkeys(raws)
-    raws_to_try.update({with_fixed(meaning, raw): None for raw in raws})
+    if shape.fixed is not None:
+        raws_to_try.update({with_fixed(meaning, raw): None for raw in raws})
     if shape.enum is not None:
-        raws_to_try.update({entry.raw: None for entry in shape.enum.entries if deep or entry is shape.enum.entries[-1]})
-    raws_to_try.update({as_raw(shape, (1 << flag.width) - 1 << flag.low): None for flag in shape.flags})
+        raws_to_try.update({entry.raw: None for entry in (shape.enum.entries if deep else shape.enum.entries[-1:])})
+    for flag in shape.flags:
+        raws_to_try[as_raw(shape, (1 << flag.width) - 1 << flag.low)] = None
     return raws_to_try
 
 

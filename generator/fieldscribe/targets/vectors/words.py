@@ -22,10 +22,8 @@ def words(lines: Lines, meaning: Meaning) -> None:
     count = shape.words
     if count < 2 and not shape.info.signed:
         return
-    for pattern in _wide_patterns(count) if count > 1 else _NARROW:
-        raw = as_raw(shape, pattern)
-        whole = raw & (1 << 16 * count) - 1  # a signed byte is extended to its whole word
-        lines.add("words", raw, [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order])
+    raws = [as_raw(shape, pattern) for pattern in (_wide_patterns(count) if count > 1 else _NARROW)]
+    lines.add_all("words", [(raw, words_of(meaning, order, raw)) for raw in raws])
 
 
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
