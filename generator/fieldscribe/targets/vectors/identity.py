@@ -56,11 +56,12 @@ class Identities:
     def add(self, point: Point) -> None:
         """Name the point, and add what is its own: facts in which whoever shares too much goes wrong."""
         form, words = self._form(point), _words(point)
-        if form not in self._parts:
+        known = self._parts.get(form)
+        if known is None:
             part = self._lines.apart()
             _write(part, form, blanks(word and "?" for word in words))
-            self._parts[form] = part, Pattern(part.joined)
-        part, pattern = self._parts[form]
+            known = self._parts[form] = part, Pattern(part.joined)
+        part, pattern = known
         self._lines.set("point", point.item)
         self._lines.include(part, pattern.filled(words))
 
@@ -84,7 +85,7 @@ class Identities:
             point.variant,
             None if point.when is None else _only_for(point.when, self._variants),
             _written_elsewhere(places) if len(places) > 1 else None,
-            tuple(old + point.item.removeprefix(point.name) for old in point.was),
+            tuple([old + point.item.removeprefix(point.name) for old in point.was]) if point.was else (),
         )
 
 

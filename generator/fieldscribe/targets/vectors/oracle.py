@@ -208,6 +208,10 @@ def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value
 
 def outer_bounds(shape: Shape, allowed: Allowed) -> tuple[int, int]:
     """The least and greatest raw number that may ever be written; without limits, those of the bits."""
+    if len(allowed.intervals) == 1:
+        low, high = allowed.intervals[0].low, allowed.intervals[0].high
+        if isinstance(low, int) and isinstance(high, int):
+            return low, high
     lows = [interval.low if isinstance(interval.low, int) else interval.low.least for interval in allowed.intervals]
     highs = [
         interval.high if isinstance(interval.high, int) else interval.high.greatest for interval in allowed.intervals
