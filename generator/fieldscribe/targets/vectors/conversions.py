@@ -28,15 +28,15 @@ class Conversions:
         self.telling = () if telling is None or not shape.least <= telling <= shape.greatest else (telling,)
         """The raw number that tells a division from a product with the reciprocal."""
         self.value, self.decoded, self.encoded = cache(self._value), cache(self._decoded), cache(self._encoded)
-        self.count, self.counted, self.raw_of_count = cache(self._count), cache(self._counted), cache(self._raw_of_count)
-        self.outside = cache(self._outside)
+        self.count, self.counted = cache(self._count), cache(self._counted)
+        self.raw_of_count, self.outside = cache(self._raw_of_count), cache(self._outside)
 
     def _value(self, raw: int) -> float:
         """The binary64 nearest to the value of a raw number."""
         return quotient(self.ratio.numerator(raw), self.ratio.denominator)
 
     def _outside(self, raw: int, side: int) -> float:
-        """The value a quarter of a raw step below (side -1) or above (side 1) that of a raw number, as which it counts."""
+        """The value a quarter of a raw step below (side -1) or above it (side 1), which rounds to the number."""
         step = self.ratio.numerator(1) - self.ratio.numerator(0)
         return quotient(4 * self.ratio.numerator(raw) + side * step, 4 * self.ratio.denominator)
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Script = list[tuple[bytes, bytes]]
 """The requests of an exchange with their answers."""
 
+
 class Wire(Protocol):
     """A way in which a family reads and writes the words of a point."""
 
@@ -42,6 +43,7 @@ class Wire(Protocol):
 class _Usual:
     """What the exchanges of all points with one meaning carry."""
 
+    meaning: Meaning
     settings: dict[str, int]
     needs: Script
     """The exchanges that read the settings."""
@@ -51,6 +53,13 @@ class _Usual:
     """The words of the number that is read."""
     sent: tuple[tuple[int, ...], ...]
     """The words of each number, written where the point is read."""
+
+    def words_at(self, point: Point) -> tuple[tuple[int, ...], ...]:
+        """The words that are written, which may lie in another order than those that are read."""
+        if len(point.places) == 1:
+            return self.sent
+        order = ascending(self.meaning.shape, writing_place(point).addresses)
+        return tuple(words_of(self.meaning, order, raw) for raw in self.raws)
 
 
 class Exchanges:
@@ -86,14 +95,14 @@ class Exchanges:
         if usual.settings:
             self.lines.set("with", usual.settings)
         if meaning.shape.readable:
-            self._add("read", point, meaning, usual.raws[0], self.wire.reads(point, usual.received), usual.needs)
+            self._add("read", point, usual, usual.raws[0], self.wire.reads(point, usual.received))
         if meaning.shape.writable:
             for kind, keep in _WRITING:
-                for raw, words in zip(usual.raws, self._sent(point, meaning, usual), strict=True):
+                for raw, words in zip(usual.raws, usual.words_at(point), strict=True):
                     script = self.wire.writes(point, words, keep=keep)
                     if script is not None and meaning.bits is not None:
                         script = self._beside(point, meaning, raw, script)
-                    self._add(kind, point, meaning, raw, script, usual.needs)
+                    self._add(kind, point, usual, raw, script)
 
     def _of_meaning(self, meaning: Meaning) -> _Usual | None:
         """What exchanges with this meaning carry; None without an address, or if what it needs cannot be read."""
@@ -107,14 +116,7 @@ class Exchanges:
         switch = meaning.shape.type == "bit" and outer_bounds(meaning.shape, meaning.allowed) == (0, 1)
         raws = (raw, 0) if switch else (raw,)
         sent = tuple(words_of(meaning, meaning.order, raw) for raw in raws)
-        return _Usual(settings, needs, raws, words_of(meaning, meaning.order, raw, received=True), sent)
-
-    def _sent(self, point: Point, meaning: Meaning, usual: _Usual) -> tuple[tuple[int, ...], ...]:
-        """The words that are written, which may lie in another order than those that are read."""
-        if len(point.places) == 1:
-            return usual.sent
-        order = ascending(meaning.shape, writing_place(point).addresses)
-        return tuple(words_of(meaning, order, raw) for raw in usual.raws)
+        return _Usual(meaning, settings, needs, raws, words_of(meaning, meaning.order, raw, received=True), sent)
 
     def _beside(self, point: Point, meaning: Meaning, raw: int, script: Script) -> Script | None:
         """The exchange that writes a bit group: its word is read before."""
@@ -138,11 +140,10 @@ class Exchanges:
             script += read
         return script
 
-    def _add(
-        self, kind: str, point: Point, meaning: Meaning, raw: int, script: Script | None, needs: Script
-    ) -> None:
+    def _add(self, kind: str, point: Point, usual: _Usual, raw: int, script: Script | None) -> None:
         if script is None:
             return
+        meaning, needs = usual.meaning, usual.needs
         if meaning.shape.text is not None:
             self.lines.add(kind, script, "ok", None, words_of(meaning, meaning.order or (), raw), needs)
             return

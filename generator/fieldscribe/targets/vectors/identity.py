@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
 
 
-class _Form(NamedTuple):
+class Form(NamedTuple):
     """All that the lines of an identity follow from beside its words."""
 
     type: str
@@ -51,7 +51,7 @@ class Identities:
 
     def __init__(self, lines: Lines, variants: Mapping[str, tuple[str, ...]]) -> None:
         self._lines, self._variants = lines, variants
-        self._parts: dict[_Form, tuple[Lines, Pattern]] = {}
+        self._parts: dict[Form, tuple[Lines, Pattern]] = {}
 
     def add(self, point: Point) -> None:
         """Name the point, and add what is its own: facts in which whoever shares too much goes wrong."""
@@ -65,10 +65,10 @@ class Identities:
         self._lines.set("point", point.item)
         self._lines.include(part, pattern.filled(words))
 
-    def _form(self, point: Point) -> _Form:
+    def _form(self, point: Point) -> Form:
         shape, places = point.shape, point.places
         special = point.index is not None or point.telegram is not None or shape.text is not None
-        return _Form(
+        return Form(
             shape.type,
             shape.words,
             shape.decimals if shape.form == "scaled" else None,
@@ -109,7 +109,7 @@ def _words(point: Point) -> tuple[str, ...]:
     )
 
 
-def _write(lines: Lines, form: _Form, words: Iterable[str]) -> None:
+def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
     """The lines of a form; a word that is empty is absent."""
     item, name, group, address, code, low, high, *references = (Written(word) if word else None for word in words)
     if form.space is not None:

@@ -72,7 +72,7 @@ class Meanings:
 
 
 def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """The words of a number in ascending order of address; words that share one address travel with the high one first."""
+    """The words of a number in ascending order of address; those that share one address have the high one first."""
     if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
         return _ONE
     count = shape.words if shape.text is None else len(addresses)

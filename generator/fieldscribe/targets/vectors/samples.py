@@ -124,7 +124,8 @@ def raw_telling_division(ratio: Ratio) -> int | None:
 def settings(oracle: Oracle, meaning: Meaning, *, deep: bool = True) -> list[dict[str, int]]:
     """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
-    Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number, which shows exchanged arguments, and each case is met once.
+    Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
+    which shows exchanged arguments, and each case is met once.
     """
     names = meaning.arguments
     if not names:
@@ -158,7 +159,13 @@ def _typical(oracle: Oracle, meaning: Meaning, name: str) -> int:
 
 def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
     """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
-    bands = [band for limit in limits_of(meaning.allowed) for other, codes in limit.unless if other == name for band in codes[:4]]
+    bands = [
+        band
+        for limit in limits_of(meaning.allowed)
+        for other, codes in limit.unless
+        if other == name
+        for band in codes[:4]
+    ]
     lifting = [code for low, high in bands for code in (low, high, high + 1)]
     source = oracle.points.get(name)
     lifting += [] if source is None else [special.low for special in source.shape.specials[:4]]
@@ -175,7 +182,9 @@ def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
         elif factor.slope and factor.intercept % factor.slope == 0:
             raws.append(-factor.intercept // factor.slope)
     raws += lifting
-    if source is not None and any(factor.point == name for limit in limits_of(meaning.allowed) for factor in limit.rule.factors):
+    if source is not None and any(
+        factor.point == name for limit in limits_of(meaning.allowed) for factor in limit.rule.factors
+    ):
         raws.append(max(source.shape.least, 0) + 1)  # a computed limit beyond the outermost one
     return [raw for raw in dict.fromkeys(raws) if source is None or source.shape.least <= raw <= source.shape.greatest]
 
@@ -189,10 +198,7 @@ def _factors(meaning: Meaning) -> list[Factor]:
 def limits_of(allowed: Allowed) -> list[Limit]:
     """The limits that depend on other points."""
     return [
-        bound
-        for interval in allowed.intervals
-        for bound in (interval.low, interval.high)
-        if isinstance(bound, Limit)
+        bound for interval in allowed.intervals for bound in (interval.low, interval.high) if isinstance(bound, Limit)
     ]
 
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.words import words
 from fieldscribe.targets.vectors.scaled import Scaled
 from fieldscribe.targets.vectors.shown import shown
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
+from fieldscribe.targets.vectors.words import words
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
