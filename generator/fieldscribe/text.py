@@ -11,6 +11,12 @@ import unicodedata
 from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
+_FOLDED = re.compile(r"(?:[!-~]+(?: [!-~]+)*)?")
+"""Most texts: nothing in them is folded or dropped."""
+_UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
+"""A line that is its own text between double quotes, in most languages."""
+_BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
+"""What most codes and names are made of, and no language escapes."""
 _SPACES = re.compile(r"\s+")
 _QUERIES = re.compile(r"\?(?=\?)")
 _NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
@@ -22,9 +28,10 @@ _TYPEWRITER = str.maketrans(
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
-@lru_cache(maxsize=65536)
 def line(text: str) -> str:
     """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
+    if _FOLDED.fullmatch(text):
+        return text
     if not _PLAIN.fullmatch(text):
         spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)
         text = "".join(char for char in spaced if unicodedata.category(char) not in _DROPPED_CATEGORIES)
@@ -49,9 +56,10 @@ def c_string(text: str) -> str:
     return '"' + "".join(escaped) + '"'
 
 
-@lru_cache(maxsize=65536)
 def python_string(text: str) -> str:
     """A Python string literal as formatters write it: double quotes, unless single ones need fewer escapes."""
+    if _UNQUOTED.fullmatch(text):
+        return f'"{text}"'
     cleaned = line(text)
     quote = "'" if cleaned.count('"') > cleaned.count("'") else '"'
     escaped = []
@@ -65,30 +73,28 @@ def python_string(text: str) -> str:
     return quote + "".join(escaped) + quote
 
 
-@lru_cache(maxsize=65536)
 def python_doc(text: str) -> str:
     """Text for inside a triple-quoted docstring or a `#` comment."""
+    if _UNQUOTED.fullmatch(text):
+        return text
     return line(text).replace("\\", "\\\\").replace('"', "'")
 
 
-@lru_cache(maxsize=65536)
 def rust_code(text: str) -> str:
     """Text as code in a Rust `///` or `//` line, so that neither rustdoc nor clippy reads anything into it."""
+    if _BARE.fullmatch(text):
+        return f"`{text}`"
     return f"`{line(text).replace('`', chr(39))}`"
 
 
-@lru_cache(maxsize=65536)
 def rust_string(text: str) -> str:
     """A Rust string literal with its quotes."""
-    escaped = []
-    for char in line(text):
-        if char in '"\\':
-            escaped.append("\\" + char)
-        elif char.isprintable():
-            escaped.append(char)
-        else:
-            escaped.append(f"\\u{{{ord(char):x}}}")
-    return '"' + "".join(escaped) + '"'
+    if _BARE.fullmatch(text):
+        return f'"{text}"'
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    if not cleaned.isprintable():
+        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
+    return f'"{cleaned}"'
 
 
 @lru_cache(maxsize=65536)

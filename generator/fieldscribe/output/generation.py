@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.source import shown
 from fieldscribe.output.result import Result
-from fieldscribe.reading import Inputs
+from fieldscribe.reading import Inputs, shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.output.memory import Memory
     from fieldscribe.output.plan import Made, Plan
+    from fieldscribe.pipeline import Models
 
 
 @dataclass(slots=True)
@@ -31,23 +31,23 @@ class Generation:
     report: Report
     debug: Callable[[BaseException], None]
     """Called with each internal error."""
-    devices: dict[str, tuple[Path, Device]] = field(default_factory=dict)
+    devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
         """Load the devices without errors; two descriptions of the same device are an error."""
-        from fieldscribe.pipeline import is_new, load_device
+        from fieldscribe.pipeline import is_new, load_models
 
         known: dict[str, Path] = {}
         for device_file in device_files:
             try:
-                device = load_device(device_file, self.report, self.inputs)
+                models = load_models(device_file, self.report, self.inputs)
             except Exception as error:  # a bug with one device must not stop the others
                 self._report_bug(device_file, "the compiler", error)
                 continue
-            if device is not None and is_new(device, device_file, known, self.report):
-                self.devices[device.id] = device_file, device
+            if models is not None and is_new(models.whole, device_file, known, self.report):
+                self.devices[models.whole.id] = device_file, models
 
     def list_outputs(self) -> None:
         """Note all outputs, without a look at the folder."""
@@ -99,29 +99,32 @@ class Generation:
 
     def _made(self) -> Iterator[tuple[Device, Made]]:
         """Each device with all its files; a device with a failing target is left out and gets a finding."""
+        from fieldscribe.output.spool import Spool
         from fieldscribe.pipeline import TargetError, outputs
         from fieldscribe.targets import knows
 
-        for device_file, device in self.devices.values():
+        for device_file, models in self.devices.values():
+            device = models.whole
             if unknown := [target for target in self.targets if not knows(target, device)]:
                 self._report_unknown(device_file, device, unknown)
                 continue
             files: Made = {target: {} for target in self.targets}
-            try:
-                for target, path, text in outputs(device, self.targets):
-                    files[target][path] = text.encode()
-            except (TargetError, UnicodeEncodeError) as error:
-                where = f"target {error}" if isinstance(error, TargetError) else "a text"
-                self._report_bug(device_file, where, error.__cause__ or error)
-                continue
-            yield device, files
+            with Spool() as spool:
+                try:
+                    for target, path, text in outputs(device, self.targets, models.plain):
+                        files[target][path] = spool.keep(text.encode())
+                except (TargetError, UnicodeEncodeError) as error:
+                    where = f"target {error}" if isinstance(error, TargetError) else "a text"
+                    self._report_bug(device_file, where, error.__cause__ or error)
+                    continue
+                yield device, files
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):
             removable = not (self.out / path).is_dir()
             advice = "move it away, or replace it with `--force`" if removable else "move it away"
             hint = f"{advice}; nothing of {plan.device} was written"
-            place = Span(shown(self.out / path), 1, 1)
+            place = Span(shown_path(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 
     def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
@@ -129,7 +132,7 @@ class Generation:
         named = f"target {targets[0]} does" if len(targets) == 1 else f"targets {', '.join(targets)} do"
         message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
         hint = "choose others with --target"
-        self.report.error("unknown-family", message, Span(shown(device_file), 1, 1), hint)
+        self.report.error("unknown-family", message, Span(shown_path(device_file), 1, 1), hint)
 
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """An internal error is a finding of its device."""
@@ -137,7 +140,7 @@ class Generation:
         bug = f"{type(error).__name__}: {str(error)[:120]}"
         message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
-        self.report.error("internal-error", message, Span(shown(device_file), 1, 1), hint)
+        self.report.error("internal-error", message, Span(shown_path(device_file), 1, 1), hint)
 
 
 def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:

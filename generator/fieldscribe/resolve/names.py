@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Variant
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.scope import Scope
 
@@ -27,7 +28,7 @@ class Index:
     by_code: dict[str, list[Draft]]
     by_items: dict[str, Draft]
 
-    def find(self, word: str, variant: str | None = None) -> Draft | None:
+    def find(self, word: str, variant: Variant | None = None) -> Draft | None:
         """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
 
         Of a point that differs by variant it is the one of this variant, else the first.
@@ -69,7 +70,7 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     kept = []
     for draft in drafts:
         known = index.by_name.setdefault(draft.name, [])
-        first = next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
+        first = _other(known, draft) if known else None
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
@@ -84,6 +85,11 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
         kept.append(draft)
     drafts[:] = kept
     return index
+
+
+def _other(known: list[Draft], draft: Draft) -> Draft | None:
+    """The first point of the same name that is not the same point in another variant."""
+    return next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
 
 
 def _are_variants(draft: Draft, other: Draft) -> bool:

@@ -15,13 +15,15 @@ from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.families.contract import Family
     from fieldscribe.language.files import Files
+    from fieldscribe.resolve.drafts import Draft
 
 _SOURCE = tuple(keys_of(SOURCE))
+_STATED, _LINE = {*_SOURCE, "source"}, {"line"}
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
 
@@ -164,6 +166,32 @@ def first_line(value: object) -> int | None:
 
 def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
+    return _source(scope, _cited(layers))
+
+
+class Sources:
+    """The sources of points; what their formats and groups cite is read once."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
+
+    def of(self, draft: Draft) -> Source:
+        """The source of a point: mostly that of its group, with a line of its own."""
+        own, *others = draft.layers
+        key = (*map(id, others), id(draft.group))
+        known = self._shared.get(key)
+        if known is None:
+            facts = _cited((*others, draft.group))
+            known = self._shared[key] = facts, _source(self._scope, facts)
+        stated = own.keys() & _STATED
+        if stated == _LINE:
+            return Source(known[1].document, known[1].section, known[1].page, first_line(own["line"]))
+        return _source(self._scope, {**known[0], **_cited((own,))}) if stated else known[1]
+
+
+def _cited(layers: Iterable[Map]) -> dict[str, object]:
+    """What the layers say of a source, the first of them that says it."""
     facts: dict[str, object] = {}
     for layer in layers:
         for key in _SOURCE:
@@ -172,6 +200,10 @@ def source_of(scope: Scope, *layers: Map) -> Source:
         if "source" in layer and isinstance(layer["source"], Map):
             for key, value in layer["source"].items():
                 facts.setdefault(key, value)
+    return facts
+
+
+def _source(scope: Scope, facts: Mapping[str, object]) -> Source:
     document = str(facts.get("document") or next(iter(scope.documents), ""))
     line, section, page = first_line(facts.get("line")), facts.get("section"), facts.get("page")
     return Source(

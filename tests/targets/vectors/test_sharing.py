@@ -24,16 +24,9 @@ def twins() -> Device:
     """Points that differ in little: in the unit that is shown, in where they are written, in what changes them."""
     same: dict[str, Any] = {"display": 1, "allowed": allowed((0, 9))}
     shown = [point(f"shown_in_{unit.name}", at, unit=unit, **same) for at, unit in enumerate((HERTZ, VOLT), 10)]
-    written = [
-        point(f"written_at_{at}", at, places=(Place("read", "holding", (at,), None), there(at))) for at in (20, 21)
-    ]
+    written = [point(f"written_at_{at}", at, write_place=Place((at + 100,), {})) for at in (20, 21)]
     changing = [point(f"after_{name}", at, changes_with=(name,)) for at, name in enumerate(("one", "other"), 30)]
     return sample_device((*shown, *written, *changing))
-
-
-def there(at: int) -> Place:
-    """Another place for writing."""
-    return Place("write", "holding", (at + 100,), None)
 
 
 ALL = [

@@ -1,18 +1,28 @@
-"""The view of one point: the facts for the runtime's macro."""
+"""The text of each point, as facts for the runtime's macro: laid out once for all points that are alike."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.patterns import Pattern
 from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import point_doc
+from fieldscribe.targets.rust.documentation import facts_text, is_long, point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.layout import binding, filled
-from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
+from fieldscribe.targets.rust.identity import (
+    KnownLimits,
+    blanked,
+    broken,
+    is_alias,
+    layout_of,
+    width_of,
+    widths_of,
+    words_of,
+)
+from fieldscribe.targets.rust.layout import Item, binding
+from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
 from fieldscribe.text import rust_string
@@ -21,56 +31,112 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
+    from fieldscribe.render import Render
+    from fieldscribe.targets.rust.identity import Words
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
+
+_STEP = 8
+"""Doc comments are laid out as if they were as wide as the widest of so many: if they fit then, all fit."""
 
 
-def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
-    """All that the templates need of a point."""
-    point, code = subject.point, subject.point.code
-    return PointView(
-        doc=point_doc(point, scope.errata),
-        alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
-        name=subject.name,
-        facts=tuple(_facts(subject, scope)),
-        was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
-    )
+def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
+    """The texts of all points, and whether one of them names items of the runtime."""
+    known_limits, layouts, texts = KnownLimits(), _Layouts(scope, render), []
+    traits = in_rust(scope.family).traits
+    for subject in scope.subjects:
+        limits = known_limits.of(subject)
+        words, own = words_of(subject, limits), tuple(traits(subject, scope))
+        kind = (subject.kin, limits.form, own, layout_of(subject, words))
+        texts.append(layouts.pattern(subject, words, kind, own).filled(words))
+    return "".join(texts), layouts.names_runtime
 
 
-def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
+class _Layouts:
+    """The texts of points, laid out once for all that are of one kind and have words of one width.
+
+    If the facts of the doc comment fit in one line, the width of all words together is enough, and rounded up.
+    """
+
+    def __init__(self, scope: CrateScope, render: Render) -> None:
+        self._scope, self._render = scope, render
+        self._patterns: dict[object, Pattern | None] = {}
+        self.names_runtime = False
+
+    def pattern(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
+        """The text with blanks for the words."""
+        steps, rest = divmod(width_of(words), _STEP)
+        key: object = (kind, steps)
+        if key not in self._patterns:
+            self.names_runtime |= bool(traits) or _names_runtime(subject)
+            wide = blanked(words, wider=_STEP - 1 - rest)
+            facts = facts_text(subject.point, wide)
+            self._patterns[key] = None if is_long(facts) else self._laid_out(subject, wide, facts, traits)
+        return self._patterns[key] or self._exact(subject, words, kind, traits)
+
+    def _exact(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
+        key = (kind, widths_of(words))
+        pattern = self._patterns.get(key)
+        if pattern is None:
+            shown = blanked(words, kept=broken(words))
+            pattern = self._laid_out(subject, shown, facts_text(subject.point, shown), traits)
+            self._patterns[key] = pattern
+        return pattern
+
+    def _laid_out(self, subject: CratePoint, words: Words, facts: str, traits: tuple[str, ...]) -> Pattern:
+        """The text with these words; `facts` are those of the doc comment."""
+        point = subject.point
+        view = PointView(
+            doc=point_doc(point, words.sentence, facts, self._scope.errata),
+            alias=words.code if is_alias(point.code or "", subject.name) else "",
+            name=words.name,
+            facts=(*_facts(subject._replace(name=words.name), words, self._scope), *traits),
+            was=tuple(binding(0, Item(f"pub type {type_name(old)}"), words.name) for old in point.was),
+        )
+        return Pattern(self._render("rust/point.rs.j2", {"point": view}))
+
+
+def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    names = ", ".join(rust_string(name) for name in (point.item, point.code) if name)
-    yield f"{subject.name}: {subject.raw} = {names};"
-    yield from _whereabouts(point)
-    yield from _references(point)
+    yield f'{words.name}: {subject.raw} = "{words.item}"{words.code and ", "}{words.code};'
+    yield from _whereabouts(point, words)
+    if words.references:
+        yield words.references
     if point.unit.symbol:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
-    yield from _outer_limits(subject)
-    yield from form_lines(subject, scope)
+    if words.low:
+        yield f"raw {words.low}..={words.high};"
+    yield from form_lines(subject, words, scope)
     yield from code_lines(subject)
     if point.readable:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from in_rust(scope.family).traits(subject, scope)
 
 
-def _whereabouts(point: Point) -> Iterator[str]:
+def _names_runtime(subject: CratePoint) -> bool:
+    """Whether the facts name items of the runtime: the type of a text, the check of digits, or rules."""
+    point = subject.point
+    checked = point.digits is not None or bool(point.limit_arguments)
+    return point.text is not None or bool(subject.factors) or (point.writable and checked)
+
+
+def _whereabouts(point: Point, words: Words) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
-    if len(addresses) > 1:
-        yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
+    yield f"at {space_variant(point.space)} {words.address};"
+    if words.addresses:
+        yield words.addresses
     if point.words != 1:
         yield f"words {point.words};"
-    if point.index is not None:
-        yield f"index {point.index};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
+    if words.element:
+        yield f"index {words.element};"
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
@@ -78,20 +144,3 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
-
-
-def _outer_limits(subject: CratePoint) -> Iterator[str]:
-    """The fact about the outer limits, unless they are those of the type."""
-    ends, raw = subject.point.outer, subject.raw
-    if subject.form not in ("float", "text", "digits") and ends != type_range(raw):
-        yield f"raw {raw_literal(ends[0], raw)}..={raw_literal(ends[1], raw)};"
-
-
-def _references(point: Point) -> Iterator[str]:
-    """The manual's other numberings of the point."""
-    for key, number in point.references.items():
-        if isinstance(number, str):
-            type_, literal = "&'static str", rust_string(number)
-        else:
-            type_, literal = "u32" if 0 <= number < 1 << 32 else "i64", integer(number)
-        yield f"const {key.upper()}: {type_} = {literal};"

@@ -15,7 +15,7 @@ from fieldscribe.targets.vectors.words import words_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Code, Device, Place, Point
+    from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.meaning import Meaning, Meanings
 
@@ -56,9 +56,9 @@ class _Usual:
 
     def words_at(self, point: Point) -> tuple[tuple[int, ...], ...]:
         """The words that are written, which may lie in another order than those that are read."""
-        if len(point.places) == 1:
+        if point.write_place is None:
             return self.sent
-        order = ascending(self.meaning.shape, writing_place(point).addresses)
+        order = ascending(self.meaning.shape, point.write_place.addresses)
         return tuple(words_of(self.meaning, order, raw) for raw in self.raws)
 
 
@@ -131,7 +131,7 @@ class Exchanges:
         script: Script = []
         for name, raw in settings.items():
             other = self.points.get(name)
-            if other is None or not other.readable or not other.places or other.scale_arguments:
+            if other is None or not other.readable or not other.addresses or other.scale_arguments:
                 return None
             meaning = self.meanings.of(other)
             read = self.wire.reads(other, words_of(meaning, meaning.order or (), raw))
@@ -164,12 +164,9 @@ def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
         lines.add(kind, what, code.number, code.name)
 
 
-def writing_place(point: Point) -> Place:
-    """The place where a point is written."""
-    places = point.places
-    if len(places) == 1:
-        return places[0]
-    return next((place for place in places if place.purpose == "write"), places[0])
+def writing_addresses(point: Point) -> tuple[int, ...]:
+    """Where a point is written."""
+    return point.addresses if point.write_place is None else point.write_place.addresses
 
 
 def typical(oracle: Oracle, meaning: Meaning, settings: dict[str, int]) -> int | None:

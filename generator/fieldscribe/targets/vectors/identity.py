@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.model import item_of
 from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.vectors.kinds import Written, text, word
 from fieldscribe.targets.vectors.oracle import outer_bounds
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from fieldscribe.existence import Condition
-    from fieldscribe.model import Place, Point
+    from fieldscribe.model import Point
     from fieldscribe.targets.vectors.lines import Lines
 
 
@@ -66,14 +67,14 @@ class Identities:
         self._lines.include(part, pattern.filled(words))
 
     def _form(self, point: Point) -> Form:
-        shape, places = point.shape, point.places
+        shape, elsewhere = point.shape, point.write_place
         special = point.index is not None or point.telegram is not None or shape.text is not None
         return Form(
             shape.type,
             shape.words,
             shape.decimals if shape.form == "scaled" else None,
             shape.display,
-            places[0].space if places else None,
+            point.space if point.addresses else None,
             point.code is not None,
             shape.form not in _WITHOUT_LIMITS,
             tuple(point.references),
@@ -82,10 +83,10 @@ class Identities:
             None if point.default is None else float(point.default),
             None if point.changes == "always" else point.changes,
             point.changes_with,
-            point.variant,
+            None if point.variant is None else str(point.variant),
             None if point.when is None else _only_for(point.when, self._variants),
-            _written_elsewhere(places) if len(places) > 1 else None,
-            tuple([old + point.item.removeprefix(point.name) for old in point.was]) if point.was else (),
+            None if elsewhere is None else (point.space, elsewhere.addresses),
+            tuple([item_of(old, point.variant) for old in point.was]) if point.was else (),
         )
 
 
@@ -94,8 +95,7 @@ _WITHOUT_LIMITS = ("float", "text", "digits")
 
 def _words(point: Point) -> tuple[str, ...]:
     """What most points have of their own, in the notation of its field."""
-    shape, places = point.shape, point.places
-    addresses = places[0].addresses if places else ()
+    shape, addresses = point.shape, point.addresses
     low, high = outer_bounds(shape, point.allowed) if shape.form not in _WITHOUT_LIMITS else ("", "")
     return (
         word(point.item),
@@ -115,6 +115,8 @@ def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
     if form.space is not None:
         printed = dict(zip(form.references, references, strict=True))
         lines.add("address", form.space, address, form.words, code, low, high, form.decimals, printed)
+        if form.written is not None:
+            lines.add("write_address", min(form.written[1]))
         if form.placed is not None:
             lines.add("place", *form.placed)
         if form.symbol:
@@ -125,12 +127,6 @@ def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
     lines.add("facts", group, name, *held, *(form.written or ()))
     for old in form.aliases:
         lines.add("alias", old, item)
-
-
-def _written_elsewhere(places: tuple[Place, ...]) -> tuple[str, tuple[int, ...]] | None:
-    """The space and the addresses where a point is written, if not where it is read."""
-    place = next((place for place in places if place.purpose == "write"), places[0])
-    return None if place is places[0] else (place.space, place.addresses)
 
 
 def _only_for(when: Condition, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:

@@ -50,8 +50,8 @@ class Meanings:
 
     def of(self, point: Point) -> Meaning:
         """The meaning of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
-        shape, places = point.shape, point.places
-        order = ascending(shape, places[0].addresses) if places else None
+        shape = point.shape
+        order = ascending(shape, point.addresses) if point.addresses else None
         symbol = point.unit.symbol if shape.display is not None else ""
         key = id(shape), id(point.allowed), point.bits, order, symbol
         meaning = self._met.get(key)

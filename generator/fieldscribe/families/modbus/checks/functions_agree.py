@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+from fieldscribe.model import Named
 from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 def check(subject: Subject) -> None:
     """Findings for printed numbers of bytes that do not follow from the largest count, and for unreachable spaces."""
     bus = subject.scope.bus
+    _elsewhere(subject)
     if bus is None:
         return
     if subject.bus_is_whole:
@@ -34,24 +36,41 @@ def check(subject: Subject) -> None:
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
             span = raw["printed"].span("bytes")
-            subject.disagrees(Printed(f"function:{code.number}", "bytes", printed, right, span, message))
+            subject.disagrees(Printed(Named("function", code.number), "bytes", printed, right, span, message))
 
 
 def _reached(subject: Subject, bus: Map) -> None:
     """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
-    points = [resolved.point for resolved in subject.resolved if resolved.point.generated]
     for space, functions in SPACES.items():
-        inside = [point for point in points if point.space == space]
         writers = {functions.write_one, functions.write_many} - {None}
-        for verb, count, able in (
-            ("reads", sum(point.readable for point in inside), functions.read in known),
-            ("writes", sum(point.writable for point in inside), bool(writers & known) or not writers),
+        for verb, letter, able in (
+            ("reads", "r", functions.read in known),
+            ("writes", "w", bool(writers & known) or not writers),
         ):
-            if count and not able:
+            count = 0 if able else _count(subject, space, letter)
+            if count:
                 message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
                 hint = "list the function under `functions`, or correct `access` or `space`"
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
+
+
+def _count(subject: Subject, space: str, letter: str) -> int:
+    """How many points of a space need to be read (`r`) or written (`w`)."""
+    points = [resolved.point for resolved in subject.resolved]
+    return sum(point.generated and point.space == space and letter in point.access for point in points)
+
+
+def _elsewhere(subject: Subject) -> None:
+    """Findings for points that are written at another address, in a space that no function writes."""
+    for resolved in subject.resolved:
+        if resolved.point.write_place is None:
+            continue
+        functions = SPACES.get(resolved.point.space)
+        if functions is not None and functions.write_many is None:
+            message = f"`{resolved.point.name}` cannot be written: no function writes `{resolved.point.space}`"
+            hint = "leave `write_at` out; what is written in another space is a point of its own"
+            subject.report.error("write-address", message, resolved.draft.span("write_at"), hint)
 
 
 def _at_once(subject: Subject) -> None:
@@ -60,6 +79,8 @@ def _at_once(subject: Subject) -> None:
     too_long: dict[tuple[str, int], list[Resolved]] = {}
     for resolved in subject.resolved:
         point = resolved.point
+        if len(point.place.addresses) == 1:
+            continue  # any function carries one item
         if not point.generated or "type" in resolved.draft.failed or point.space not in SPACES:
             continue
         functions = SPACES[point.space]

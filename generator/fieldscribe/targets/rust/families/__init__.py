@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.targets.rust.example import Snippet
 from fieldscribe.targets.rust.layout import filled
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Names
@@ -25,6 +26,10 @@ Way = tuple[str, str, Needs]
 """How a point travels: the kind of vector, the runner's function, and what that needs."""
 
 
+END = ";\n"
+"""What stands between the rows of a table, and nowhere in them."""
+
+
 @dataclass(frozen=True, slots=True)
 class Table:
     """A table of the conformance program: its function, the function of the runner that it calls, and its rows.
@@ -34,13 +39,18 @@ class Table:
 
     name: str
     run: str
-    rows: tuple[Tokens, ...]
+    rows: Sequence[str]
     kind: str = ""
 
     @property
-    def lines(self) -> tuple[Tokens, ...]:
-        """The rows in lines."""
-        return tuple(filled("", " ", row, ";") for row in self.rows)
+    def text(self) -> str:
+        """The rows, each with its semicolon."""
+        return f"{END.join(self.rows)}{END}" if self.rows else ""
+
+
+def row_text(row: Tokens) -> str:
+    """A row in as few lines as possible, without its semicolon."""
+    return "    " + "\n    ".join(filled("", " ", row, ";"))[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:
@@ -48,9 +58,9 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
-def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
     """For families whose devices send nothing unasked."""
-    return "", ()
+    return "", Snippet()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +82,7 @@ class OfFamily:
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
     names: tuple[str, ...] = ()
-    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
+    heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:
