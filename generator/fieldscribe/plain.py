@@ -9,6 +9,7 @@ import hashlib
 from dataclasses import fields, replace
 from functools import lru_cache
 from operator import attrgetter
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import (
     Code,
@@ -27,34 +28,19 @@ from fieldscribe.model import (
     Titles,
 )
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 _NOWHERE = Source("", None, None, None)
 
 
-_SHARED = ("source", "shape", "terms", "allowed")
+_SHARED = ("source", "shape", "terms")
 """What many points have in common, so that its text is written once."""
 _common = attrgetter(*_SHARED)
 _identity = attrgetter(
-    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "place")],
+    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
     *[f"place.{field.name}" for field in fields(Place)],
 )
-
-
-class _Written(tuple[Point, ...]):
-    """Points as a text that differs wherever a field of one does."""
-
-    __slots__ = ()
-
-    def __repr__(self) -> str:
-        texts: dict[tuple[int, ...], str] = {}
-        written = []
-        for point in self:
-            shared = _common(point)
-            key = tuple(map(id, shared))
-            text = texts.get(key)
-            if text is None:
-                text = texts[key] = repr(shared)
-            written.append(f"{_identity(point)!r}{text}")
-        return ", ".join(written)
 
 
 def for_code(device: Device) -> Device:
@@ -102,11 +88,25 @@ def digest(device: Device) -> str:
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
     plain = replace(for_code(device), digest="")
-    shown = [(point.item, point.display) for point in plain.points if point.display is not None]
-    text = f"{replace(plain, points=_Written(plain.points))!r}"
-    text += f"{shown or ''}"  # appended only if there is some, so that other digests stay
-    checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-    return replace(device, digest=checksum), replace(plain, digest=checksum)
+    checksum = hashlib.sha256()
+    for text in _texts(plain):
+        checksum.update(text.encode("utf-8", "surrogatepass"))
+    digest = checksum.hexdigest()
+    return replace(device, digest=digest), replace(plain, digest=digest)
+
+
+def _texts(plain: Device) -> Iterator[str]:
+    """Texts that differ wherever a fact of the device does: all but the points, then each point."""
+    yield repr(replace(plain, points=()))
+    texts: dict[object, str] = {}
+    for point in plain.points:
+        shared = _common(point)
+        key, limits = tuple(map(id, shared)), id(point.allowed)
+        if key not in texts:
+            texts[key] = repr(shared)
+        if limits not in texts:
+            texts[limits] = repr(point.allowed)
+        yield f"{_identity(point)!r}{texts[limits]}{texts[key]}"
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:

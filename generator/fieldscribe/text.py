@@ -11,6 +11,10 @@ import unicodedata
 from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
+_FOLDED = re.compile(r"(?:[!-~]+(?: [!-~]+)*)?")
+"""Most texts: nothing in them is folded or dropped."""
+_UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
+"""A line that is its own text between double quotes, in most languages."""
 _BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
 """What most codes and names are made of, and no language escapes."""
 _CELL = re.compile(r"[0-9A-Za-z.:/(][0-9A-Za-z_ .:/()%°;=+-]*")
@@ -26,25 +30,30 @@ _TYPEWRITER = str.maketrans(
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
-@lru_cache(maxsize=65536)
 def line(text: str) -> str:
     """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
+    if _FOLDED.fullmatch(text):
+        return text
     if not _PLAIN.fullmatch(text):
         spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)
         text = "".join(char for char in spaced if unicodedata.category(char) not in _DROPPED_CATEGORIES)
     return _SPACES.sub(" ", text).strip()
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def c_comment(text: str) -> str:
     """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
+    if text.isalnum() and text.isascii():
+        return text
     cleaned = line(text).translate(_TYPEWRITER).replace("*/", "* /").replace("/*", "/ *")
     return _QUERIES.sub("? ", cleaned).rstrip("\\ ")
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def c_string(text: str) -> str:
     """A C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes (they end by themselves)."""
+    if text.isalnum() and text.isascii():
+        return f'"{text}"'
     escaped = []
     for byte in line(text).encode():
         char = chr(byte)
@@ -53,9 +62,10 @@ def c_string(text: str) -> str:
     return '"' + "".join(escaped) + '"'
 
 
-@lru_cache(maxsize=65536)
 def python_string(text: str) -> str:
     """A Python string literal as formatters write it: double quotes, unless single ones need fewer escapes."""
+    if _UNQUOTED.fullmatch(text):
+        return f'"{text}"'
     cleaned = line(text)
     quote = "'" if cleaned.count('"') > cleaned.count("'") else '"'
     escaped = []
@@ -69,9 +79,10 @@ def python_string(text: str) -> str:
     return quote + "".join(escaped) + quote
 
 
-@lru_cache(maxsize=65536)
 def python_doc(text: str) -> str:
     """Text for inside a triple-quoted docstring or a `#` comment."""
+    if _UNQUOTED.fullmatch(text):
+        return text
     return line(text).replace("\\", "\\\\").replace('"', "'")
 
 
@@ -92,14 +103,14 @@ def rust_string(text: str) -> str:
     return f'"{cleaned}"'
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def dbc_string(text: str) -> str:
     """A string of a CAN database with its quotes: Latin-1, without what would end it or be read as an escape."""
     cleaned = line(text).replace("\\", "/").replace('"', "'")
     return '"' + cleaned.encode("latin-1", "replace").decode("latin-1") + '"'
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def markdown(text: str) -> str:
     """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

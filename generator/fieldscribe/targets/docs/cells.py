@@ -38,6 +38,8 @@ def by_rows(heads: Iterable[str], rows: Sequence[Sequence[str]]) -> str:
 
 def cell(text: str) -> str:
     """Plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
+    if not text or text.isalnum():
+        return text
     plain = (_BARE.fullmatch(text) or _PLAIN.fullmatch(text)) and "://" not in text and "www." not in text
     return text.strip() if plain else markdown(text)
 

@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code, number_cell, paragraph, source_cell, source_text, target
-from fieldscribe.targets.docs.remarks import NO_REMARKS, OwnRemarks, own_remarks, remarks
+from fieldscribe.targets.docs.cells import (
+    anchor,
+    by_rows,
+    cell,
+    code,
+    number_cell,
+    paragraph,
+    source_cell,
+    source_text,
+    target,
+)
+from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, own_remarks, remarks
 from fieldscribe.targets.docs.subjects import reference_heads
 
 if TYPE_CHECKING:
@@ -119,7 +129,7 @@ class _Rows:
             *kin.meaning,
             *limits.page,
             kin.scale,
-            cell(wording.default_text(point)),
+            "" if point.default is None and point.default_raw is None else cell(wording.default_text(point)),
             self._remarks_cell(point, number),
             source_cell(point.source, self.scope.several),
         )
@@ -130,7 +140,7 @@ class _Rows:
 
     def _remarks_cell(self, point: Point, kin: int) -> str:
         own = own_remarks(point)
-        form = () if own is NO_REMARKS else tuple(map(bool, own))
+        form = form_of(own)
         pattern = self._remarks.get((kin, form))
         if pattern is None:
             shown = remarks(self.scope, point, OwnRemarks(*blanks(own)))

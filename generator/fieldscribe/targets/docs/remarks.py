@@ -60,6 +60,11 @@ def own_remarks(point: Point) -> OwnRemarks:
     )
 
 
+def form_of(own: OwnRemarks) -> tuple[bool, ...]:
+    """Which remarks there are."""
+    return () if own is NO_REMARKS else tuple(map(bool, own))
+
+
 def remarks(scope: Scope, point: Point, own: OwnRemarks) -> Iterator[str]:
     """All remarks, short facts first, errata last; `own` are those of the point itself, or blanks for them."""
     shape, terms = point.shape, point.terms

@@ -69,7 +69,7 @@ def _lines(scope: Scope, languages: tuple[str, ...], references: tuple[str, ...]
             kin.meaning,
             limits.sheet,
             kin.scale,
-            csv_cell(wording.default_text(point, unit=False)),
+            "" if point.default is None and point.default_raw is None else _default(point),
             kin.behaviour,
             _own(point),
             _source(point.source),
@@ -138,6 +138,10 @@ def _behaviour(scope: Scope, point: Point) -> tuple[str, ...]:
         point.changes or "",
         " ".join(point.changes_with),
     )
+
+
+def _default(point: Point) -> str:
+    return csv_cell(wording.default_text(point, unit=False))
 
 
 def _own(point: Point) -> str:

@@ -62,13 +62,13 @@ def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
 
 def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator[Subject]:
     shapes, kins = dict[int, object](), dict[object, int]()
-    known_limits: dict[tuple[int, int], Limits] = {}
+    known_limits: dict[object, Limits] = {}
     for point in points:
         shape = shapes.get(id(point.shape))
         if shape is None:
             shape = shapes[id(point.shape)] = alike(point.shape)
         kin = kins.setdefault(kin_of(point, shape), len(kins))
-        key = (kin, id(point.allowed))
+        key = limits_of(point, kin)
         limits = known_limits.get(key)
         if limits is None:
             limits = known_limits[key] = _limits(point, by_name)
@@ -83,6 +83,11 @@ def alike(shape: Shape) -> object:
 def kin_of(point: Point, shape: object) -> object:
     """All that decides about the row of a point, but for the words of its identity and its limits."""
     return shape, id(point.terms), len(point.place.addresses)
+
+
+def limits_of(point: Point, kin: int) -> object:
+    """All that decides about the words of limits."""
+    return kin, id(point.allowed)
 
 
 def _limits(point: Point, by_name: Mapping[str, Point]) -> Limits:
