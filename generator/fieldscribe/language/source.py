@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,10 +36,18 @@ class SourceFile:
     name: str
     text: str
     lost: set[str] = field(default_factory=set, compare=False)
+    _starts: list[int] = field(default_factory=list, compare=False, repr=False)
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
         """A place in this file."""
         return Span(self.name, line, column, width)
+
+    def offset(self, place: tuple[int, int]) -> int:
+        """How many characters stand before a line and column."""
+        line, column = place
+        if not self._starts:
+            self._starts.extend(accumulate(map(len, self.text.split("\n")), lambda start, width: start + width + 1, initial=0))
+        return self._starts[line - 1] + column - 1
 
 
 def shown(path: Path) -> str:

@@ -1,0 +1,188 @@
+"""Reads the plain part of YAML line by line: block mappings and lists, values of one line, and what stands in brackets.
+
+Every file of ours but those with anchors is written so. Whatever is written otherwise, or could be wrong, is a doubt:
+then PyYAML reads the whole file. Nothing is reported here, and places are found when a finding asks for them.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.language.flow import BRACKETS, KEY, QUOTED, SIMPLE, WORD, DoubtError, Names, Scalars, flow_value, simple_map, unquoted
+from fieldscribe.language.nodes import Map, Seq, unplaced_map, unplaced_seq
+from fieldscribe.language.scalars import WORDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.language.source import SourceFile
+
+_MOST_VALUES = 1_000_000
+_MOST_DOCUMENTS = 1000
+_MOST_DEPTH = 12
+
+
+_PLAIN = r"""(?:[^\s\-?:,\[\]{}#&*!|>'"%@`]|-(?=[\w.]))[^\n:#]*+(?:(?::(?=[^\s])|(?<! )#)[^\n:#]*+)*"""
+_LINE = re.compile(
+    rf"([ ]*+(?:-[ ]++)?)({KEY}):[ ](?:({WORD}[^\n:#]*+(?<! ))|([0-9]{{1,18}})|([0-9.][^\n:#]*+)|({SIMPLE}))\n"
+    rf"|([^\n\[{{\"]*+(?:{BRACKETS}|{QUOTED})?[^\n]*+\n)"
+)
+"""Indentation with the dash of an item, key, and a plain value or a simple mapping; or another line, with what follows
+in its brackets or quotes."""
+_OTHER_LINE = re.compile(
+    rf"([ ]*+(?:-[ ]++)?)(?:({KEY}):(?:[ ]++|(?=\n)))?"
+    rf"(?:({_PLAIN})|(?<![ ][ ])({BRACKETS})|({QUOTED}))?[ ]*+(?:(?<![^ \n])#[^\n]*+)?\n"
+)
+"""The same, but the key may be missing, the value may be any, and a comment may follow."""
+
+
+def plain_documents(source: SourceFile) -> list[Map] | None:
+    """The documents of a file that is plain and has one at least; None if PyYAML must read it."""
+    if not _may_be_plain(source.text):
+        return None
+    try:
+        return list(_Reader(source).documents()) or None
+    except DoubtError:
+        return None
+
+
+def _may_be_plain(text: str) -> bool:
+    """Whether there are no characters that YAML takes in a way of its own, and no more values than it may have."""
+    if text.count("\n---") > _MOST_DOCUMENTS or not text.replace("\n", "").isprintable():
+        return False
+    return len(text) < _MOST_VALUES or sum(map(text.count, ",:[\n")) < _MOST_VALUES
+
+
+class _Reader:
+    """Keeps the mappings and lists that the current line stands in, each with its column, the innermost last."""
+
+    def __init__(self, source: SourceFile) -> None:
+        self.source = source
+        self.scalars, self.names = Scalars(), Names()
+        self.within: list[tuple[int, Map | Seq]] = []
+        self.opened: tuple[Map, str] | None = None
+        """The mapping, and its key whose value starts on a line of its own."""
+
+    def documents(self) -> Iterator[Map]:
+        """Each document that holds something."""
+        source, scalars, names = self.source, self.scalars, self.names
+        text = source.text if source.text[-1] == "\n" else f"{source.text}\n"
+        number = 0
+        indent: str | None = None
+        holder: Any = None
+        for prefix, name, word, digits, plain, simple, other in _LINE.findall(text):
+            number += 1
+            if other:
+                yield from self._other(number, other)
+                number += other.count("\n") - 1
+                indent = None
+                continue
+            if prefix != indent:
+                holder = self._holder(number, prefix, name)
+                indent = " " * len(prefix)
+            key = names[name]
+            if key in holder:
+                raise DoubtError
+            if word:
+                holder[key] = WORDS.get(word, word)
+            elif digits:
+                holder[key] = int(digits)
+            elif plain:
+                holder[key] = scalars[plain]
+            else:
+                holder[key] = simple_map(simple, source, number, len(prefix) + len(name) + 3, scalars)
+        yield from self._document()
+
+    def _other(self, number: int, text: str) -> Iterator[Map]:
+        """Any other line: a comment, the mark of a document, an item without key, a key without value, other values."""
+        if text == "---\n":
+            yield from self._document()
+            return
+        line = _OTHER_LINE.fullmatch(text)
+        if line is None:
+            raise DoubtError
+        prefix, name, plain, brackets, quoted = line.groups()
+        value = plain or brackets or quoted
+        if name or value:
+            holder = self._holder(number, prefix, name)
+            if value and "\n" in value:
+                _deeper(value, len(prefix) if name else prefix.index("-"))
+            if plain:
+                self._put(holder, name, self.scalars[plain])
+            elif brackets:
+                column = 1 + line.start(4)
+                self._put(holder, name, flow_value(brackets, self.source, number, column, self.scalars))
+            elif quoted:
+                self._put(holder, name, unquoted(quoted))
+            else:
+                self.opened = holder, self._put(holder, name, None)
+        elif prefix.strip():
+            raise DoubtError
+
+    def _put(self, holder: Any, name: str | None, value: Any) -> str:
+        """Add a value: with this key, or to a list."""
+        if name is None:
+            holder.append(value)
+            return ""
+        key = self.names[name]
+        if key in holder:
+            raise DoubtError
+        holder[key] = value
+        return key
+
+    def _document(self) -> Iterator[Map]:
+        """The document that ends here; nothing if it is empty."""
+        if self.opened is not None:
+            raise DoubtError
+        for _, root in self.within[:1]:
+            self.within = []
+            assert isinstance(root, Map)
+            yield root
+
+    def _holder(self, line: int, prefix: str, name: str | None) -> Map | Seq:
+        """The mapping or list to which a line of this indentation belongs."""
+        column, dash = len(prefix), prefix.find("-")
+        if dash < 0:
+            if not name:
+                raise DoubtError
+            return self._at(column, Map, line)
+        items = self._at(dash, Seq, line)
+        if not name:
+            return items
+        item = unplaced_map(self.source, (line, column + 1))
+        items.append(item)
+        self._enter(column, item)
+        return item
+
+    def _at(self, column: int, kind: type[Map | Seq], line: int) -> Any:
+        """The mapping or list of that column: a new one where a key waits for its value, and at the very start."""
+        within = self.within
+        if within and self.opened is None:
+            while within and (within[-1][0] > column or type(within[-1][1]) is not kind):
+                within.pop()
+            if not within or within[-1][0] != column:
+                raise DoubtError
+            return within[-1][1]
+        new = unplaced_map(self.source, (line, column + 1)) if kind is Map else unplaced_seq(self.source, (line, column + 1))
+        if self.opened is not None:
+            mapping, key = self.opened
+            if column < within[-1][0] + (kind is Map):
+                raise DoubtError
+            mapping[key] = new
+            self.opened = None
+        elif kind is Seq:
+            raise DoubtError
+        self._enter(column, new)
+        return new
+
+    def _enter(self, column: int, node: Map | Seq) -> None:
+        if len(self.within) > _MOST_DEPTH:
+            raise DoubtError
+        self.within.append((column, node))
+
+
+def _deeper(text: str, column: int) -> None:
+    """Doubts a value whose further lines are not deeper than the line on which it starts."""
+    if any(len(below) - len(below.lstrip(" ")) <= column for below in text.split("\n")[1:]):
+        raise DoubtError
