@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import form_hint, key_hint, nearest, quoted, shown, type_hint
@@ -15,6 +15,7 @@ from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
     from fieldscribe.kinds import Form, Place, Shape, Text, Whole
 
 Check = Callable[[Any, Map | Seq, Any, Report], bool]
@@ -22,8 +23,13 @@ Check = Callable[[Any, Map | Seq, Any, Report], bool]
 
 Broken keys and items are dropped from what holds them. Places are made only for findings.
 """
+Test = Callable[[Any], Any]
+"""Whether a value is right, and nothing else: a method of C, for it is called for every value."""
 
 _NAMING = ("name", "code", "id")
+_MOST_PLANS = 1000
+_BEYOND = 10**70
+"""No number of a file is so large."""
 
 
 @lru_cache(maxsize=256)
@@ -32,113 +38,168 @@ def compiled_pattern(pattern: str) -> re.Pattern[str]:
     return re.compile(pattern[:-1] + r"\Z" if pattern.endswith("$") else pattern)
 
 
-def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> bool:
-    """Accepts any value."""
-    return True
+class ShapeCheck:
+    """Picks the check for the type of the value, if that is one of the `wanted` types; None takes every value.
 
-
-def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
-    """Picks the check for the type of the value, if that is one of the `wanted` types.
-
-    A whole number may be written in every notation of numbers; from here on it is one.
+    A whole number may be written in every notation of numbers; from here on it is one. Values of the `free` types, and
+    those that pass the test of their type, are right: who holds many values asks these first.
     """
-    notation = compiled_pattern(forms.WHOLE.pattern).search if int in checks and str not in checks else None
 
-    def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if notation is not None and isinstance(value, str) and notation(value):
+    __slots__ = ("checks", "example", "form", "free", "notation", "tests", "wanted")
+
+    def __init__(self, checks: Mapping[type, Check | None], wanted: str, example: Any, form: Form | None) -> None:
+        self.checks, self.wanted, self.example, self.form = checks, wanted, example, form
+        self.free = frozenset(kind for kind, check in checks.items() if check is None)
+        self.tests: dict[type, Test] = {}
+        self.notation = int in checks and str not in checks
+
+    def __call__(self, value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
+        """Whether the value is right; a `Check`."""
+        if self.notation and isinstance(value, str) and compiled_pattern(forms.WHOLE.pattern).search(value):
             value = holder[at] = parse_integer(value)
-        type_check = checks.get(type(value))
-        if type_check is not None:
-            return type_check(value, holder, at, report)
-        report.error(
-            "wrong-type",
-            f"{shown(value)} stands where {wanted} belongs",
-            holder.span(at),
-            value_hint(at, value) or type_hint(value, checks, example, form),
-        )
-        return False
+        kind = type(value)
+        if kind not in self.checks:
+            self._wrong_type(value, holder, at, report)
+            return False
+        check = self.checks[kind]
+        if isinstance(check, TextCheck | NumberCheck):
+            self.tests[kind] = check.fits
+        return check is None or check(value, holder, at, report)
 
-    return check
+    @property
+    def at_hand(self) -> tuple[frozenset[type], dict[type, Test], ShapeCheck]:
+        """What to ask first, and the check itself."""
+        return self.free, self.tests, self
+
+    def _wrong_type(self, value: Any, holder: Map | Seq, at: Any, report: Report) -> None:
+        message = f"{shown(value)} stands where {self.wanted} belongs"
+        hint = value_hint(at, value) or type_hint(value, self.checks, self.example, self.form)
+        report.error("wrong-type", message, holder.span(at), hint)
 
 
-def string(kind: Text) -> Check:
+class TextCheck:
     """Checks a text: its choices, length and form."""
-    choices, longest, form = kind.choices, kind.longest, kind.form
-    fits = None if form is None else compiled_pattern(form.pattern).search
 
-    def check(value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if choices and value not in choices:
+    __slots__ = ("_fits", "kind")
+
+    def __init__(self, kind: Text) -> None:
+        self.kind = kind
+        self._fits: Test | None = None
+
+    @property
+    def fits(self) -> Test:
+        """Made when the first such text comes: patterns take long to compile."""
+        if self._fits is None:
+            choices, longest, form = self.kind.choices, self.kind.longest, self.kind.form
+            if choices:
+                self._fits = frozenset(choices).__contains__
+            elif form is None:
+                self._fits = lambda text: len(text) <= longest
+            else:
+                search = compiled_pattern(form.pattern).search
+                self._fits = (lambda text: len(text) <= longest and search(text)) if longest else search
+        return self._fits
+
+    def __call__(self, value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
+        """Whether the text is right; a `Check`."""
+        if self.fits(value):
+            return True
+        choices, longest, form = self.kind.choices, self.kind.longest, self.kind.form
+        if choices:
             near = nearest(value, choices)
             hint = f"did you mean `{near}`?" if near else f"write one of {', '.join(choices)}"
             hint = value_hint(at, value) or hint
             report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", holder.span(at), hint)
-            return False
-        if longest and len(value) > longest:
+        elif longest and len(value) > longest:
             message = f"the text has {len(value)} characters, at most {longest} are allowed"
             report.error("text-too-long", message, holder.span(at), "shorten it")
-            return False
-        if form is not None and fits is not None and not fits(value):
+        elif form is not None:
             hint = value_hint(at, value) or form_hint(value, form)
             report.error("wrong-form", f"{quoted(value)} is not {form.words}", holder.span(at), hint)
-            return False
-        return True
-
-    return check
+        return False
 
 
-def number(kind: Whole) -> Check:
+class NumberCheck:
     """Checks a number: its choices and bounds."""
-    choices, least, greatest = kind.choices, kind.least, kind.greatest
 
-    def check(value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if choices and value not in choices:
+    __slots__ = ("fits", "kind")
+
+    def __init__(self, kind: Whole) -> None:
+        self.kind = kind
+        least = -_BEYOND if kind.least is None else kind.least
+        greatest = _BEYOND if kind.greatest is None else kind.greatest
+        self.fits: Test = (kind.choices or range(least, greatest + 1)).__contains__
+
+    def __call__(self, value: int, holder: Map | Seq, at: Any, report: Report) -> bool:
+        """Whether the number is right; a `Check`."""
+        if self.fits(value):
+            return True
+        choices, least, greatest = self.kind.choices, self.kind.least, self.kind.greatest
+        if choices:
             known = ", ".join(map(str, choices))
-            report.error(
-                "wrong-choice",
-                f"{value} is none of {known}",
-                holder.span(at),
-                f"write {' or '.join(map(str, choices))}",
-            )
-            return False
-        if (least is not None and value < least) or (greatest is not None and value > greatest):
+            message, hint = f"{value} is none of {known}", f"write {' or '.join(map(str, choices))}"
+        else:
             bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
-            report.error("wrong-choice", f"{value} is out of bounds: {bounds}", holder.span(at), "correct the number")
-            return False
-        return True
-
-    return check
+            message, hint = f"{value} is out of bounds: {bounds}", "correct the number"
+        report.error("wrong-choice", message, holder.span(at), hint)
+        return False
 
 
-def array(item: Check, least: int) -> Check:
-    """Checks a sequence: each item, and that there are at least `least`."""
+class ItemsCheck:
+    """Checks a list: each item, and that there are at least `least`."""
 
-    def check(value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
+    __slots__ = ("item", "least")
+
+    def __init__(self, item: ShapeCheck, least: int) -> None:
+        self.item, self.least = item, least
+
+    def __call__(self, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
+        """Whether the list is right; a `Check`."""
         if value.uses is not None:
-            return _check_aliased(check, value, holder, at, report)
-        if report.full:
-            return False
-        if len(value) < least:
+            return _check_aliased(self, value, holder, at, report)
+        if len(value) < self.least:
             report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
             return False
-        broken = [index for index, element in enumerate(value) if not item(element, value, index, report)]
+        free, tests, item = self.item.at_hand
+        broken = []
+        for index, element in enumerate(value):
+            kind = type(element)
+            if kind in free or (kind in tests and tests[kind](element)):
+                continue
+            if not item(element, value, index, report):
+                broken.append(index)
+                if report.full:
+                    return False
         for index in reversed(broken):
             _remember_names(value[index], value.file.lost)
             del value[index], value.item_at[index]
-        return len(value) >= least
-
-    return check
+        return len(value) >= self.least
 
 
-class ObjectCheck:
+class Plan(NamedTuple):
+    """What is to check in mappings with these keys."""
+
+    entries: tuple[tuple[str, frozenset[type], dict[type, Test], ShapeCheck | None], ...]
+    """For each key the free types and tests of what stands there, and its check: None for an unknown key."""
+    missing: tuple[tuple[str, str], ...]
+    """Each missing key with a message."""
+    complete: bool
+
+
+_NOTHING: tuple[frozenset[type], dict[type, Test], None] = (frozenset(), {}, None)
+
+
+class KeysCheck:
     """Checks a mapping; the checks of its keys are made when the first such mapping comes."""
 
-    __slots__ = ("additional", "check_of", "least", "needs", "patterns", "place", "properties", "ready", "required")
+    __slots__ = ("additional", "check_of", "patterns", "place", "plans", "properties", "required")
 
-    def __init__(self, place: Place, check_of: Callable[[Shape], Check]) -> None:
+    def __init__(self, place: Place, check_of: Callable[[Shape], ShapeCheck]) -> None:
         self.place, self.check_of = place, check_of
-        self.ready = False
+        self.plans: dict[tuple[str, ...], Plan] = {}
+        self.properties: dict[str, ShapeCheck] | None = None
 
-    def _open(self) -> None:
+    def _open(self) -> dict[str, ShapeCheck]:
         place, check_of = self.place, self.check_of
         self.properties = {name: check_of(key.shape) for name, key in keys_of(place).items()}
         self.patterns = [
@@ -148,58 +209,78 @@ class ObjectCheck:
         ]
         other = place.by_form.get(forms.ANY)
         self.additional = None if other is None else check_of(other)
-        self.required, self.needs, self.least = required(place), needs(place), place.least
-        self.ready = True
+        self.required = frozenset(required(place))
+        return self.properties
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Whether the mapping is right; a `Check` like the others."""
+        """Whether the mapping is right; a `Check`."""
         if value.uses is not None:
             return _check_aliased(self, value, holder, at, report)
-        if report.full:
-            return False
-        if not self.ready:
-            self._open()
+        keys = tuple(value)
+        plan = self.plans.get(keys) or self._plan(keys)
         broken = []
-        for key, entry in value.items():
-            entry_check = self.properties.get(key) or self._pattern(key)
-            if entry_check is None:
-                known = [form for form, _, _ in self.patterns]
-                named = forms.NUMBER in known or forms.BITS in known
-                hint = (reversed_hint(key, entry) if named else None) or key_hint(key, self.properties, known, entry)
-                report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
-                broken.append(key)
-            elif not entry_check(entry, value, key, report):
-                broken.append(key)
+        for key, free, tests, check in plan.entries:
+            entry = value[key]
+            kind = type(entry)
+            if kind in free or (kind in tests and tests[kind](entry)):
+                continue
+            if check is None:
+                self._unknown(value, key, report)
+            elif check(entry, value, key, report):
+                continue
+            broken.append(key)
             if report.full:
                 return False
-        complete = self._complete(value, holder, at, report)
+        if not broken and plan.complete:
+            return True
+        self._say_missing(plan, value, holder.span(at), report)
         for key in broken:
-            self._drop(value, key, holder is value)
-        return complete and not any(key in broken for key in self.required) and len(value) >= self.least
+            self._drop(value, key, is_file=holder is value)
+        return plan.complete and len(value) >= self.place.least and self.required.isdisjoint(broken)
 
-    def _pattern(self, key: str) -> Check | None:
+    def _plan(self, keys: tuple[str, ...]) -> Plan:
+        """What follows from a list of keys; kept for the next mapping that has the same, if there are not too many."""
+        properties = self.properties or self._open()
+        checks = {key: properties.get(key) or self._pattern(key) for key in keys}
+        entries = ((key, *(_NOTHING if check is None else check.at_hand)) for key, check in checks.items())
+        missing = self._missing(keys)
+        plan = Plan(tuple(entries), tuple(missing.items()), not missing and len(keys) >= self.place.least)
+        if len(self.plans) < _MOST_PLANS:
+            self.plans[keys] = plan
+        return plan
+
+    def _pattern(self, key: str) -> ShapeCheck | None:
         for _, pattern, pattern_check in self.patterns:
             if pattern.search(key):
                 return pattern_check
         return self.additional
 
-    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
-        missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
-        for key, beside in self.needs.items():
+    def _missing(self, keys: tuple[str, ...]) -> dict[str, str]:
+        missing = {key: f"the key `{key}` is missing" for key in required(self.place) if key not in keys}
+        for key, beside in needs(self.place).items():
             for needed in beside:
-                if key in value and needed not in value:
+                if key in keys and needed not in keys:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
-        for key, message in missing.items():
-            report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
-        if len(value) < self.least:
-            report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
-        return not missing and len(value) >= self.least
+        return missing
 
-    def _drop(self, value: Map, key: str, is_file: bool) -> None:
+    def _unknown(self, value: Map, key: str, report: Report) -> None:
+        entry, known = value[key], [form for form, _, _ in self.patterns]
+        named = forms.NUMBER in known or forms.BITS in known
+        properties = self.properties or {}
+        hint = (reversed_hint(key, entry) if named else None) or key_hint(key, properties, known, entry)
+        report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
+
+    def _say_missing(self, plan: Plan, value: Map, span: Span, report: Report) -> None:
+        for key, message in plan.missing:
+            report.error("missing-key", message, span, f"add `{key}: …`")
+        if len(value) < self.place.least:
+            report.error("too-few", "the mapping is empty", span, "fill it or leave the key out")
+
+    def _drop(self, value: Map, key: str, *, is_file: bool) -> None:
         lost = value.file.lost
         if is_file or key == "points":
             lost.add(f"*{key}")  # a whole section
-        if key not in self.properties:
+        if key not in (self.properties or ()):
             lost.add(key)
         _remember_names(value[key], lost)
         del value[key]
