@@ -11,7 +11,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
 _BLANKS = (
     *map(chr, range(0xFDD0, 0xFDF0)),
@@ -39,11 +39,8 @@ class Pattern:
     def __init__(self, text: str) -> None:
         numbers = [_NUMBERS[blank[0][0]] for blank in _BLANK.finditer(text)]
         self._text = _BLANK.sub("%s", text.replace("%", "%%"))
-        self._order = numbers
-        self._words = itemgetter(*numbers) if len(numbers) > 1 else None
+        self._words: Callable[[Sequence[str]], object] = itemgetter(*numbers) if numbers else lambda _: ()
 
     def filled(self, words: Sequence[str]) -> str:
         """The text with these words, in the order in which the blanks were made."""
-        if self._words is None:
-            return self._text % tuple(words[number] for number in self._order)
         return self._text % self._words(words)

@@ -15,6 +15,8 @@ from support.places import TESTS
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.reading import State
+
 DEVICES = TESTS / "devices"
 COMMAND = ["generate", "device", "--out", "made", "--target", "c,docs"]
 
@@ -143,13 +145,17 @@ def test_a_relative_place_of_caches_is_none(place: Path, monkeypatch: pytest.Mon
 
 
 def test_a_full_disk_of_the_cache_is_ignored(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from fieldscribe.output import memory as room
+    from fieldscribe.output import writing
 
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+    replace = writing.replace
+
+    def full(path: Path, data: bytes, *by_way_of: str) -> State:
+        if path.is_relative_to(place / "cache"):
+            raise OSError(28, "No space left on device")
+        return replace(path, data, *by_way_of)
 
     memory(place).unlink()
-    monkeypatch.setattr(room, "replace", full)
+    monkeypatch.setattr(writing, "replace", full)
     assert main(COMMAND) == 0
     assert list((place / "cache/fieldscribe/runs").iterdir()) == []
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
+    NOWHERE,
     TYPES,
     Allowed,
     Block,
@@ -26,6 +27,7 @@ from fieldscribe.model import (
     Interval,
     Limit,
     Linear,
+    Named,
     Place,
     Point,
     ScaleCase,
@@ -33,6 +35,7 @@ from fieldscribe.model import (
     Source,
     Special,
     Unit,
+    Variant,
 )
 
 SOURCE = Source("manual", "Gruppe A", None, 780)
@@ -43,7 +46,7 @@ MILLISECOND = Unit("ms", "millisecond", "time")
 VOLT = Unit("V", "volt", "voltage")
 WATT = Unit("W", "watt", "power")
 CELSIUS = Unit("°C", "degree Celsius", "temperature")
-VARIANTS = ("voltage_class=200V", "voltage_class=400V")
+VARIANTS = (Variant("voltage_class", "200V"), Variant("voltage_class", "400V"))
 
 
 def titles(english: str, german: str | None = None) -> dict[str, str]:
@@ -85,7 +88,9 @@ _SHAPED = frozenset(one.name for one in fields(Shape))
 
 
 def changed(point: Point, **facts: Any) -> Point:
-    """The point with other facts, be they its own or of its shape."""
+    """The point with other facts, be they its own, of its place or of its shape."""
+    if "references" in facts:
+        facts["place"] = replace(point.place, references=facts.pop("references"))
     shaped = {key: value for key, value in facts.items() if key in _SHAPED}
     own = {key: value for key, value in facts.items() if key not in _SHAPED}
     bits = own.get("bits", point.bits)
@@ -110,8 +115,7 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
         code=None,
         group="main",
         space=space,
-        places=(Place("read", space, addresses, None),) if addresses else (),
-        references={"modicon": address + 1} if address is not None else {},
+        place=NOWHERE if address is None else Place(addresses, {"modicon": address + 1}),
         shape=shape,
         bits=None,
         title=titles(name.replace("_", " ").capitalize()),
@@ -290,7 +294,16 @@ ERRATA = (
         (("wire", "4137"),),
     ),
     Erratum("f001_address", ("setpoint_display",), "", SOURCE, "No address.", "at: ~", "An empty cell.", "unknown"),
-    Erratum("write_crc", (), "frame:write_base", SOURCE, "crc A8 54", "crc 0C 91", "The CRC of the bytes.", "certain"),
+    Erratum(
+        "write_crc",
+        (),
+        Named("frame", "write_base"),
+        SOURCE,
+        "crc A8 54",
+        "crc 0C 91",
+        "The CRC of the bytes.",
+        "certain",
+    ),
 )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import item_of
 from fieldscribe.resolve.drafts import groups
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str,
     for old in point.was:
         place = draft.span("was")
         if point.variant is not None:
-            yield where, replace(point, name=old).item, Thing(f"the old name `{old}` of {_short(draft)}", place)
+            yield where, item_of(old, point.variant), Thing(f"the old name `{old}` of {_short(draft)}", place)
         yield where, old, Thing(f"the old name `{old}` of `{point.name}`", place)
 
 

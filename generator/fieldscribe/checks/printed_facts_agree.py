@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Point
     from fieldscribe.resolve.points import Resolved
 
-_LOW = "low_"
+_LOW, _WRITE = "low_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}
 _NEEDS = {
     "range": {"range", "type"},
@@ -71,18 +71,24 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
-    """The point's number in every numbering of its group; `low_...` for the word with the low part."""
-    point, addresses = resolved.point, resolved.point.addresses
-    if not addresses:
-        return {}
-    first = addresses[0] if point.text is not None else min(addresses)
+    """The point's number in every numbering of its group.
+
+    `low_...` is for the word with the low part, `write_...` for where else the point is written.
+    """
     known: dict[str, int] = {}
-    for prefix, address in (("", first), (_LOW, addresses[-1] if len(addresses) > 1 else None)):
-        if address is not None:
-            known[prefix + WIRE] = address
-            numbered = subject.places.references(resolved.draft, address)
-            known.update({prefix + name: number for name, number in numbered.items()})
+    for place in resolved.point.places:
+        addresses, prefix = place.addresses, "" if place is resolved.point.place else _WRITE
+        known[prefix + WIRE] = first = addresses[0] if resolved.point.text is not None else min(addresses)
+        known |= _numbered(subject, resolved, first, prefix)
+        if len(addresses) > 1:
+            known[prefix + _LOW + WIRE] = addresses[-1]
+            known |= _numbered(subject, resolved, addresses[-1], prefix + _LOW)
     return known
+
+
+def _numbered(subject: Subject, resolved: Resolved, address: int, prefix: str) -> dict[str, int]:
+    numbers = subject.places.references(resolved.draft, address)
+    return {prefix + name: number for name, number in numbers.items()}
 
 
 def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, numbers: Mapping[str, int]) -> None:

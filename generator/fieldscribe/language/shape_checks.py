@@ -15,7 +15,6 @@ from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
     from fieldscribe.kinds import Form, Place, Shape, Text, Whole
 
 Check = Callable[[Any, Map | Seq, Any, Report], bool]
@@ -26,6 +25,7 @@ Broken keys and items are dropped from what holds them. Places are made only for
 Test = Callable[[Any], Any]
 """Whether a value is right, and nothing else: a method of C, for it is called for every value."""
 
+_YES_NO = {"yes": True, "no": False}
 _NAMING = ("name", "code", "id")
 _MOST_PLANS = 1000
 _BEYOND = 10**70
@@ -41,14 +41,23 @@ def compiled_pattern(pattern: str) -> re.Pattern[str]:
 class ShapeCheck:
     """Picks the check for the type of the value, if that is one of the `wanted` types; None takes every value.
 
-    A whole number may be written in every notation of numbers; from here on it is one. Values of the `free` types, and
-    those that pass the test of their type, are right: who holds many values asks these first.
+    A whole number may be written in every notation of numbers, and true and false as `yes` and `no`; from here on it is
+    a number, or true or false. Values of the `free` types, and those that pass the test of their type, are right: who
+    holds many values asks these first.
     """
 
-    __slots__ = ("checks", "example", "form", "free", "notation", "tests", "wanted")
+    __slots__ = ("checks", "example", "form", "free", "notation", "tests", "wanted", "yes_no")
 
-    def __init__(self, checks: Mapping[type, Check | None], wanted: str, example: Any, form: Form | None) -> None:
-        self.checks, self.wanted, self.example, self.form = checks, wanted, example, form
+    def __init__(
+        self,
+        checks: Mapping[type, Check | None],
+        wanted: str,
+        example: Any,
+        form: Form | None,
+        *,
+        yes_no: bool,
+    ) -> None:
+        self.checks, self.wanted, self.example, self.form, self.yes_no = checks, wanted, example, form, yes_no
         self.free = frozenset(kind for kind, check in checks.items() if check is None)
         self.tests: dict[type, Test] = {}
         self.notation = int in checks and str not in checks
@@ -57,12 +66,14 @@ class ShapeCheck:
         """Whether the value is right; a `Check`."""
         if self.notation and isinstance(value, str) and compiled_pattern(forms.WHOLE.pattern).search(value):
             value = holder[at] = parse_integer(value)
+        elif self.yes_no and isinstance(value, str) and value in _YES_NO:
+            value = holder[at] = _YES_NO[value]
         kind = type(value)
         if kind not in self.checks:
             self._wrong_type(value, holder, at, report)
             return False
         check = self.checks[kind]
-        if isinstance(check, TextCheck | NumberCheck):
+        if isinstance(check, NumberCheck) or (isinstance(check, TextCheck) and not self.yes_no):
             self.tests[kind] = check.fits
         return check is None or check(value, holder, at, report)
 
@@ -233,7 +244,12 @@ class KeysCheck:
                 return False
         if not broken and plan.complete:
             return True
-        self._say_missing(plan, value, holder.span(at), report)
+        deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
+        for key, message in plan.missing:
+            if key not in deeper:  # else it stands a level too deep, and the finding there says so
+                report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
+        if len(value) < self.place.least:
+            report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         for key in broken:
             self._drop(value, key, is_file=holder is value)
         return plan.complete and len(value) >= self.place.least and self.required.isdisjoint(broken)
@@ -269,12 +285,6 @@ class KeysCheck:
         properties = self.properties or {}
         hint = (reversed_hint(key, entry) if named else None) or key_hint(key, properties, known, entry)
         report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
-
-    def _say_missing(self, plan: Plan, value: Map, span: Span, report: Report) -> None:
-        for key, message in plan.missing:
-            report.error("missing-key", message, span, f"add `{key}: …`")
-        if len(value) < self.place.least:
-            report.error("too-few", "the mapping is empty", span, "fill it or leave the key out")
 
     def _drop(self, value: Map, key: str, *, is_file: bool) -> None:
         lost = value.file.lost

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
 from itertools import accumulate
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.reading import shown_path
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from fieldscribe.reading import Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
@@ -50,20 +51,12 @@ class SourceFile:
         return self._starts[line - 1] + column - 1
 
 
-def shown(path: Path) -> str:
-    """The path for people: relative to the working folder if it lies inside that."""
-    try:
-        return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
-    except ValueError:
-        return path.as_posix()
-
-
 def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
     """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes.
 
     `inputs` takes note of the bytes that were read.
     """
-    name = shown(path)
+    name = shown_path(path)
     data = _bytes(path, Span(name, 1, 1), report)
     if data is None:
         return None

@@ -50,32 +50,49 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A place of a point: purpose, space, addresses (of the high part first) and function."""
+    """Where a point is read or written: its addresses, that of the high part first, and the manual's numbers for it."""
 
-    purpose: str
-    space: str
     addresses: tuple[int, ...]
-    function: int | None
+    references: Mapping[str, int | str]
+
+
+NOWHERE = Place((), {})
+"""The place of a point whose address the manual does not print."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One value of one axis, as people write it: `axis=value`."""
+
+    axis: str
+    value: str
+
+    def __str__(self) -> str:
+        return f"{self.axis}={self.value}"
+
+
+def item_of(name: str, variant: Variant | None) -> str:
+    """The name in generated code: the plain name, and behind it the value of the variant."""
+    return name if variant is None else f"{name}_{variant.value.lower()}"
 
 
 @dataclass(frozen=True, slots=True)
 class Point:
     """One addressable datum: its identity, its shape and its limits.
 
-    `name` is unique except for variants: points of the same name differ in `variant` ("axis=value"). `places` is empty
-    if the manual prints no address. `bits` are its (high, low) bits of the word, None for whole words. `default` is the
-    factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
-    floating-point number has only the first. `steps` has pairs (from raw, step in raw). `generated` is False for a
-    point that is only documented; `reason` says why.
+    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
+    addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `bits` are
+    its (high, low) bits of the word, None for whole words. `default` is the factory setting in the unit, `default_raw`
+    its raw number: each is None if it depends on other points; a floating-point number has only the first. `steps` has
+    pairs (from raw, step in raw). `generated` is False for a point that is only documented; `reason` says why.
     """
 
     name: str
-    variant: str | None
+    variant: Variant | None
     code: str | None
     group: str
     space: str
-    places: tuple[Place, ...]
-    references: Mapping[str, int | str]
+    place: Place
     shape: Shape
     bits: tuple[int, int] | None
     title: Titles
@@ -102,6 +119,7 @@ class Point:
     telegram: str | None = None
     index: int | None = None
     changes_with: tuple[str, ...] = ()
+    write_place: Place | None = None
     untyped: str | None = None
     """What the manual says in place of a type; empty if it leaves the type open; None if the point has a type."""
 
@@ -134,7 +152,7 @@ class Point:
     @property
     def raw_only(self) -> bool:
         """Whether only its address is known, not the meaning of its words: it is read and written raw."""
-        return not (self.generated or self.reserved) and self.access != "none" and bool(self.places)
+        return not (self.generated or self.reserved) and self.access != "none" and bool(self.addresses)
 
     @property
     def words(self) -> int:
@@ -151,7 +169,12 @@ class Point:
     @property
     def addresses(self) -> tuple[int, ...]:
         """The addresses where the point is read (or else written), the high part first; may be empty."""
-        return self.places[0].addresses if self.places else ()
+        return self.place.addresses
+
+    @property
+    def references(self) -> Mapping[str, int | str]:
+        """The numbers that the manual prints for people, by numbering."""
+        return self.place.references
 
     @property
     def address(self) -> int | None:
@@ -159,11 +182,15 @@ class Point:
         return min(self.addresses) if self.addresses else None
 
     @property
-    def write_place(self) -> Place | None:
-        """The place where the point is written, which mostly is where it is read; None without an address."""
-        return next(
-            (place for place in self.places if place.purpose == "write"), self.places[0] if self.places else None
-        )
+    def written(self) -> Place:
+        """The place where the point is written, which mostly is where it is read."""
+        return self.write_place or self.place
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Where the point is read, and where else it is written; empty if the manual prints no address."""
+        apart = () if self.write_place is None else (self.write_place,)
+        return (self.place, *apart) if self.addresses else ()
 
     def special(self, raw: int) -> Special | None:
         """The special code with that raw number, if there is one."""
@@ -171,8 +198,8 @@ class Point:
 
     @property
     def item(self) -> str:
-        """The name in generated code: its name, and behind it the value of its variant."""
-        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+        """The name in generated code, with the value of its variant."""
+        return item_of(self.name, self.variant)
 
     @property
     def arguments(self) -> tuple[str, ...]:

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe import __version__
 from fieldscribe.output.cache import cache_dir
-from fieldscribe.output.writing import replace
 from fieldscribe.reading import read_regular, state_of
 from fieldscribe.resources import templates_dir
 
@@ -68,6 +67,8 @@ class Memory:
         """Remember the inputs and the state of the outputs; does nothing without a cache folder."""
         if self._place is None or _compiler() != self._compiler:
             return
+        from fieldscribe.output.writing import replace
+
         document = {
             "compiler": self._compiler,
             "inputs": {os.path.abspath(path): digest for path, digest in inputs.digests.items()},

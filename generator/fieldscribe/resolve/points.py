@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Interner, Place, Point, ScaleCase, Shape, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Interner, Point, ScaleCase, Shape, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
@@ -96,8 +96,8 @@ def _word(scope: Scope, draft: Draft, codes: SpecialCodes) -> Word:
 def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
     get, (places, ranges, interner) = draft.get, tools
     shape, allowed, paths = _meaning(scope, draft, word, places.access(draft, word.space), ranges)
-    place = places.place(draft, word.space, word.type, word.bits)
-    reason = _reason(draft, place is not None, shape.access, raw_alone=paths.raw_alone)
+    place, write_place = places.places(draft, word.space, word.type, word.bits)
+    reason = _reason(draft, bool(place.addresses), shape.access, raw_alone=paths.raw_alone)
     default, default_raw = default_of(scope, draft, shape)
     return Point(
         name=draft.name,
@@ -105,8 +105,8 @@ def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
         code=draft.code,
         group=str(draft.group["group"]),
         space=word.space,
-        places=() if place is None else (place,),
-        references=places.references(draft, None if place is None else _printed_address(place, word)),
+        place=place,
+        write_place=write_place,
         shape=interner.shape(shape),
         bits=word.bits,
         title=draft.title,
@@ -170,11 +170,6 @@ def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges
     )
     shown = display_of(draft, shape, ranges.bounds)
     return shape if shown is None else replace(shape, display=shown), allowed, paths
-
-
-def _printed_address(place: Place, word: Word) -> int:
-    """The address whose number manuals print: in a text that of the first characters, else the lowest."""
-    return place.addresses[0] if word.type == "text" else min(place.addresses)
 
 
 def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:

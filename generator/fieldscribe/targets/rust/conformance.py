@@ -118,11 +118,13 @@ def _bracketed(tokens: Tokens) -> Tokens:
 def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint]) -> Iterator[Table]:
     """The tables of the kinds for places, fixed bits, texts and digits, and for exchanges."""
     placed = (subject for subject in scope.subjects if _has_place(subject.point))
+    elsewhere = (subject for subject in scope.subjects if subject.point.write_place is not None)
     fixed = (subject for subject in scope.subjects if subject.point.fixed is not None)
     shown = [subject for subject in scope.subjects if subject.point.display is not None]
     alone = ("(alone)",)
     for kind, rows in (
         ("place", tuple(row_of(subject, alone) for subject in placed)),
+        ("write_address", tuple(row_of(subject, alone) for subject in elsewhere)),
         ("fixed", tuple(row_of(subject, alone) for subject in fixed)),
         ("display", tuple(row_of(subject, alone) for subject in shown)),
         ("told", tuple(row_of(subject, _bracketed(_arguments(*of_scale(subject)))) for subject in shown)),
@@ -146,7 +148,7 @@ def _newer(scope: CrateScope, texts: list[CratePoint], digits: list[CratePoint])
 def _exchanges(scope: CrateScope) -> Iterator[tuple[str, str, Tokens]]:
     """The kind, the runner's function and the row for each way in which each point is read or written."""
     for subject in scope.subjects:
-        if not subject.point.places:
+        if not subject.point.addresses:
             continue
         for kind, run, needs in _ways(subject, scope):
             arguments = [token for pair in needs for token in _bracketed(_arguments(*pair))]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.example import example_lines, example_uses
+from fieldscribe.targets.rust.example import example_of, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import Item, binding
 from fieldscribe.targets.rust.points import point_view
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
@@ -41,8 +41,8 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     """A point that is reached raw only: its item, and the lines of its constant."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    left = f"pub const {upper(point.item)}: runtime::Documented"
-    return point.item, binding(4, left, f"runtime::Documented::new({where})")
+    item = Item(f"pub const {upper(point.item)}", "runtime::Documented")
+    return point.item, binding(4, item, f"runtime::Documented::new({where})")
 
 
 def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
@@ -51,7 +51,7 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     words = tuple(flags_views(scope))
     enums = tuple(enum_views(device, scope))
     structs = tuple(arguments_views(scope))
-    of_family, example = in_rust(device.family), example_lines(device, scope)
+    of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
@@ -64,13 +64,13 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
-        "example": example,
+        "example": example.lines,
         "heard": heard,
-        "received": received,
-        "example_uses": example_uses(device.id, (*example, heard, *received), of_family.names),
+        "received": received.lines,
+        "example_uses": example_uses(device.id, example + received, of_family.names),
         "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
-        "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
+        "uses_runtime": any(point.names_runtime for point in points),
         "uses_flags": bool(words),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),

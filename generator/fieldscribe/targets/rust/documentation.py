@@ -70,16 +70,16 @@ def left_out(device: Device) -> tuple[str, ...]:
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
-    addresses = point.places[0].addresses if point.places else ()
     if point.code:
         yield rust_code(point.code)
-    if addresses:
+    if point.addresses:
         yield _place(point)
 
 
 def _place(point: Point) -> str:
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
-    where = f"{space} {address_text(min(point.places[0].addresses))}"
+    where = f"{space} {address_text(min(point.addresses))}"
+    where += "" if point.write_place is None else f" (written at {address_text(min(point.write_place.addresses))})"
     where += "" if point.index is None else f" index {point.index}"
     return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
@@ -101,7 +101,7 @@ def _facts(point: Point) -> Iterator[str]:
         yield display_text(point)
     yield access_text(point.access)
     if point.variant:
-        yield f"for {rust_code(point.variant)}"
+        yield f"for {rust_code(str(point.variant))}"
     if point.when:
         yield f"only when {rust_code(condition_text(point.when))}"
 

@@ -76,7 +76,7 @@ def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]
     wide = "" if point.encodes_values else "; wide true"
     within = ""
     if point.most_raw is not None:
-        low = "0" if subject.raw.startswith("u") else integer(-point.most_raw)
+        low = integer(-point.most_raw) if point.info.signed else "0"
         within = f"; within [{low}..={integer(point.most_raw)}]"
     lines = rule_lines(point, scope.lowered)
     if len(lines) == 1:

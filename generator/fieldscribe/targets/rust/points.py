@@ -11,7 +11,7 @@ from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.layout import binding, filled
+from fieldscribe.targets.rust.layout import Item, binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
@@ -29,12 +29,14 @@ _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
     """All that the templates need of a point."""
     point, code = subject.point, subject.point.code
+    traits = tuple(in_rust(scope.family).traits(subject, scope))
     return PointView(
         doc=point_doc(point, scope.errata),
         alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
         name=subject.name,
-        facts=tuple(_facts(subject, scope)),
-        was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
+        facts=(*_facts(subject, scope), *traits),
+        names_runtime=bool(traits) or _names_runtime(subject),
+        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), subject.name) for old in point.was),
     )
 
 
@@ -58,17 +60,25 @@ def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from in_rust(scope.family).traits(subject, scope)
+
+
+def _names_runtime(subject: CratePoint) -> bool:
+    """Whether the facts name items of the runtime: the type of a text, the check of digits, or rules."""
+    point = subject.point
+    checked = point.digits is not None or bool(subject.limits)
+    return point.text is not None or bool(subject.factors) or (point.writable and checked)
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
+    addresses = point.addresses
+    yield f"at {space_variant(point.space)} 0x{min(addresses):04X};"
     if len(addresses) > 1:
         yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
         yield f"words {point.words};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
     if point.index is not None:
         yield f"index {point.index};"
     if point.telegram is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -73,8 +73,8 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
     """The words with named bits."""
     for subject in scope.subjects:
         if subject.form == "flags":
-            point, bits = subject.point, subject.raw.replace("i", "u")
-            flags = tuple(_flag(flag, bits) for flag in point.flags)
+            point, bits = subject.point, f"u{subject.point.info.bits}"
+            flags = tuple(_flag(flag, point.info.bits) for flag in point.flags)
             low = sum(1 << flag.low for flag in point.flags if flag.width == 1 and not flag.active)
             yield FlagsView(
                 doc=sentence(point.item),
@@ -84,7 +84,7 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
                 false=mask(low, bits) if low else "0",
                 flags=flags,
                 shown=(
-                    *binding(4, "const NAME: &'static str", rust_string(subject.name)),
+                    *binding(4, Item("const NAME", "&'static str"), rust_string(subject.name)),
                     *_table(point.flags, flags),
                 ),
             )
@@ -92,7 +92,8 @@ def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
     """The constant that says how flags are shown, with the names of their numbers."""
-    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    item = Item("const FLAGS", "&'static [runtime::Flag]")
+    names, shown = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
         if view.values:
             names += _names(f"NAMES_{place}", flag)
@@ -101,14 +102,14 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
             made = "new" if view.active or not view.single else "active_low"
             shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
     if not names:
-        return calls(4, left, shown)
-    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+        return calls(4, item, shown)
+    return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
 
 
 def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
-    return calls(8, f"const {constant}: runtime::Names", rows)
+    return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
@@ -152,12 +153,12 @@ def _entry(entry: Entry, enum: str) -> EntryView:
     return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
 
 
-def _flag(flag: Flag, raw: str) -> FlagView:
-    ones = (1 << flag.width) - 1
+def _flag(flag: Flag, width: int) -> FlagView:
+    raw, ones = f"u{width}", (1 << flag.width) - 1
     bits = mask(ones << flag.low, raw)
     single = flag.width == 1
     constant = constant_name(flag)
-    full = ones << flag.low == (1 << int(raw[1:])) - 1
+    full = ones << flag.low == (1 << width) - 1
     masked = "self.0" if full else f"self.0 & Self::{constant}"
     number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
     placed = "number" if flag.low == 0 else f"(number << {flag.low})"
@@ -169,7 +170,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
         active=bool(flag.active),
         constant=constant,
-        constant_lines=binding(4, f"pub const {constant}: {raw}", bits),
+        constant_lines=binding(4, Item(f"pub const {constant}", raw), bits),
         getter=getter_name(flag.name),
         setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
         mask=bits,
@@ -182,7 +183,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         values=tuple(
             (
                 sentence(value.name),
-                binding(4, f"pub const {flag.name.upper()}_{value.name.upper()}: {raw}", integer(value.raw)),
+                binding(4, Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw), integer(value.raw)),
             )
             for value in (() if single else flag.values)
         ),

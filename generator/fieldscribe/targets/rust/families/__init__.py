@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.targets.rust.example import Snippet
 from fieldscribe.targets.rust.layout import filled
 
 if TYPE_CHECKING:
@@ -48,9 +49,9 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
-def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
     """For families whose devices send nothing unasked."""
-    return "", ()
+    return "", Snippet()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +73,7 @@ class OfFamily:
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
     names: tuple[str, ...] = ()
-    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
+    heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:
