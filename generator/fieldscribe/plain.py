@@ -6,10 +6,10 @@ Titles and notes change often. They reach only the documentation, so that vendor
 from __future__ import annotations
 
 import hashlib
-from dataclasses import fields, replace
 from functools import lru_cache
 
 from fieldscribe.model import Code, Device, Entry, Enum, Flag, Interner, Own, Point, Shape, Source, Special, Titles
+from fieldscribe.records import replace, values_of
 
 _NOWHERE = Source("", None, None, None)
 
@@ -69,7 +69,7 @@ def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
 
 def _own(own: Own) -> Own:
     """The facts of one family, with names as the titles of their codes."""
-    held = {fact.name: getattr(own, fact.name) for fact in fields(own)}
+    held = values_of(own)
     codes = {
         name: value
         for name, value in held.items()

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
+
+from fieldscribe.records import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)

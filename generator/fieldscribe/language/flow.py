@@ -190,4 +190,8 @@ class _Flow:
         if not self.several:
             return self.line, self.column + offset
         breaks = self.text.count("\n", 0, offset)
-        return (self.line + breaks, offset - self.text.rfind("\n", 0, offset)) if breaks else (self.line, self.column + offset)
+        return (
+            (self.line + breaks, offset - self.text.rfind("\n", 0, offset))
+            if breaks
+            else (self.line, self.column + offset)
+        )

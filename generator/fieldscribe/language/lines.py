@@ -9,13 +9,26 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.flow import BRACKETS, KEY, QUOTED, SIMPLE, WORD, DoubtError, Names, Scalars, flow_value, simple_map, unquoted
+from fieldscribe.language.flow import (
+    BRACKETS,
+    KEY,
+    QUOTED,
+    SIMPLE,
+    WORD,
+    DoubtError,
+    Names,
+    Scalars,
+    flow_value,
+    simple_map,
+    unquoted,
+)
 from fieldscribe.language.nodes import Map, Seq, unplaced_map, unplaced_seq
 from fieldscribe.language.scalars import WORDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.language.nodes import Value
     from fieldscribe.language.source import SourceFile
 
 _MOST_VALUES = 1_000_000
@@ -60,7 +73,7 @@ class _Reader:
     def __init__(self, source: SourceFile) -> None:
         self.source = source
         self.scalars, self.names = Scalars(), Names()
-        self.within: list[tuple[int, Map | Seq]] = []
+        self.within: list[tuple[int, Any]] = []
         self.opened: tuple[Map, str] | None = None
         """The mapping, and its key whose value starts on a line of its own."""
 
@@ -103,11 +116,9 @@ class _Reader:
         if line is None:
             raise DoubtError
         prefix, name, plain, brackets, quoted = line.groups()
-        value = plain or brackets or quoted
-        if name or value:
+        if name or plain or brackets or quoted:
             holder = self._holder(number, prefix, name)
-            if value and "\n" in value:
-                _deeper(value, len(prefix) if name else prefix.index("-"))
+            _deeper(text, len(prefix) if name else prefix.index("-"))
             if plain:
                 self._put(holder, name, self.scalars[plain])
             elif brackets:
@@ -116,31 +127,30 @@ class _Reader:
             elif quoted:
                 self._put(holder, name, unquoted(quoted))
             else:
-                self.opened = holder, self._put(holder, name, None)
+                self._put(holder, name, None)
+                self.opened = holder, self.names[name]
         elif prefix.strip():
             raise DoubtError
 
-    def _put(self, holder: Any, name: str | None, value: Any) -> str:
+    def _put(self, holder: Any, name: str | None, value: Value) -> None:
         """Add a value: with this key, or to a list."""
         if name is None:
             holder.append(value)
-            return ""
-        key = self.names[name]
-        if key in holder:
+        elif self.names[name] in holder:
             raise DoubtError
-        holder[key] = value
-        return key
+        else:
+            holder[self.names[name]] = value
 
     def _document(self) -> Iterator[Map]:
         """The document that ends here; nothing if it is empty."""
         if self.opened is not None:
             raise DoubtError
-        for _, root in self.within[:1]:
+        if self.within:
+            _, root = self.within[0]
             self.within = []
-            assert isinstance(root, Map)
             yield root
 
-    def _holder(self, line: int, prefix: str, name: str | None) -> Map | Seq:
+    def _holder(self, line: int, prefix: str, name: str | None) -> Any:
         """The mapping or list to which a line of this indentation belongs."""
         column, dash = len(prefix), prefix.find("-")
         if dash < 0:
@@ -164,7 +174,8 @@ class _Reader:
             if not within or within[-1][0] != column:
                 raise DoubtError
             return within[-1][1]
-        new = unplaced_map(self.source, (line, column + 1)) if kind is Map else unplaced_seq(self.source, (line, column + 1))
+        make: Any = unplaced_map if kind is Map else unplaced_seq
+        new = make(self.source, (line, column + 1))
         if self.opened is not None:
             mapping, key = self.opened
             if column < within[-1][0] + (kind is Map):
@@ -176,7 +187,7 @@ class _Reader:
         self._enter(column, new)
         return new
 
-    def _enter(self, column: int, node: Map | Seq) -> None:
+    def _enter(self, column: int, node: Any) -> None:
         if len(self.within) > _MOST_DEPTH:
             raise DoubtError
         self.within.append((column, node))
@@ -184,5 +195,5 @@ class _Reader:
 
 def _deeper(text: str, column: int) -> None:
     """Doubts a value whose further lines are not deeper than the line on which it starts."""
-    if any(len(below) - len(below.lstrip(" ")) <= column for below in text.split("\n")[1:]):
+    if any(len(below) - len(below.lstrip(" ")) <= column for below in text.split("\n")[1:-1]):
         raise DoubtError

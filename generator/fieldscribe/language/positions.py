@@ -104,7 +104,7 @@ def _items_of_block(text: str, start: int, indent: int) -> Iterator[int]:
     dash: int | None = start
     lines = item_line.finditer(text, start, ends.start() if ends else len(text))
     while dash is not None:
-        item = _BLANKS.match(text, dash + 1).end()
+        item = _end(_BLANKS, text, dash + 1)
         yield item if _KEY.match(text, item) else item + (text[item] in "\"'")
         line = next(lines, None)
         dash = line and line.end()
@@ -119,9 +119,15 @@ def _list_lines(indent: int) -> tuple[re.Pattern[str], re.Pattern[str]]:
 
 def _behind(text: str, colon: int) -> int:
     """Where the value behind a colon starts: on this line, behind its quote, or on the next one with something."""
-    value = _BELOW.match(text, colon).end()
+    value = _end(_BELOW, text, colon)
     on_line = text.count("\n", colon, value) == 0
     return value + (on_line and text[value] in "\"'")
+
+
+def _end(pattern: re.Pattern[str], text: str, start: int) -> int:
+    """Where the text ends that the pattern matches there."""
+    match = pattern.match(text, start)
+    return start if match is None else match.end()
 
 
 def _bare(key: str) -> str:

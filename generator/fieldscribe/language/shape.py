@@ -26,7 +26,7 @@ _PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
     BOOLEAN: ("true or false", (bool,)),
     NOTHING: ("~", (type(None),)),
 }
-_ANY = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
+_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 _made: dict[Shape, ShapeCheck] = {}
 
 

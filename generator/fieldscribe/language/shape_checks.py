@@ -229,7 +229,24 @@ class KeysCheck:
             return _check_aliased(self, value, holder, at, report)
         keys = tuple(value)
         plan = self.plans.get(keys) or self._plan(keys)
-        broken = []
+        broken = self._broken(plan, value, report)
+        if not broken and plan.complete:
+            return True
+        if report.full:
+            return False
+        deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
+        for key, message in plan.missing:
+            if key not in deeper:  # else it stands a level too deep, and the finding there says so
+                report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
+        if len(value) < self.place.least:
+            report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
+        for key in broken:
+            self._drop(value, key, is_file=holder is value)
+        return plan.complete and len(value) >= self.place.least and self.required.isdisjoint(broken)
+
+    def _broken(self, plan: Plan, value: Map, report: Report) -> list[str]:
+        """The keys that are unknown or whose values are wrong, as far as findings are kept."""
+        broken: list[str] = []
         for key, free, tests, check in plan.entries:
             entry = value[key]
             kind = type(entry)
@@ -241,18 +258,8 @@ class KeysCheck:
                 continue
             broken.append(key)
             if report.full:
-                return False
-        if not broken and plan.complete:
-            return True
-        deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
-        for key, message in plan.missing:
-            if key not in deeper:  # else it stands a level too deep, and the finding there says so
-                report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
-        if len(value) < self.place.least:
-            report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
-        for key in broken:
-            self._drop(value, key, is_file=holder is value)
-        return plan.complete and len(value) >= self.place.least and self.required.isdisjoint(broken)
+                break
+        return broken
 
     def _plan(self, keys: tuple[str, ...]) -> Plan:
         """What follows from a list of keys; kept for the next mapping that has the same, if there are not too many."""

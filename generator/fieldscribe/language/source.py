@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
 from itertools import accumulate
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.reading import shown_path
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,7 +47,9 @@ class SourceFile:
         """How many characters stand before a line and column."""
         line, column = place
         if not self._starts:
-            self._starts.extend(accumulate(map(len, self.text.split("\n")), lambda start, width: start + width + 1, initial=0))
+            self._starts.extend(
+                accumulate(map(len, self.text.split("\n")), lambda start, width: start + width + 1, initial=0)
+            )
         return self._starts[line - 1] + column - 1
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import TYPES, Allowed, Enum, Interner, Point, ScaleCase, Shape, Special, Unit
+from fieldscribe.records import dataclass, replace
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds

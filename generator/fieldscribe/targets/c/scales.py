@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT32, INT64
 from fieldscribe.lowered import plan_of
+from fieldscribe.records import dataclass
 from fieldscribe.targets.c.counts import count_fits, count_of_raw, linear, raw_of_count
 from fieldscribe.targets.c.literals import (
     bare,

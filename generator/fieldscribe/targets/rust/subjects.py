@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
 from fieldscribe.names import pascal
+from fieldscribe.records import dataclass
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:

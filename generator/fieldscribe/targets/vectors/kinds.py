@@ -8,9 +8,9 @@ line. A runner compares every field with something, except notes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors.numbers import bits64
 
 if TYPE_CHECKING:
