@@ -47,7 +47,7 @@ _GAP = r"[ ]*+(?:\n[ ]++)*"
 _PLAIN = r"""(?:[^\s\-?:,\[\]{}#&*!|>'"%@`]|-(?=[\w.]))[^\n:,\[\]{}#?]*+(?::(?=\w)[^\n:,\[\]{}#?]*+)*"""
 _FLAT = rf"\[{_PLAIN}(?:,[ ]{_PLAIN})*\]"
 _VALUE = rf"(?:(?:({_PLAIN})|({QUOTED})|({_FLAT})){_GAP}"
-WORD = r"[A-Za-z_\u00c0-\uffff]"
+WORD = "[A-Za-z_]"
 """Starts a text, or one of the words that mean something else: never a number."""
 _TEXT = rf"{WORD}[^\n:,\[\]{{}}#?]*+(?<! )(?=[,}}])"
 _PAIR = rf"[\w/]++: (?:{_TEXT}|{_PLAIN}|{_FLAT})"
@@ -58,7 +58,7 @@ ENTRY = re.compile(rf"{_GAP}({KEY}):[ ]{_GAP}{_VALUE}([,}}])|([\[{{]))")
 ITEM = re.compile(rf"{_GAP}{_VALUE}([,\]])|([\[{{]))")
 FOLLOWING = re.compile(rf"{_GAP}([,\]}}])")
 _BREAK, _ESCAPE = re.compile(r" *\n +"), re.compile(r"\\(.)")
-_EMPTY = re.compile(rf"{_GAP}[\]}}]")
+EMPTY = re.compile(rf"{_GAP}[\]}}]")
 
 
 def unquoted(text: str) -> str:
@@ -181,7 +181,7 @@ class _Flow:
 
     def _end(self, result: Map | Seq, end: int) -> int:
         """Where a mapping or list without entries ends."""
-        empty = _EMPTY.match(self.text, end)
+        empty = EMPTY.match(self.text, end)
         if result or empty is None or (empty[0][-1] == "}") != isinstance(result, Map):
             raise DoubtError
         return empty.end()

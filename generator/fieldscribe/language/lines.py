@@ -52,7 +52,7 @@ _OTHER_LINE = re.compile(
 
 def plain_documents(source: SourceFile) -> list[Map] | None:
     """The documents of a file that is plain and has one at least; None if PyYAML must read it."""
-    if not _may_be_plain(source.text):
+    if not _may_be_plain(source):
         return None
     try:
         return list(_Reader(source).documents()) or None
@@ -60,9 +60,10 @@ def plain_documents(source: SourceFile) -> list[Map] | None:
         return None
 
 
-def _may_be_plain(text: str) -> bool:
-    """Whether there are no characters that YAML takes in a way of its own, and no more values than it may have."""
-    if text.count("\n---") > _MOST_DOCUMENTS or not text.replace("\n", "").isprintable():
+def _may_be_plain(source: SourceFile) -> bool:
+    """Whether no character is strange, and there are surely no more values and documents than a file may have."""
+    text = source.text
+    if not source.printable or text.count("\n---") > _MOST_DOCUMENTS:
         return False
     return len(text) < _MOST_VALUES or sum(map(text.count, ",:[\n")) < _MOST_VALUES
 

@@ -6,7 +6,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.flow import BRACKETS, ENTRY, FOLLOWING, ITEM, KEY
+from fieldscribe.language.flow import EMPTY, ENTRY, FOLLOWING, ITEM, KEY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,34 +48,36 @@ class _Where:
 
 def _keys_in_braces(text: str, start: int) -> Iterator[tuple[int, int, int]]:
     """Offset and width of each key, and the offset of its value."""
-    at, stop = start + 1, ","
-    while stop == "," and (entry := ENTRY.match(text, at)) is not None:
-        value, at, stop = _value(text, entry, 2)
+    for entry, value in _in_brackets(text, start)[0]:
         yield entry.start(1), len(entry[1]), value
 
 
 def _items_in_brackets(text: str, start: int) -> Iterator[int]:
-    at, stop = start + 1, ","
-    while stop == "," and (item := ITEM.match(text, at)) is not None:
-        value, at, stop = _value(text, item, 1)
-        yield value
+    return (value for _, value in _in_brackets(text, start)[0])
 
 
-def _value(text: str, entry: re.Match[str], group: int) -> tuple[int, int, str]:
-    """Where a value in brackets starts, behind its quote; where the next one does, and what stands before that."""
-    plain, quoted, flat, stop, opening = range(group, group + 5)
+def _in_brackets(text: str, start: int) -> tuple[list[tuple[re.Match[str], int]], int]:
+    """Each entry with the offset of its value, behind the quote; and where the closing bracket ends."""
+    pattern, plain = (ENTRY, 2) if text[start] == "{" else (ITEM, 1)
+    entries: list[tuple[re.Match[str], int]] = []
+    at, following = start + 1, pattern.match(text, start + 1)
+    while following is not None:
+        value, at, goes_on = _value(text, following, plain)
+        entries.append((following, value))
+        following = pattern.match(text, at) if goes_on else None
+    empty = None if entries else EMPTY.match(text, at)
+    return entries, at if empty is None else empty.end()
+
+
+def _value(text: str, entry: re.Match[str], plain: int) -> tuple[int, int, bool]:
+    """Where a value in brackets starts, where what follows it does, and whether that is an entry; `plain` is a group."""
+    quoted, flat, stop, opening = range(plain + 1, plain + 5)
     if entry[opening] is None:
         value = next(entry.start(kind) for kind in (plain, quoted, flat) if entry[kind] is not None)
-        return value + (entry[quoted] is not None), entry.end(), entry[stop]
-    start = entry.start(opening)
-    inner = _brackets().match(text, start)
-    following = inner and FOLLOWING.match(text, inner.end())
-    return (start, following.end(), following[1]) if following else (start, len(text), "")
-
-
-@cache
-def _brackets() -> re.Pattern[str]:
-    return re.compile(BRACKETS)
+        return value + (entry[quoted] is not None), entry.end(), entry[stop] == ","
+    _, end = _in_brackets(text, entry.start(opening))
+    following = FOLLOWING.match(text, end)
+    return entry.start(opening), _end(FOLLOWING, text, end), following is not None and following[1] == ","
 
 
 def _keys_of_block(text: str, start: int, indent: int) -> Iterator[tuple[int, int, int]]:

@@ -23,21 +23,26 @@ MOST_BYTES = 16 * 1024 * 1024
 
 @cache
 def _no_yaml() -> re.Pattern[str]:
-    """The characters that YAML forbids. Compiled on first use, for that takes as long as all other imports."""
+    """The characters that YAML forbids. Compiled on first use, for that takes as long as many imports."""
     return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class SourceFile:
     """A file's text; `name` is its path as shown to people, relative to where they called from if possible.
 
-    `lost` collects names in dropped values, so that they are not reported as unknown too.
+    `lost` collects names in dropped values, so that they are not reported as unknown too. In a `printable` text is no
+    character that YAML forbids, or takes for a line break of another kind.
     """
 
     name: str
     text: str
-    lost: set[str] = field(default_factory=set, compare=False)
-    _starts: list[int] = field(default_factory=list, compare=False, repr=False)
+    lost: set[str] = field(default_factory=set)
+    printable: bool = False
+    _starts: list[int] = field(default_factory=list, repr=False)
+
+    def __post_init__(self) -> None:
+        self.printable = self.text.replace("\n", "").isprintable()
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
         """A place in this file."""
@@ -64,7 +69,7 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
         return None
     if inputs is not None:
         inputs.note(path, data)
-    return _decoded(name, data, report)
+    return decoded(name, data, report)
 
 
 def _bytes(path: Path, start: Span, report: Report) -> bytes | None:
@@ -85,7 +90,8 @@ def _bytes(path: Path, start: Span, report: Report) -> bytes | None:
     return None
 
 
-def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
+def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
+    """The text of these bytes, or None and a finding."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -99,7 +105,7 @@ def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
     source = SourceFile(name, text)
-    strange = _no_yaml().search(text)
+    strange = None if source.printable else _no_yaml().search(text)
     if strange is None:
         return source
     start = strange.start()
