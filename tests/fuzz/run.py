@@ -1,6 +1,7 @@
 """Throws mutated descriptions, frames and words at everything that reads them, and prints what came of it.
 
-    .venv/bin/python tests/fuzz/run.py [--seed 1] [--mutants 20000] [--readings 2000] [--frames 1000000] [--lines 3000] [--keep DIR]
+    .venv/bin/python tests/fuzz/run.py [--seed 1] [--keep DIR]
+        [--mutants 20000] [--readings 2000] [--frames 1000000] [--lines 3000]
 
 The same seed makes the same cases. Frames go through the parsers in C (with the sanitizers of gcc and clang), Rust
 (with overflow checks and debug assertions) and Python, which must all say the same. Cases that went wrong are kept in

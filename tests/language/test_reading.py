@@ -105,7 +105,9 @@ def test_what_is_not_plain_is_left_to_pyyaml(text: str) -> None:
 def test_places_are_those_of_the_text() -> None:
     """Of a key in a list below another one, and of what stands in brackets on several lines, counted by hand."""
     text = 'a: 1\nlist:\n# more\n- x: "y"  # why\n  deep: {k: [1, 2],\n         l: \'m\'}\n- x: z\nb:\n  - 5\n  - "6"\n'
-    (root,) = plain_documents(SourceFile("a.yaml", text)) or ()
+    documents = plain_documents(SourceFile("a.yaml", text))
+    assert documents is not None
+    (root,) = documents
     assert root.places == {"a": (1, 1, 1, 4), "list": (2, 1, 4, 1), "b": (8, 1, 9, 3)}
     first, second = root["list"]
     assert (first.at, second.at) == ((4, 3), (7, 3))

@@ -49,9 +49,8 @@ _FLAT = rf"\[{_PLAIN}(?:,[ ]{_PLAIN})*\]"
 _VALUE = rf"(?:(?:({_PLAIN})|({QUOTED})|({_FLAT})){_GAP}"
 WORD = "[A-Za-z_]"
 """Starts a text, or one of the words that mean something else: never a number."""
-_TEXT = rf"{WORD}[^\n:,\[\]{{}}#?]*+(?<! )(?=[,}}])"
-_PAIR = rf"[\w/]++: (?:{_TEXT}|{_PLAIN}|{_FLAT})"
-_PAIRS = re.compile(rf"([\w/]++): (?:({_TEXT})|({_PLAIN})|({_FLAT}))")
+_PAIR = rf"[\w/]++: (?:{_PLAIN}(?<! )|{_FLAT})"
+_PAIRS = re.compile(rf"([\w/]++): (?:({_PLAIN})|({_FLAT}))")
 SIMPLE = rf"\{{{_PAIR}(?:, {_PAIR})*\}}"
 ENTRY = re.compile(rf"{_GAP}({KEY}):[ ]{_GAP}{_VALUE}([,}}])|([\[{{]))")
 """Key, then a plain scalar, a quoted one or a list of plain ones, and what follows it; or the bracket that it opens."""
@@ -78,18 +77,21 @@ def flow_value(text: str, source: SourceFile, line: int, column: int, scalars: S
 def simple_map(text: str, source: SourceFile, line: int, column: int, scalars: Scalars) -> Map:
     """A mapping of one line, of plain scalars and lists of them: what is `SIMPLE`."""
     result = unplaced_map(source, (line, column))
-    pairs = _PAIRS.findall(text)
-    start = 0
-    for key, word, plain, flat in pairs:
-        if word:
-            result[intern(key)] = WORDS.get(word, word)
-            continue
-        if plain:
-            result[intern(key)] = scalars[plain]
-            continue
-        start = text.index("[", start + 1)
-        items = result[intern(key)] = unplaced_seq(source, (line, column + start))
-        items.extend(map(scalars.__getitem__, flat[1:-1].split(", ")))
+    if "[" in text:
+        pairs = _PAIRS.findall(text)
+        start = 0
+        for key, plain, flat in pairs:
+            if plain:
+                result[intern(key)] = scalars[plain]
+                continue
+            start = text.index("[", start + 1)
+            items = result[intern(key)] = unplaced_seq(source, (line, column + start))
+            items.extend(map(scalars.__getitem__, flat[1:-1].split(", ")))
+    else:
+        pairs = text[1:-1].split(", ")
+        for pair in pairs:
+            key, _, plain = pair.partition(": ")
+            result[intern(key)] = WORDS.get(plain, plain) if plain[0].isalpha() else scalars[plain]
     if len(result) < len(pairs):
         raise DoubtError
     return result
@@ -110,15 +112,20 @@ BRACKETS = _balanced()
 class _Flow:
     """One text, and the place where it starts."""
 
-    __slots__ = ("column", "line", "scalars", "several", "source", "text")
+    __slots__ = ("column", "depth", "line", "scalars", "several", "source", "text")
 
     def __init__(self, text: str, source: SourceFile, line: int, column: int, scalars: Scalars) -> None:
         self.text, self.source, self.line, self.column, self.scalars = text, source, line, column, scalars
-        self.several = "\n" in text
+        self.several, self.depth = "\n" in text, 0
 
     def value(self, start: int) -> tuple[Map | Seq, int]:
         """The mapping or list whose bracket stands there, and where it ends."""
-        return self._mapping(start) if self.text[start] == "{" else self._list(start)
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise DoubtError
+        result = self._mapping(start) if self.text[start] == "{" else self._list(start)
+        self.depth -= 1
+        return result
 
     def _mapping(self, start: int) -> tuple[Map, int]:
         result = unplaced_map(self.source, self._place(start))

@@ -45,7 +45,7 @@ _LINE = re.compile(
 in its brackets or quotes."""
 _OTHER_LINE = re.compile(
     rf"([ ]*+(?:-[ ]++)?)(?:({KEY}):(?:[ ]++|(?=\n)))?"
-    rf"(?:({_PLAIN})|(?<![ ][ ])({BRACKETS})|({QUOTED}))?[ ]*+(?:(?<![^ \n])#[^\n]*+)?\n"
+    rf"(?:({_PLAIN})|(?<![ ][ ])([\[{{](?s:.)*[\]}}])|({QUOTED}))?[ ]*+(?:(?<![^ \n])#[^\n]*+)?\n"
 )
 """The same, but the key may be missing, the value may be any, and a comment may follow."""
 

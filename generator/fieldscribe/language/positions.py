@@ -70,7 +70,7 @@ def _in_brackets(text: str, start: int) -> tuple[list[tuple[re.Match[str], int]]
 
 
 def _value(text: str, entry: re.Match[str], plain: int) -> tuple[int, int, bool]:
-    """Where a value in brackets starts, where what follows it does, and whether that is an entry; `plain` is a group."""
+    """Where a value in brackets starts, where what follows it does, and whether that is an entry."""
     quoted, flat, stop, opening = range(plain + 1, plain + 5)
     if entry[opening] is None:
         value = next(entry.start(kind) for kind in (plain, quoted, flat) if entry[kind] is not None)

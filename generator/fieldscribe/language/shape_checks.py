@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import form_hint, key_hint, nearest, quoted, shown, type_hint
@@ -17,13 +17,24 @@ from fieldscribe.language.numbers import parse_integer
 if TYPE_CHECKING:
     from fieldscribe.kinds import Form, Place, Shape, Text, Whole
 
-Check = Callable[[Any, Map | Seq, Any, Report], bool]
-"""Value, what holds it, its key or index there (None: it is the file itself), and the report: whether it has the shape.
-
-Broken keys and items are dropped from what holds them. Places are made only for findings.
-"""
 Test = Callable[[Any], Any]
-"""Whether a value is right, and nothing else: a method of C, for it is called for every value."""
+"""Whether a value is right, and nothing else. What it does not take may still be right."""
+
+
+class Check(Protocol):
+    """Says whether a value has the shape, and what is wrong; what is broken is dropped from what holds it.
+
+    It is called with the value, what holds it, its key or index there (None: it is the file itself), and the report.
+    Nearly all values are right: `fits` is asked first, and places are made only for findings.
+    """
+
+    @property
+    def fits(self) -> Test:
+        """Whether a value surely is right."""
+
+    def __call__(self, value: Any, holder: Map | Seq, at: Any, report: Report, /) -> bool:
+        """Whether the value is right; else there is a finding."""
+
 
 _YES_NO = {"yes": True, "no": False}
 _NAMING = ("name", "code", "id")
@@ -73,9 +84,11 @@ class ShapeCheck:
             self._wrong_type(value, holder, at, report)
             return False
         check = self.checks[kind]
-        if isinstance(check, NumberCheck) or (isinstance(check, TextCheck) and not self.yes_no):
+        if check is None:
+            return True
+        if not (self.yes_no and kind is str):
             self.tests[kind] = check.fits
-        return check is None or check(value, holder, at, report)
+        return check(value, holder, at, report)
 
     @property
     def at_hand(self) -> tuple[frozenset[type], dict[type, Test], ShapeCheck]:
@@ -164,6 +177,17 @@ class ItemsCheck:
     def __init__(self, item: ShapeCheck, least: int) -> None:
         self.item, self.least = item, least
 
+    def fits(self, value: Seq) -> bool:
+        """Whether all items surely are right."""
+        free, tests, _ = self.item.at_hand
+        if value.uses is not None or len(value) < self.least:
+            return False
+        for element in value:
+            kind = type(element)
+            if kind not in free and not (kind in tests and tests[kind](element)):
+                return False
+        return True
+
     def __call__(self, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Whether the list is right; a `Check`."""
         if value.uses is not None:
@@ -222,6 +246,18 @@ class KeysCheck:
         self.additional = None if other is None else check_of(other)
         self.required = frozenset(required(place))
         return self.properties
+
+    def fits(self, value: Map) -> bool:
+        """Whether such keys were met before, and all values surely are right."""
+        plan = self.plans.get(tuple(value))
+        if plan is None or not plan.complete or value.uses is not None:
+            return False
+        for key, free, tests, _ in plan.entries:
+            entry = value[key]
+            kind = type(entry)
+            if kind not in free and not (kind in tests and tests[kind](entry)):
+                return False
+        return True
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Whether the mapping is right; a `Check`."""
