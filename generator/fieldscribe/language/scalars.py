@@ -16,12 +16,15 @@ WORDS: dict[str, bool | None] = {
     **dict.fromkeys(("false", "False", "FALSE"), False),
 }
 _NUMBER_STARTS = frozenset("-+.0123456789")
+_NUMBER_ENDS = frozenset(".0123456789abcdefABCDEF")
 
 
 def scalar(text: str) -> int | Decimal | bool | str | None:
     """A plain scalar by the rules of the YAML 1.2 core schema; infinities and overlong numbers stay text."""
     if text[:1] not in _NUMBER_STARTS:
         return WORDS.get(text, text)
+    if text[-1] not in _NUMBER_ENDS:
+        return text
     number = _NUMBER.fullmatch(text)
     if number is None or len(text) > MOST_DIGITS:
         return text
