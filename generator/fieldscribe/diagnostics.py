@@ -72,6 +72,11 @@ class Report:
         )
 
     @property
+    def count(self) -> int:
+        """How many findings there are."""
+        return len(self._findings)
+
+    @property
     def has_errors(self) -> bool:
         """Whether one of the findings is an error, so that nothing may be compiled."""
         return any(finding.severity == "error" for finding in self._findings)

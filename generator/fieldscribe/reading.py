@@ -38,16 +38,18 @@ class Content(NamedTuple):
 
 
 class Inputs:
-    """The files that a run has read, with the checksum of the very bytes that it compiled."""
+    """The files that a run has read, with the checksum of the very bytes that it compiled and their state then."""
 
     def __init__(self) -> None:
         self.digests: dict[Path, str] = {}
+        self.states: dict[Path, State] = {}
 
-    def note(self, path: Path, data: bytes) -> None:
-        """Remember the checksum of the bytes that were read from this file."""
+    def note(self, path: Path, content: Content) -> None:
+        """Remember what was read from this file."""
         from hashlib import sha256
 
-        self.digests[path] = sha256(data).hexdigest()
+        self.digests[path] = sha256(content.data).hexdigest()
+        self.states[path] = content.state
 
 
 def shown_path(path: Path) -> str:

@@ -46,7 +46,8 @@ def dataclass(*, frozen: bool = False, slots: bool = False, eq: bool = True) -> 
         own = {name: _field_of(said.get(name, _UNSAID)) for name in said.get("__annotations__", ())}
         fields: dict[str, _Field] = {**getattr(plain, "__fields__", {}), **own}
         space = {name: value for name, value in said.items() if name not in own and name not in _OF_THE_PLAIN_CLASS}
-        shared: dict[str, Any] = {"__fields__": fields, "__match_args__": tuple(fields), "__repr__": _shown}
+        shared: dict[str, Any] = {"__fields__": fields, "__match_args__": tuple(fields)}
+        shared["__repr__"] = _showing(plain.__qualname__, tuple(name for name in fields if fields[name].named))
         shared["__dataclass_fields__"] = _StandardFields()
         shared |= _comparing(tuple(name for name in fields if fields[name].compare), frozen=frozen) if eq else {}
         slotted = {"__slots__": tuple(own)} if slots else {}
@@ -99,7 +100,7 @@ def _compiled(owner: Any) -> Callable[..., None]:
 
 def _comparing(names: tuple[str, ...], *, frozen: bool) -> dict[str, Any]:
     """What compares objects by these attributes, and hashes those that are frozen."""
-    values: Callable[[Any], Any] = attrgetter(*names) if names else type
+    values = _values(names)
 
     def __eq__(self: object, other: object) -> bool:  # noqa: N807  # it is a method
         return values(self) == values(other) if type(self) is type(other) else NotImplemented
@@ -110,9 +111,17 @@ def _comparing(names: tuple[str, ...], *, frozen: bool) -> dict[str, Any]:
     return {"__eq__": __eq__, "__hash__": __hash__ if frozen else None}
 
 
-def _shown(self: Any) -> str:
-    said = (f"{name}={getattr(self, name)!r}" for name, entry in self.__fields__.items() if entry.named)
-    return f"{type(self).__qualname__}({', '.join(said)})"
+def _showing(name: str, names: tuple[str, ...]) -> Callable[[object], str]:
+    """What shows an object with these attributes."""
+    values, form = _values(names), f"{name}({', '.join(f'{name}=%r' for name in names)})"
+    return lambda self: form % values(self)
+
+
+def _values(names: tuple[str, ...]) -> Callable[[object], tuple[Any, ...]]:
+    """What gives the values of these attributes."""
+    if len(names) > 1:
+        return attrgetter(*names)
+    return lambda self: tuple(getattr(self, name) for name in names)
 
 
 class _StandardFields:

@@ -356,7 +356,7 @@ def test_blocks_keep_several_words_together() -> None:
 
 
 def test_blocks_cross_reserved_addresses_but_no_unknown_ones() -> None:
-    reserved = replace(at(11), generated=False, reserved=True)
+    reserved = changed(at(11), generated=False, reserved=True)
     assert planned([at(10), reserved, at(12)]) == [(10, 3, ("p10", "p12"))]
     assert planned([at(10), at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
     write_only = changed(at(11), access="w")
@@ -365,7 +365,7 @@ def test_blocks_cross_reserved_addresses_but_no_unknown_ones() -> None:
 
 
 def test_blocks_do_not_cross_gaps() -> None:
-    points = [at(10), replace(at(11), generated=False), at(12)]
+    points = [at(10), changed(at(11), generated=False), at(12)]
     assert planned(points, gaps={"holding": ((11, 11),)}) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
     assert planned(points, gaps={"coil": ((11, 11),)}) == [(10, 3, ("p10", "p12"))]
 
@@ -398,7 +398,7 @@ def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
         (12, 1, ("p11",)),
         (13, 1, ("p13",)),
     ]
-    reserved = replace(at(11), generated=False, reserved=True, when=large)
+    reserved = changed(at(11), generated=False, reserved=True, when=large)
     assert planned([at(10), reserved, at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
 
 

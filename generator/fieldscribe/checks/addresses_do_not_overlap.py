@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.checks.meetings import Meetings
 from fieldscribe.resolve.points import Resolved
@@ -27,8 +27,8 @@ Taken = dict[_Key, list[Resolved]]
 def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
-    told_rows: set[int] = set()
-    meetings = Meetings(subject)
+    known = _Known(Meetings(subject), set())
+    gaps = any(subject.bus.gaps.values())
     for resolved in subject.resolved:
         if subject.report.full:
             return
@@ -36,30 +36,47 @@ def check(subject: Subject) -> None:
             continue
         for address, key in _stands(resolved.point):
             others = taken.setdefault(_key(subject, resolved.point, address), [])
-            fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
-            rivals = [
-                other
-                for other in fresh
-                if other is not resolved
-                and _overlap(resolved.point, other.point)
-                and not meetings.never(resolved, other)
-            ]
-            if rivals:
-                _report_overlap(subject, resolved, rivals, address, key)
-            told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
-            if len(fresh) == _MOST:
-                message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
-                subject.report.error("too-many-items", message, resolved.draft.span(key), "nobody needs so many")
+            if others:
+                _compare(subject, resolved, others, (address, key), known)
             others.append(resolved)
-            _gap(subject, resolved, address, key)
+            if gaps:
+                _gap(subject, resolved, address, key)
     _commands(subject, taken)
+
+
+class _Known(NamedTuple):
+    """Which points can meet, and the rows of the manual whose overlaps are told."""
+
+    meetings: Meetings
+    told_rows: set[int]
+
+
+def _compare(
+    subject: Subject, resolved: Resolved, others: list[Resolved], stands: tuple[int, str], known: _Known
+) -> None:
+    """Findings for bits of an address that the others there have, too."""
+    meetings, told_rows = known
+    address, key = stands
+    fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
+    rivals = [
+        other
+        for other in fresh
+        if other is not resolved and _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
+    ]
+    if rivals:
+        _report_overlap(subject, resolved, rivals, address, key)
+    told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
+    if len(fresh) == _MOST:
+        message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
+        subject.report.error("too-many-items", message, resolved.draft.span(key), "nobody needs so many")
 
 
 def _stands(point: Point) -> Iterator[tuple[int, str]]:
     """The addresses where the point is read, and those where else it is written, with the keys that say them."""
-    for place in point.places:
-        for address in place.addresses:
-            yield address, "at" if place is point.place else "write_at"
+    for address in point.place.addresses:
+        yield address, "at"
+    for address in () if point.write_place is None else point.write_place.addresses:
+        yield address, "write_at"
 
 
 def _stands_here(other: Resolved, address: int) -> tuple[Span, str]:
@@ -70,8 +87,9 @@ def _stands_here(other: Resolved, address: int) -> tuple[Span, str]:
 
 
 def _key(subject: Subject, point: Point, address: int) -> _Key:
-    indexed = point.space in subject.scope.family.indexed
-    return point.space, point.telegram, (point.index or 0) if indexed else 0, address
+    terms = point.terms
+    index = point.index if point.index and terms.space in subject.scope.family.indexed else 0
+    return terms.space, terms.telegram, index, address
 
 
 def _place_in_words(subject: Subject, point: Point, address: int) -> str:

@@ -90,7 +90,9 @@ def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carrie
 
 def _whole_word(point: Point) -> Point:
     """The point, or the whole word that it has a few bits of, as a point."""
-    return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
+    if point.bits is None:
+        return point
+    return replace(point, terms=replace(point.terms, bits=None), shape=replace(point.shape, type="u16", width=16))
 
 
 def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:

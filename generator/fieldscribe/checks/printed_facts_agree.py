@@ -52,6 +52,8 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
     draft = resolved.draft
     unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
     for key, value in printed.items():
+        if key not in _NEEDS and _is_number(value, _plain_number(resolved.point, key)):
+            continue
         span = printed.span(key)
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
@@ -68,6 +70,30 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
         else:
             numbers = _numbers(subject, resolved) if numbers is None else numbers
             _number(subject, resolved, key, printed, numbers)
+
+
+def _plain_number(point: Point, key: str) -> int | str | None:
+    """The point's number in a numbering of its group, or its address; None where that needs a closer look."""
+    if key != WIRE:
+        return point.references.get(key)
+    return None if not point.addresses else point.addresses[0] if point.text is not None else min(point.addresses)
+
+
+def _is_number(value: object, number: int | str | None) -> bool:
+    """Whether all that is printed is plainly this number: decimal, or hexadecimal with an `h`."""
+    if isinstance(value, int):
+        return value == number
+    if isinstance(value, Seq):
+        return all(_is_number(item, number) for item in value)
+    digits = (
+        value[:-1]
+        if isinstance(value, str) and value[-1:] in ("h", "H") and value.isalnum() and value.isascii()
+        else ""
+    )
+    try:
+        return int(digits, 16) == number
+    except ValueError:
+        return False
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:

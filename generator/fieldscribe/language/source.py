@@ -15,7 +15,7 @@ from fieldscribe.records import dataclass, field
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.reading import Inputs
+    from fieldscribe.reading import Content, Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
@@ -64,19 +64,19 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
     `inputs` takes note of the bytes that were read.
     """
     name = shown_path(path)
-    data = _bytes(path, Span(name, 1, 1), report)
-    if data is None:
+    content = _content(path, Span(name, 1, 1), report)
+    if content is None:
         return None
     if inputs is not None:
-        inputs.note(path, data)
-    return decoded(name, data, report)
+        inputs.note(path, content)
+    return decoded(name, content.data, report)
 
 
-def _bytes(path: Path, start: Span, report: Report) -> bytes | None:
+def _content(path: Path, start: Span, report: Report) -> Content | None:
     from fieldscribe.reading import UnfitFileError, read_regular
 
     try:
-        return read_regular(path, MOST_BYTES).data
+        return read_regular(path, MOST_BYTES)
     except UnfitFileError as error:
         if error.errno == EFBIG:
             message = f"the file is larger than {MOST_BYTES >> 20} MiB"

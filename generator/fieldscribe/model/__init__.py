@@ -19,7 +19,7 @@ from fieldscribe.model.device import (
 )
 from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
-from fieldscribe.model.point import NOWHERE, Place, Point, Source, Unit, Variant, item_of
+from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Shape
 
@@ -59,6 +59,7 @@ __all__ = [
     "Source",
     "Special",
     "Telegram",
+    "Terms",
     "Text",
     "Titles",
     "TypeInfo",

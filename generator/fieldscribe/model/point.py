@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from fractions import Fraction
+    from typing import Self
 
     from fieldscribe.existence import Condition
     from fieldscribe.model.numbers import Special, Titles
@@ -18,16 +19,20 @@ if TYPE_CHECKING:
 Fact = TypeVar("Fact")
 
 
-class _Shared(Generic[Fact]):
-    """A fact of the shape as an attribute of the point: its users need not know which facts are shared."""
+class _Shared(property, Generic[Fact]):
+    """A fact of the shape or the terms as an attribute of the point: its users need not know which facts are shared."""
 
-    __slots__ = ("_of",)
+    if TYPE_CHECKING:
 
-    def __init__(self, of: Callable[[Shape], Fact]) -> None:
-        self._of = of
+        def __init__(self, of: Callable[[Point], Fact]) -> None: ...
 
-    def __get__(self, point: Point, _: object) -> Fact:
-        return self._of(point.shape)
+        @overload
+        def __get__(self, point: None, owner: type, /) -> Self: ...
+
+        @overload
+        def __get__(self, point: object, owner: type | None = None, /) -> Fact: ...
+
+        def __get__(self, point: object, owner: type | None = None, /) -> object: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,77 +83,105 @@ def item_of(name: str, variant: Variant | None) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
-    """One addressable datum: its identity, its shape and its limits.
+class Terms:
+    """What points of a group share beside their shape: their space and unit, how they are kept, and when they exist.
 
-    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
-    addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `bits` are
-    its (high, low) bits of the word, None for whole words. `default` is the factory setting in the unit, `default_raw`
-    its raw number: each is None if it depends on other points; a floating-point number has only the first. `steps` has
-    pairs (from raw, step in raw). `generated` is False for a point that is only documented; `reason` says why.
+    `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
+    `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual says in
+    place of a type: empty if it leaves the type open, None if there is a type.
     """
 
-    name: str
-    variant: Variant | None
-    code: str | None
     group: str
     space: str
-    place: Place
-    shape: Shape
     bits: tuple[int, int] | None
-    title: Titles
-    note: Titles
     unit: Unit
-    allowed: Allowed
-    default: Fraction | None
-    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
-    record: str | None
-    set: int | None
     changes: str | None
     keeps: str | None
     conditions: tuple[str, ...]
     when: Condition | None
     since: str | None
     until: str | None
-    was: tuple[str, ...]
     reserved: bool
-    source: Source
-    errata: tuple[str, ...]
     generated: bool
     reason: str | None
     telegram: str | None = None
-    index: int | None = None
     changes_with: tuple[str, ...] = ()
-    write_place: Place | None = None
     untyped: str | None = None
-    """What the manual says in place of a type; empty if it leaves the type open; None if the point has a type."""
 
-    type = _Shared(lambda shape: shape.type)
-    width = _Shared(lambda shape: shape.width)
-    access = _Shared(lambda shape: shape.access)
-    scale = _Shared(lambda shape: shape.scale)
-    decimals = _Shared(lambda shape: shape.decimals)
-    display = _Shared(lambda shape: shape.display)
-    encodes_values = _Shared(lambda shape: shape.encodes_values)
-    most_raw = _Shared(lambda shape: shape.most_raw)
-    enum = _Shared(lambda shape: shape.enum)
-    flags = _Shared(lambda shape: shape.flags)
-    specials = _Shared(lambda shape: shape.specials)
-    shared_codes = _Shared(lambda shape: shape.shared_codes)
-    specials_of = _Shared(lambda shape: shape.specials_of)
-    text = _Shared(lambda shape: shape.text)
-    digits = _Shared(lambda shape: shape.digits)
-    fixed = _Shared(lambda shape: shape.fixed)
-    info = _Shared(lambda shape: shape.info)
-    form = _Shared(lambda shape: shape.form)
-    least = _Shared(lambda shape: shape.least)
-    greatest = _Shared(lambda shape: shape.greatest)
-    held = _Shared(lambda shape: shape.held)
-    readable = _Shared(lambda shape: shape.readable)
-    writable = _Shared(lambda shape: shape.writable)
-    fixed_scale = _Shared(lambda shape: shape.fixed_scale)
-    scale_arguments = _Shared(lambda shape: shape.scale_arguments)
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One addressable datum: its identity, over the shape and the terms that it shares with others.
+
+    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
+    addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is
+    the factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
+    floating-point number has only the first.
+    """
+
+    name: str
+    variant: Variant | None
+    code: str | None
+    title: Titles
+    note: Titles
+    source: Source
+    place: Place
+    write_place: Place | None
+    shape: Shape
+    terms: Terms
+    allowed: Allowed
+    default: Fraction | None
+    default_raw: int | None
+    record: str | None
+    set: int | None
+    index: int | None
+    was: tuple[str, ...]
+    errata: tuple[str, ...]
+
+    type = _Shared(lambda point: point.shape.type)
+    width = _Shared(lambda point: point.shape.width)
+    access = _Shared(lambda point: point.shape.access)
+    scale = _Shared(lambda point: point.shape.scale)
+    decimals = _Shared(lambda point: point.shape.decimals)
+    display = _Shared(lambda point: point.shape.display)
+    encodes_values = _Shared(lambda point: point.shape.encodes_values)
+    most_raw = _Shared(lambda point: point.shape.most_raw)
+    enum = _Shared(lambda point: point.shape.enum)
+    flags = _Shared(lambda point: point.shape.flags)
+    specials = _Shared(lambda point: point.shape.specials)
+    shared_codes = _Shared(lambda point: point.shape.shared_codes)
+    specials_of = _Shared(lambda point: point.shape.specials_of)
+    text = _Shared(lambda point: point.shape.text)
+    digits = _Shared(lambda point: point.shape.digits)
+    fixed = _Shared(lambda point: point.shape.fixed)
+    info = _Shared(lambda point: point.shape.info)
+    form = _Shared(lambda point: point.shape.form)
+    least = _Shared(lambda point: point.shape.least)
+    greatest = _Shared(lambda point: point.shape.greatest)
+    held = _Shared(lambda point: point.shape.held)
+    readable = _Shared(lambda point: point.shape.readable)
+    writable = _Shared(lambda point: point.shape.writable)
+    fixed_scale = _Shared(lambda point: point.shape.fixed_scale)
+    scale_arguments = _Shared(lambda point: point.shape.scale_arguments)
+
+    group = _Shared(lambda point: point.terms.group)
+    space = _Shared(lambda point: point.terms.space)
+    bits = _Shared(lambda point: point.terms.bits)
+    unit = _Shared(lambda point: point.terms.unit)
+    steps = _Shared(lambda point: point.terms.steps)
+    changes = _Shared(lambda point: point.terms.changes)
+    keeps = _Shared(lambda point: point.terms.keeps)
+    conditions = _Shared(lambda point: point.terms.conditions)
+    when = _Shared(lambda point: point.terms.when)
+    since = _Shared(lambda point: point.terms.since)
+    until = _Shared(lambda point: point.terms.until)
+    reserved = _Shared(lambda point: point.terms.reserved)
+    generated = _Shared(lambda point: point.terms.generated)
+    reason = _Shared(lambda point: point.terms.reason)
+    telegram = _Shared(lambda point: point.terms.telegram)
+    changes_with = _Shared(lambda point: point.terms.changes_with)
+    untyped = _Shared(lambda point: point.terms.untyped)
 
     @property
     def raw_only(self) -> bool:

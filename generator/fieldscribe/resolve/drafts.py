@@ -10,7 +10,7 @@ from fieldscribe.model import TYPES, Titles, item_of
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
@@ -93,6 +93,11 @@ class Draft:
     def _rank(self, layer: Map) -> int:
         """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""
         return next((place for place, other in enumerate(self.layers) if other is layer), len(self.layers))
+
+    @property
+    def keys(self) -> Collection[str]:
+        """The facts that someone says."""
+        return self._where.keys()
 
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""

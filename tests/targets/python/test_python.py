@@ -317,7 +317,7 @@ def test_other_points_are_read_as_needed(drive: Any, slave: Slave) -> None:
 
 def test_remembered_until_forgotten(tmp_path: Path) -> None:
     points = tuple(
-        replace(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
+        changed(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
     )
     folder = write_package(replace(sample_device(points), id="keeping_drive"), tmp_path)
     slave = Slave()

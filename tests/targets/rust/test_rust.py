@@ -23,7 +23,7 @@ from fieldscribe.targets.rust.layout import Item, assignment, binding, calls, ch
 from fieldscribe.targets.rust.subjects import scope_of
 from support.described import kitchen_sink, made, shipped
 from support.made_once import made_once
-from support.models import entry, point, sample_device, titles, trip_device
+from support.models import changed, entry, point, sample_device, titles, trip_device
 from support.places import ROOT, TESTS
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from support.toolchains import run, succeed, tool
@@ -222,7 +222,7 @@ def test_active_low_bits_say_so() -> None:
 
 def test_what_is_only_documented_has_its_address() -> None:
     settled = point("speed", 5)
-    device = sample_device((settled, replace(settled, name="ramp", code="P1", generated=False)))
+    device = sample_device((settled, changed(settled, name="ramp", code="P1", generated=False)))
     assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
     assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
     drive = shipped("nord_sk5xxe")
@@ -466,7 +466,7 @@ def probe_source(device: str) -> str:
         reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         bodies += parameter_probes(subject, name) if reached else ()
-        item = subject.point.item
+        item = subject.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
 

@@ -34,7 +34,7 @@ def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
     facts += [f"with {subject.with_type};"] if subject.arguments else []
-    facts += ["closed true;"] if subject.closed else []
+    facts += ["closed true;"] if subject.shape.closed else []
     tail = () if subject.point.encodes_values else ("values none;",)
     allowed = _allowed(subject, scope)
     others = (*_place(subject.point, scope), *tail)
@@ -53,7 +53,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     """The facts about allowed numbers, unless the outer limits say it all."""
     point = subject.point
-    if subject.limits:
+    if point.limit_arguments:
         yield tuple(_limits(point, scope))
     elif subject.form == "float":
         yield from ((ranges,) for ranges in _float_ranges(point))

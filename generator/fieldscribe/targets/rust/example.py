@@ -9,7 +9,7 @@ from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import float_literal, value_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.layout import Lines
@@ -33,10 +33,9 @@ class Snippet:
 def example_of(device: Device, scope: CrateScope) -> Snippet:
     """What a function that talks to the device does; nothing if no point is read by itself alone."""
     asked = [one for one in scope.subjects if one.point.telegram is None]
-    plain = [one for one in asked if one.point.readable and not one.factors and not one.point.specials]
-    if not plain:
+    read = _first(one for one in _plain(asked) if one.form == "scaled") or _first(_plain(asked))
+    if read is None:
         return Snippet()
-    read = next((one for one in plain if one.form == "scaled"), plain[0])
     first = Snippet((f"let value = client.read::<p::{read.name}>()?;", 'println!("it is {value:?}");'))
     return first + _writes(asked) + _special(asked) + _blocks(device, asked) + _command(device)
 
@@ -49,16 +48,11 @@ def example_uses(device: str, snippet: Snippet, names: Sequence[str]) -> Lines:
 
 def _writes(asked: list[CratePoint]) -> Snippet:
     """A point that needs no other, and one that does."""
-    written = [
-        one
-        for one in asked
-        if one.point.writable and one.point.encodes_values and not one.point.bits and one.form in _VALUED
-    ]
     snippet = Snippet()
-    plain = _first(one for one in written if not one.arguments and not one.point.specials)
+    plain = _first(one for one in asked if not one.arguments and _takes_a_value(one))
     if plain is not None:
         snippet += Snippet((f"client.write::<p::{plain.name}>({_inside(plain)})?;",))
-    needy = _first(one for one in written if one.arguments and one.point.readable and not one.point.specials)
+    needy = _first(one for one in asked if one.arguments and _takes_a_value(one) and one.point.readable)
     if needy is not None:
         fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
         lines = (
@@ -70,10 +64,21 @@ def _writes(asked: list[CratePoint]) -> Snippet:
     return snippet
 
 
+def _plain(asked: Iterable[CratePoint]) -> Iterator[CratePoint]:
+    """Points that are read by themselves alone."""
+    return (one for one in asked if one.point.readable and not one.factors and not one.point.specials)
+
+
+def _takes_a_value(one: CratePoint) -> bool:
+    point = one.point
+    encodes = point.writable and point.encodes_values and not point.bits and not point.specials
+    return encodes and one.form in _VALUED
+
+
 def _inside(subject: CratePoint) -> str:
     """A value in the middle of what the point takes."""
     low, high = subject.point.outer
-    rule = subject.rule
+    rule = subject.shape.rule
     if rule is None:
         return "1.0"
     return float_literal(float(round((((low + high) // 2) - rule.offset) / rule.ratio)))

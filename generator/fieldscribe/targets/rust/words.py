@@ -1,20 +1,22 @@
-"""The views of enums, of words of flags, and of the structs of raw numbers that points need."""
+"""Enums, words of flags, and the structs of raw numbers that points need."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, fields_of, signature
-from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
+from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Device, Entry, Enum, Flag
-    from fieldscribe.targets.rust.subjects import CrateScope
+    from fieldscribe.render import Render
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _LONG = 90
 
@@ -22,14 +24,26 @@ UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
-def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
-    """The enums that generated points use, in the device's order."""
+def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
+    """The enums that generated points use, in the device's order, and whether one of them has many names."""
+    patterns: dict[object, tuple[Pattern, bool]] = {}
+    texts, long = [], False
     for enum in device.enums:
-        if enum.name in scope.enums:
-            yield _enum(enum, scope.enums[enum.name])
+        raw = scope.enums.get(enum.name)
+        if raw is None:
+            continue
+        words = (type_name(enum.name), sentence(enum.name))
+        key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
+        known = patterns.get(key)
+        if known is None:
+            view = _enum(enum, raw, *blanks(words))
+            known = patterns[key] = Pattern(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
+        texts.append(known[0].filled(words))
+        long |= known[1]
+    return "".join(texts), long
 
 
-def is_long(enum: EnumView) -> bool:
+def _is_long(enum: EnumView) -> bool:
     """Whether a function with an arm for each name would be too long for clippy."""
     return (
         max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
@@ -69,25 +83,33 @@ def constant_name(flag: Flag) -> str:
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
-def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
+def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """The words with named bits."""
+    patterns: dict[object, Pattern] = {}
     for subject in scope.subjects:
         if subject.form == "flags":
-            point, bits = subject.point, f"u{subject.point.info.bits}"
-            flags = tuple(_flag(flag, point.info.bits) for flag in point.flags)
-            low = sum(1 << flag.low for flag in point.flags if flag.width == 1 and not flag.active)
-            yield FlagsView(
-                doc=sentence(point.item),
-                name=subject.name,
-                raw=subject.raw,
-                bits=bits,
-                false=mask(low, bits) if low else "0",
-                flags=flags,
-                shown=(
-                    *binding(4, Item("const NAME", "&'static str"), rust_string(subject.name)),
-                    *_table(point.flags, flags),
-                ),
-            )
+            words = (subject.name, sentence(subject.item))
+            key = (subject.kin, len(subject.name))
+            pattern = patterns.get(key)
+            if pattern is None:
+                view = _word(subject, *blanks(words))
+                pattern = patterns[key] = Pattern(render("rust/word.rs.j2", {"word": view}))
+            yield pattern.filled(words)
+
+
+def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
+    all_flags, width = subject.point.flags, subject.point.info.bits
+    bits, flags = f"u{width}", tuple(_flag(flag, width) for flag in all_flags)
+    low = sum(1 << flag.low for flag in all_flags if flag.width == 1 and not flag.active)
+    return FlagsView(
+        doc=doc,
+        name=name,
+        raw=subject.raw,
+        bits=bits,
+        false=mask(low, bits) if low else "0",
+        flags=flags,
+        shown=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
+    )
 
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
@@ -114,37 +136,48 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
-    for subject in scope.subjects:
-        if not subject.arguments:
-            continue
-        item = subject.point.item
+    needy = [subject for subject in scope.subjects if subject.arguments]
+    links = _links(scope) if needy else {}
+    for subject in needy:
+        item = subject.item
         parted = bool(subject.factors) and subject.factors != subject.arguments
         part = subject.factors_name if parted else ""
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", ())
         literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
-    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
+def _fields(
+    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
+) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple(
+        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
+        for name in names
+    )
 
 
-def _source(name: str, scope: CrateScope) -> str:
+def _source(name: str, links: Mapping[str, list[str]]) -> str:
     """The points whose raw number an argument is: several if variants of the device differ."""
-    types = [subject.name for subject in scope.subjects if name in (subject.point.item, subject.point.name)]
-    links = " or ".join(f"[`{type_}`](crate::points::{type_})" for type_ in types)
-    return f"The raw number of {links or f'`{name}`'}."
+    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
 
 
-def _enum(enum: Enum, raw: str) -> EnumView:
-    name = type_name(enum.name)
+def _links(scope: CrateScope) -> dict[str, list[str]]:
+    """Links to the points of each name and item."""
+    links: dict[str, list[str]] = {}
+    for subject in scope.subjects:
+        for name in {subject.item, subject.point.name}:
+            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
+    return links
+
+
+def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumView:
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
     unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
-    return EnumView(sentence(enum.name), name, raw, entries, unknown)
+    return EnumView(doc, name, raw, entries, unknown)
 
 
 def _entry(entry: Entry, enum: str) -> EntryView:

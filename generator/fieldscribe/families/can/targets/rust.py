@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.records import dataclass
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.conformance import item_row, row_of
+from fieldscribe.targets.rust.conformance import item_row
+from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.example import Snippet
-from fieldscribe.targets.rust.families import OfFamily, Table
+from fieldscribe.targets.rust.families import OfFamily, Table, row_text
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import Item, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
@@ -150,12 +151,14 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """The table of points that come in frames of a telegram."""
     heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
-        yield Table("can_telegram", "can_telegram", tuple(row_of(subject, ("(frames)",)) for subject in heard))
+        yield Table(
+            "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in heard)
+        )
 
 
 def heard(scope: CrateScope) -> tuple[str, Snippet]:
     """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
-    come = {subject.point.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
+    come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
         return "", Snippet()

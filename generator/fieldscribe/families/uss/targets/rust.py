@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
+from fieldscribe.targets.rust.conformance_rows import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import Item, array, binding

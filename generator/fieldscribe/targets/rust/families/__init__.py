@@ -35,13 +35,19 @@ class Table:
 
     name: str
     run: str
-    rows: tuple[Tokens, ...]
+    rows: tuple[str, ...]
     kind: str = ""
 
     @property
-    def lines(self) -> tuple[Tokens, ...]:
-        """The rows in lines."""
-        return tuple(filled("", " ", row, ";") for row in self.rows)
+    def text(self) -> str:
+        """The rows, each with its semicolon."""
+        return "".join([f"{row};\n" for row in self.rows])
+
+
+def row_text(row: Tokens) -> str:
+    """A row in as few lines as possible, without its semicolon."""
+    lines = filled("", " ", row, ";")
+    return "    " + "\n    ".join(lines)[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:
