@@ -203,3 +203,21 @@ def test_frames_in_examples_have_their_own_checksum() -> None:
     texts = set(re.findall(r"\b[0-9A-F]{2}(?: [0-9A-F]{2}){7}\b", keys_markdown()))
     assert texts == {"05 06 10 28 01 F4 0C 91"}
     assert crc16(bytes.fromhex("05 06 10 28 01 F4")).to_bytes(2, "little") == bytes.fromhex("0C 91")
+
+
+def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Plans of the shape are made for lists of keys and used again: a file has the same findings as the first of a run."""
+    from fieldscribe.language import shape
+
+    for file in sorted((ROOT / "tests" / "bad").glob("*.yaml")):
+        source = read_source(file, Report())
+        if source is None:
+            continue
+        reports = Report(), Report()
+        for report, made in zip(reports, (shape._made, {}), strict=True):
+            monkeypatch.setattr(shape, "_made", made)
+            for root in load(source, Report()):
+                if root is not None:
+                    check_shape(root, DEVICE if "device" in root else PART, report)
+            monkeypatch.undo()
+        assert reports[0].findings == reports[1].findings, file.name
