@@ -18,7 +18,7 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys_page import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.shape import check_shape
+from fieldscribe.language.shape import check_of, check_shape
 from fieldscribe.language.shape_checks import compiled_pattern
 from fieldscribe.language.source import SourceFile, read_source
 from jsonschema import Draft7Validator, validators
@@ -206,7 +206,7 @@ def test_frames_in_examples_have_their_own_checksum() -> None:
 
 
 def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Plans of the shape are made for lists of keys and used again: a file has the same findings as the first of a run."""
+    """Plans are made for lists of keys and used again: a file has the findings that it has as the first of a run."""
     from fieldscribe.language import shape
 
     for file in sorted((ROOT / "tests" / "bad").glob("*.yaml")):
@@ -221,3 +221,20 @@ def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.Monke
                     check_shape(root, DEVICE if "device" in root else PART, report)
             monkeypatch.undo()
         assert reports[0].findings == reports[1].findings, file.name
+
+
+def test_a_plan_of_other_keys_would_be_noticed() -> None:
+    """Were plans not told apart by all their keys, a mapping that lacks one would pass or end in an exception."""
+    from fieldscribe.language.shape_checks import KeysCheck
+
+    text = "group: a\ntitle: A\nspace: holding\naccess: r\nsource: {document: m, section: x}\npoints: []\n"
+    check = KeysCheck(PART, check_of)
+    whole, wrong = (load(SourceFile("a.yaml", part), Report())[0] for part in (text, text.replace("title", "titel")))
+    assert whole is not None
+    assert wrong is not None
+    assert check(whole, whole, None, Report())
+    assert check.fits(whole)
+    assert not check.fits(wrong)
+    check.plans[tuple(wrong)] = check.plans[tuple(whole)]
+    with pytest.raises(KeyError, match="title"):
+        check.fits(wrong)

@@ -62,8 +62,11 @@ def test_names_and_signs_are_the_same(ours: Any, theirs: Any) -> None:
 
 @pytest.mark.parametrize("index", range(4))
 def test_objects_are_shown_compared_and_hashed_alike(index: int) -> None:
-    given = [(1,), (1, "m"), (1, "n", "note"), (1, "n", "", (1, 2), 5)] if index == 0 else [("a",), ("b",), ("a",)]
-    given = [([1, 2],), ([], 4), ([1, 2], 0)] if index == 1 else given
+    given: list[tuple[Any, ...]] = [("a",), ("b",), ("a",)]
+    if index == 0:
+        given = [(1,), (1, "m"), (1, "n", "note"), (1, "n", "", (1, 2), 5)]
+    elif index == 1:
+        given = [([1, 2],), ([], 4), ([1, 2], 0)]
     ours, theirs = ([kind(*values) for values in given] for kind in (OURS[index], THEIRS[index]))
     assert [repr(one) for one in ours] == [repr(one) for one in theirs]
     assert [one == other for one in ours for other in ours] == [one == other for one in theirs for other in theirs]
