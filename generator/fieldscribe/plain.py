@@ -5,7 +5,6 @@ Titles and notes change often. They reach only the documentation, so that vendor
 
 from __future__ import annotations
 
-import hashlib
 from functools import lru_cache
 from operator import attrgetter
 
@@ -101,11 +100,13 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
+    from hashlib import sha256
+
     plain = replace(for_code(device), digest="")
     shown = [(point.item, point.display) for point in plain.points if point.display is not None]
     text = f"{replace(plain, points=_Written(plain.points))!r}"
     text += f"{shown or ''}"  # appended only if there is some, so that other digests stay
-    checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    checksum = sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
     return replace(device, digest=checksum), replace(plain, digest=checksum)
 
 
