@@ -19,8 +19,8 @@ from fieldscribe.language.keys_page import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
 from fieldscribe.language.shape import check_of, check_shape
-from fieldscribe.language.shape_checks import compiled_pattern
 from fieldscribe.language.source import SourceFile, read_source
+from fieldscribe.language.value_checks import compiled_pattern
 from jsonschema import Draft7Validator, validators
 from support.descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from support.places import ROOT
