@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.model.numbers import TYPES, TypeInfo
-from fieldscribe.records import dataclass, field
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.model.numbers import Digits, Enum, Fixed, Flag, Special, Text
@@ -42,7 +42,7 @@ class Shape:
     fixed: Fixed | None = None
     encodes_values: bool = True
     most_raw: int | None = None
-    display: int | None = field(default=None, repr=False)
+    display: int | None = None
 
     def __hash__(self) -> int:
         """A hash of the facts that usually differ, because titles have no hash; equality compares all."""
