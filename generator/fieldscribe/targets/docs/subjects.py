@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
-_UNNAMED = attrgetter(*(field.name for field in fields(Shape) if field.name != "enum"))
+_UNNAMED = attrgetter(*(name for name in Shape.__annotations__ if name != "enum"))
 """All facts of a shape but its enum: rows say the names of numbers, and only links say the name of the enum."""
 
 
