@@ -81,16 +81,15 @@ def for_code(device: Device) -> Device:
 
 def digest(device: Device) -> str:
     """A checksum over all that code may know of the device, except the digest itself."""
-    return with_digest(device)[0].digest
+    return with_digest(device, for_code(device))[0].digest
 
 
-def with_digest(device: Device) -> tuple[Device, Device]:
-    """The device with its digest, and the same as code may know it."""
+def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
+    """A device and the same as code may know it, both with their digest."""
     from hashlib import sha256
 
-    plain = replace(for_code(device), digest="")
     checksum = sha256()
-    for text in _texts(plain):
+    for text in _texts(replace(plain, digest="")):
         checksum.update(text)
     digest = checksum.hexdigest()
     return replace(device, digest=digest), replace(plain, digest=digest)
