@@ -98,7 +98,7 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
     from mutants.noticing import devices
 
     inputs = [ROOT / part for part in ("generator/fieldscribe", "templates", "descriptions", "tests/devices")]
-    tests = _digest([*sorted(ROOT.glob("tests/*.py")), ROOT / "tests/bad", HERE / "generator.py"])
+    tests = _digest([*sorted(ROOT.glob("tests/**/*.py")), ROOT / "tests/bad", HERE / "generator.py"])
     results = Results(CACHE / f"generator-{seed}-{_digest(inputs)}.jsonl")
     files = sorted(ROOT.glob("tests/**/test_*.py"))
     table, judge = Table("generator"), cache(lambda: GeneratorJudge(CACHE / "generator", devices(), files))
