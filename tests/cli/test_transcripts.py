@@ -1,0 +1,28 @@
+"""What the commands say to people, word by word: each file in tests/transcripts holds commands and what they print.
+
+After a change of wording, look at what `FIELDSCRIBE_ACCEPT=1 pytest tests/cli/test_transcripts.py` makes of them.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+from support.places import ROOT, TESTS
+from support.transcripts import commands_of, remarks_of, told
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+FOLDER = TESTS / "transcripts"
+TRANSCRIPTS = sorted(FOLDER.rglob("*.txt"))
+
+
+@pytest.mark.parametrize("transcript", TRANSCRIPTS, ids=lambda path: path.relative_to(FOLDER).with_suffix("").as_posix())
+def test_transcript(transcript: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    said = remarks_of(transcript) + told(commands_of(transcript), capsys)
+    if os.environ.get("FIELDSCRIBE_ACCEPT"):
+        transcript.write_text(said, "utf-8")
+    assert said == transcript.read_text("utf-8")
