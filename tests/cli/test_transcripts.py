@@ -6,6 +6,7 @@ After a change of wording, look at what `FIELDSCRIBE_ACCEPT=1 pytest tests/cli/t
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -39,10 +40,21 @@ def _loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pipeline, "load_device", load_once)
 
 
-@pytest.mark.parametrize("transcript", TRANSCRIPTS, ids=lambda path: path.relative_to(FOLDER).with_suffix("").as_posix())
+@pytest.mark.parametrize(
+    "transcript", TRANSCRIPTS, ids=lambda path: path.relative_to(FOLDER).with_suffix("").as_posix()
+)
 def test_transcript(transcript: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
+    if transcript.parent.name == "terminal":
+        _be_terminal(monkeypatch)
     said = remarks_of(transcript) + told(commands_of(transcript), capsys)
     if os.environ.get("FIELDSCRIBE_ACCEPT"):
         transcript.write_text(said, "utf-8")
     assert said == transcript.read_text("utf-8")
+
+
+def _be_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in {"TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "", "COLORTERM": ""}.items():
+        monkeypatch.setenv(name, value)
+    for stream in (sys.stdout, sys.stderr):
+        monkeypatch.setattr(stream, "isatty", lambda: True)

@@ -1,7 +1,7 @@
 """Transcripts: commands as people type them, each with all that is printed and how it ends.
 
 A line `$ fieldscribe ...` is a command. Below it stands what goes to standard output, then, behind `! `, what goes to
-standard error, then, in brackets, the exit code if it is not 0.
+standard error, then, in brackets, the exit code if it is not 0. The escape of a terminal's colours is written `\\e`.
 """
 
 from __future__ import annotations
@@ -39,4 +39,5 @@ def _told(command: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
     code = main(shlex.split(command))
     out, err = capsys.readouterr()
     ending = [f"[{code}]"] if code else []
-    return [PROMPT + command, *out.splitlines(), *(f"! {line}" for line in err.splitlines()), *ending]
+    lines = [*out.splitlines(), *(f"! {line}" for line in err.splitlines()), *ending]
+    return [PROMPT + command, *(line.replace("\x1b", "\\e").rstrip() for line in lines)]
