@@ -49,7 +49,7 @@ def way_to_write(device: Device, point: Point) -> Way | None:
 def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:
     """An example request to unit 1, or to the lowest unit where the device cannot be unit 1."""
     unit = device.bus.usual_unit
-    framing = device.bus.framings[0] if device.bus.framings else "rtu"
+    framing = device.bus.framings[0]
     status, data = build(profile_of(device.bus), framing, Request(unit, function, address, count, values))
     if status != "ok":
         return (
