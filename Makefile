@@ -30,7 +30,7 @@ check:              ## validate the descriptions, and say what in generated/ is 
 	$(FIELDSCRIBE) check descriptions
 	$(FIELDSCRIBE) generate descriptions --out generated --check
 
-bench:              ## measure the compiler as whole processes, and generated Python beside cantools
+bench:              ## measure the compiler and generated Python beside cantools in the same run
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -20,8 +19,7 @@ class Span(NamedTuple):
     width: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(NamedTuple):
     """One finding: a stable rule id, what is wrong, where, what to do about it, and other places that matter."""
 
     rule: str
@@ -63,7 +61,7 @@ class Report:
         result = Report()
         for finding in self._findings:
             elsewhere = finding.span[:3] != span[:3]
-            result._add(replace(finding, related=(*finding.related, (span, text))) if elsewhere else finding)
+            result._add(finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding)
         return result
 
     @property
@@ -72,6 +70,11 @@ class Report:
         return tuple(
             sorted(self._findings, key=lambda finding: (finding.span, finding.severity, finding.rule, finding.message))
         )
+
+    @property
+    def count(self) -> int:
+        """How many findings there are."""
+        return len(self._findings)
 
     @property
     def has_errors(self) -> bool:

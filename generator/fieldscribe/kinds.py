@@ -55,7 +55,9 @@ class Plain:
         self.word = word
 
 
-NUMBER, YES_NO, NOTHING = Plain("number"), Plain("boolean"), Plain("null")
+NUMBER, BOOLEAN, NOTHING = Plain("number"), Plain("boolean"), Plain("null")
+YES_NO = BOOLEAN, one_of("yes", "no")
+"""Every key that is true or false: `yes` and `no` are the words, `true` and `false` mean the same."""
 
 
 class Items:
@@ -144,3 +146,8 @@ class Key:
 
 
 WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"
+
+
+def says_yes_or_no(shape: Shape) -> bool:
+    """Whether `yes` and `no` are words for true and false here; elsewhere they may be names."""
+    return any(isinstance(kind, Text) and "yes" in kind.choices for kind in shape.kinds)

@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.source import shown
+from fieldscribe.reading import shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -42,7 +42,7 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
                 else f"the folder holds no {DEVICE_FILE}, nor do its folders"
             )
             hint = f"name a folder with {DEVICE_FILE}, or a folder of such folders"
-            report.error("no-device", missing, Span(shown(path), 1, 1), hint)
+            report.error("no-device", missing, Span(shown_path(path), 1, 1), hint)
         device_files.update(dict.fromkeys(candidates))
     return list(device_files)
 
@@ -86,9 +86,9 @@ def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Re
     first = known.setdefault(device.id, device_file)
     if first == device_file:
         return True
-    message = f"the device `{device.id}` is described twice in this run, first in {shown(first)}"
+    message = f"the device `{device.id}` is described twice in this run, first in {shown_path(first)}"
     hint = f"give one {DEVICE_FILE} another `device`"
-    report.error("duplicate-device", message, Span(shown(device_file), 1, 1), hint)
+    report.error("duplicate-device", message, Span(shown_path(device_file), 1, 1), hint)
     return False
 
 

@@ -8,18 +8,63 @@ from __future__ import annotations
 import hashlib
 from dataclasses import fields, replace
 from functools import lru_cache
+from operator import attrgetter
 
-from fieldscribe.model import Code, Device, Entry, Enum, Flag, Interner, Own, Point, Shape, Source, Special, Titles
+from fieldscribe.model import (
+    Code,
+    Device,
+    Entry,
+    Enum,
+    Flag,
+    Interner,
+    Own,
+    Place,
+    Point,
+    Shape,
+    Source,
+    Special,
+    Terms,
+    Titles,
+)
 
 _NOWHERE = Source("", None, None, None)
 
 
+_SHARED = ("source", "shape", "terms", "allowed")
+"""What many points have in common, so that its text is written once."""
+_common = attrgetter(*_SHARED)
+_identity = attrgetter(
+    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "place")],
+    *[f"place.{field.name}" for field in fields(Place)],
+)
+
+
+class _Written(tuple[Point, ...]):
+    """Points as a text that differs wherever a field of one does."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        texts: dict[tuple[int, ...], str] = {}
+        written = []
+        for point in self:
+            shared = _common(point)
+            key = tuple(map(id, shared))
+            text = texts.get(key)
+            if text is None:
+                text = texts[key] = repr(shared)
+            written.append(f"{_identity(point)!r}{text}")
+        return ", ".join(written)
+
+
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
-    enums = {id(enum): _enum(enum) for enum in device.enums}
+    enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
     shapes = {key: interner.shape(_shape(shape, enums)) for key, shape in shapes.items()}
+    terms = {id(terms): terms for terms in (point.terms for point in device.points)}
+    terms = {key: _terms(terms) for key, terms in terms.items()}
     return replace(
         device,
         title={},
@@ -35,8 +80,8 @@ def for_code(device: Device) -> Device:
             own=device.bus.own and _own(device.bus.own),
         ),
         groups=tuple(replace(group, title=_title(group.name), note={}, source=_NOWHERE) for group in device.groups),
-        points=tuple(_point(point, shapes[id(point.shape)]) for point in device.points),
-        enums=tuple(enums.values()),
+        points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
+        enums=tuple(map(enums.of, device.enums)),
         commands=tuple(
             replace(command, title=_title(command.name), note={}, source=_NOWHERE) for command in device.commands
         ),
@@ -58,7 +103,8 @@ def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
     plain = replace(for_code(device), digest="")
     shown = [(point.item, point.display) for point in plain.points if point.display is not None]
-    text = f"{plain!r}{shown or ''}"  # appended only if there is some, so that other digests stay
+    text = f"{replace(plain, points=_Written(plain.points))!r}"
+    text += f"{shown or ''}"  # appended only if there is some, so that other digests stay
     checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
     return replace(device, digest=checksum), replace(plain, digest=checksum)
 
@@ -78,38 +124,69 @@ def _own(own: Own) -> Own:
     return replace(own, **{name: _codes(value) for name, value in codes.items()})
 
 
-def _point(point: Point, shape: Shape) -> Point:
-    return replace(
-        point,
-        shape=shape,
-        title=_title(point.item),
-        note={},
-        source=_NOWHERE,
-        unit=replace(point.unit, name="", quantity=""),
-        since=None if point.since is None and point.until is None else "",  # code only learns that there is one
-        until=None,
-        record=None,
-        untyped=None if point.untyped is None else "",
+def _point(point: Point, shape: Shape, terms: Terms) -> Point:
+    return Point(
+        point.name,
+        point.variant,
+        point.code,
+        _title(point.item),
+        {},
+        _NOWHERE,
+        point.place,
+        point.write_place,
+        shape,
+        terms,
+        point.allowed,
+        point.default,
+        point.default_raw,
+        None,
+        point.set,
+        point.index,
+        point.was,
+        point.errata,
     )
 
 
-def _shape(shape: Shape, enums: dict[int, Enum]) -> Shape:
+def _terms(terms: Terms) -> Terms:
+    return replace(
+        terms,
+        unit=replace(terms.unit, name="", quantity=""),
+        since=None if terms.since is None and terms.until is None else "",  # code only learns that there is one
+        until=None,
+        untyped=None if terms.untyped is None else "",
+    )
+
+
+def _shape(shape: Shape, enums: _Enums) -> Shape:
     digits = shape.digits
     return replace(
         shape,
-        enum=shape.enum and (enums.get(id(shape.enum)) or _enum(shape.enum)),
-        digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
+        enum=shape.enum and enums.of(shape.enum),
+        digits=digits and replace(digits, enum=enums.of(digits.enum)),
         flags=tuple(_flag(flag) for flag in shape.flags),
         specials=tuple(_special(special) for special in shape.specials),
     )
 
 
-def _enum(enum: Enum) -> Enum:
-    return replace(enum, title=_title(enum.name), entries=tuple(_entry(entry) for entry in enum.entries))
+class _Enums:
+    """The enums of a device for code; those that share their entries still do."""
+
+    def __init__(self) -> None:
+        self._enums: dict[int, Enum] = {}
+        self._entries: dict[int, tuple[Entry, ...]] = {}
+
+    def of(self, enum: Enum) -> Enum:
+        """An enum with names as titles."""
+        if id(enum) not in self._enums:
+            entries = self._entries.get(id(enum.entries))
+            if entries is None:
+                entries = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
+            self._enums[id(enum)] = Enum(enum.name, _title(enum.name), entries, enum.closed)
+        return self._enums[id(enum)]
 
 
 def _entry(entry: Entry) -> Entry:
-    return replace(entry, title=_title(entry.name))
+    return Entry(entry.raw, entry.name, _title(entry.name), entry.quantity)
 
 
 def _flag(flag: Flag) -> Flag:

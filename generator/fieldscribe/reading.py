@@ -7,12 +7,9 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass, field
 from errno import EFBIG, EINVAL, ENOENT
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
+from typing import NamedTuple
 
 State = tuple[int, int, int, int]
 """What tells a touched file from an untouched one: size, inode, and the times of its contents and of its entry."""
@@ -40,17 +37,27 @@ class Content(NamedTuple):
     state: State
 
 
-@dataclass(slots=True)
 class Inputs:
-    """The files that a run has read, with the checksum of the very bytes that it compiled."""
+    """The files that a run has read, with the checksum of the very bytes that it compiled and their state then."""
 
-    digests: dict[Path, str] = field(default_factory=dict)
+    def __init__(self) -> None:
+        self.digests: dict[Path, str] = {}
+        self.states: dict[Path, State] = {}
 
-    def note(self, path: Path, data: bytes) -> None:
-        """Remember the checksum of the bytes that were read from this file."""
+    def note(self, path: Path, content: Content) -> None:
+        """Remember what was read from this file."""
         from hashlib import sha256
 
-        self.digests[path] = sha256(data).hexdigest()
+        self.digests[path] = sha256(content.data).hexdigest()
+        self.states[path] = content.state
+
+
+def shown_path(path: Path) -> str:
+    """The path for people: relative to the working folder if it lies inside that."""
+    try:
+        return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
+    except ValueError:
+        return path.as_posix()
 
 
 def read_regular(path: str | os.PathLike[str], most: int) -> Content:

@@ -11,6 +11,8 @@ import unicodedata
 from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
+_BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
+"""What most codes and names are made of, and no language escapes."""
 _SPACES = re.compile(r"\s+")
 _QUERIES = re.compile(r"\?(?=\?)")
 _NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
@@ -71,24 +73,21 @@ def python_doc(text: str) -> str:
     return line(text).replace("\\", "\\\\").replace('"', "'")
 
 
-@lru_cache(maxsize=65536)
 def rust_code(text: str) -> str:
     """Text as code in a Rust `///` or `//` line, so that neither rustdoc nor clippy reads anything into it."""
+    if _BARE.fullmatch(text):
+        return f"`{text}`"
     return f"`{line(text).replace('`', chr(39))}`"
 
 
-@lru_cache(maxsize=65536)
 def rust_string(text: str) -> str:
     """A Rust string literal with its quotes."""
-    escaped = []
-    for char in line(text):
-        if char in '"\\':
-            escaped.append("\\" + char)
-        elif char.isprintable():
-            escaped.append(char)
-        else:
-            escaped.append(f"\\u{{{ord(char):x}}}")
-    return '"' + "".join(escaped) + '"'
+    if _BARE.fullmatch(text):
+        return f'"{text}"'
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    if not cleaned.isprintable():
+        cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
+    return f'"{cleaned}"'
 
 
 @lru_cache(maxsize=65536)

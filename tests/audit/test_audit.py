@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.audit.manual import Manual, tokens_of
 from fieldscribe.cli import main
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, together, write
 
@@ -256,7 +256,7 @@ USS_BUS = """
   pzd: 0..2
   functions:
     1: {name: read_value, answers: [1, 2]}
-    15: {name: text, refusals: [7], line: 10, printed: {refusals: []}}
+    0Fh: {name: text, refusals: [7], line: 10, printed: {refusals: []}}
   responses:
     1: {name: word, answers: [1]}
     2: {name: double_word, answers: [1]}

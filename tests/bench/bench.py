@@ -1,6 +1,8 @@
-"""Measures the compiler as whole processes, and generated Python beside cantools: medians of several runs.
+"""Measures the compiler beside cantools' C, whole processes in turn, and generated Python beside cantools: medians.
 
-.venv/bin/python tests/bench/bench.py [--runs 5] [--sizes 100,1000,10000]
+.venv/bin/python tests/bench/bench.py [--runs 5]
+
+A ratio to cantools of the same run travels between machines; a time does not.
 """
 
 from __future__ import annotations
@@ -12,96 +14,160 @@ import statistics
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from python_bench import print_python
-from synthetic import write_device
+from synthetic import write_dbc, write_device
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).resolve().parents[2]
-FIELDSCRIBE = [str(Path(sys.executable).with_name("fieldscribe"))]
+FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
+CANTOOLS = str(Path(sys.executable).with_name("cantools"))
+MANY, FEW = 10_000, 1_000
+CODE = "c,python,rust"
+ALL = "c,python,rust,docs,vectors"
+MOST_MEBIBYTES = 130
 
 
-@dataclass(frozen=True)
-class Figures:
-    """Medians of several runs of one command."""
+@dataclass
+class Command:
+    """A command line, what is done before each run of it, and what its runs took."""
 
-    seconds: float
-    mebibytes: float
+    words: list[str]
+    cache: Path
+    before: Callable[[], None] = lambda: None
+    seconds: list[float] = field(default_factory=list)
+    mebibytes: list[float] = field(default_factory=list)
 
-
-def measure(
-    command: list[str], runs: int, before: Callable[[], None] = lambda: None, *, environment: dict[str, str]
-) -> Figures:
-    """Run a command once to warm up, then `runs` times; `before` restores what each run needs."""
-    seconds, peaks = [], []
-    for number in range(runs + 1):
-        before()
+    def run(self, *, counts: bool) -> None:
+        """Run it once; the first run of a command only warms up."""
+        self.before()
         start = time.perf_counter()
-        process = os.posix_spawn(
-            command[0], command, environment, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
-        )
+        environment = {**os.environ, "XDG_CACHE_HOME": str(self.cache)}
+        silent = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
+        process = os.posix_spawn(self.words[0], self.words, environment, file_actions=silent)
         _, status, usage = os.wait4(process, 0)
         took = time.perf_counter() - start
         if status != 0:
-            raise SystemExit(f"{' '.join(command)} ended with {os.waitstatus_to_exitcode(status)}")
-        if number:
-            seconds.append(took)
-            peaks.append(usage.ru_maxrss / 1024)
-    return Figures(statistics.median(seconds), statistics.median(peaks))
+            raise SystemExit(f"{' '.join(self.words)} ended with {os.waitstatus_to_exitcode(status)}")
+        if counts:
+            self.seconds.append(took)
+            self.mebibytes.append(usage.ru_maxrss / 1024)
+
+    @property
+    def median(self) -> float:
+        """Seconds."""
+        return statistics.median(self.seconds)
 
 
-def row(what: str, points: int | None, figures: Figures) -> None:
-    """One line of the table."""
-    rate = f"{points / figures.seconds:12,.0f}" if points else f"{'':12}"
-    print(f"{what:<44} {points or '':>7} {figures.seconds:9.3f} s {figures.mebibytes:8.0f} MiB {rate}")
+@dataclass(frozen=True)
+class Row:
+    """A command held against another one, and the most that the ratio may be."""
+
+    what: str
+    command: Command
+    peer: Command
+    mark: float
+    share: float = 1.0
+    """How much of the peer's work the command has."""
 
 
-def bench_device(name: str, description: Path, points: int, runs: int, scratch: Path) -> None:
-    """check, cold generate of all targets, and generate and its --check on unchanged input, for one description."""
-    out = scratch / "out" / name
-    environment = {**os.environ, "XDG_CACHE_HOME": str(scratch / "cache")}
+class Bench:
+    """All commands, in one scratch folder."""
 
-    def forget() -> None:
-        shutil.rmtree(out, ignore_errors=True)
-        shutil.rmtree(scratch / "cache", ignore_errors=True)
+    def __init__(self, scratch: Path) -> None:
+        self.scratch = scratch
+        self.many = self._cantools(MANY)
+        self.few = self._cantools(FEW)
+        alike, varied = write_device(scratch, MANY), write_device(scratch, MANY, "varied", varied=True)
+        shipped = ROOT / "descriptions"
+        cold, thousand = self._generate(alike, ALL), self._generate(write_device(scratch, FEW), ALL)
+        self.rows = [
+            Row("10,000 points of ten shapes: C, Python, Rust", self._generate(alike, CODE), self.many, 0.9),
+            Row("  the five targets", cold, self.many, 1.1),
+            Row("10,000 varied points: C, Python, Rust", self._generate(varied, CODE), self.many, 1.0),
+            Row("  the five targets", self._generate(varied, ALL), self.many, 1.3),
+            Row("five devices, the five targets, to its 1,000", self._generate(shipped, ALL), self.few, 1.2),
+            Row("check of 25 points", self._check(write_device(scratch, 25)), self.many, 0.06),
+            Row("check of 10,000 points", self._check(alike), self.many, 0.4),
+            Row("10,000 unchanged", self._generate(alike, ALL, kept=True), self.many, 0.025),
+            Row("five devices unchanged", self._generate(shipped, ALL, kept=True), self.many, 0.025),
+            Row("a point edited among 10,000, to the cold run", self._edited(), cold, 0.6),
+            Row(
+                "time of a point, 10,000 to 1,000",
+                cold,
+                thousand,
+                1.0,
+                MANY / FEW,
+            ),
+        ]
 
-    row(f"check {name}", points, measure([*FIELDSCRIBE, "check", str(description)], runs, environment=environment))
-    generate = [*FIELDSCRIBE, "generate", str(description), "--out", str(out)]
-    row(f"generate {name}, cold, all targets", points, measure(generate, runs, forget, environment=environment))
-    row(f"generate {name}, unchanged", points, measure(generate, runs, environment=environment))
-    row(f"generate --check {name}", points, measure([*generate, "--check"], runs, environment=environment))
+    def _cantools(self, count: int) -> Command:
+        file = write_dbc(self.scratch, count)
+        out = self.scratch / f"cantools_{count}"
+        words = [CANTOOLS, "generate_c_source", str(file), "-o", str(out)]
+        return Command(words, self.scratch, lambda: shutil.rmtree(out, ignore_errors=True))
+
+    def _check(self, description: Path) -> Command:
+        return Command([FIELDSCRIBE, "check", str(description)], self.scratch)
+
+    def _generate(self, description: Path, targets: str, *, kept: bool = False) -> Command:
+        """With an empty output folder and an empty cache, or on what the same command left there."""
+        folder = self.scratch / f"{description.name}-{targets}-{'kept' if kept else 'cold'}"
+        words = [FIELDSCRIBE, "generate", str(description), "--target", targets, "--out", str(folder / "out")]
+        forget = partial(shutil.rmtree, folder, ignore_errors=True)
+        return Command(words, folder / "cache") if kept else Command(words, folder / "cache", forget)
+
+    def _edited(self) -> Command:
+        """A limit of one point changes before each run."""
+        place = write_device(self.scratch, MANY, "edited")
+        part = place / "group_7.yaml"
+        text = part.read_text("utf-8")
+        limits: Iterator[int] = iter(range(1_000, 4_000))
+
+        def edit() -> None:
+            part.write_text(text.replace("range: 0..4000", f"range: 0..{next(limits)}", 1), "utf-8")
+
+        command = self._generate(place, ALL, kept=True)
+        command.before = edit
+        return command
+
+    def run(self, runs: int) -> None:
+        """All commands in turn, so that a busy moment meets them all."""
+        commands = [self.many, self.few, *(row.command for row in self.rows), *(row.peer for row in self.rows)]
+        different = {id(command): command for command in commands}.values()
+        for number in range(runs + 1):
+            for command in different:
+                command.run(counts=number > 0)
+
+    def table(self) -> Iterator[str]:
+        """One line a row, the peers first."""
+        yield f"{'what':<48} {'seconds':>8} {'MiB':>5} {'ratio':>7} {'mark':>6}"
+        for what, command in (("cantools, 10,000 signals", self.many), ("cantools, 1,000 signals", self.few)):
+            yield f"{what:<48} {command.median:8.3f} {max(command.mebibytes):5.0f}"
+        for row in self.rows:
+            ratio = row.command.median / row.peer.median / row.share
+            figures = f"{row.command.median:8.3f} {max(row.command.mebibytes):5.0f} {ratio:7.3f} {row.mark:6.3f}"
+            yield f"{row.what:<48} {figures}{'' if ratio <= row.mark else '  over'}"
+        peak = max(max(row.command.mebibytes) for row in self.rows)
+        yield f"{'peak':<48} {'':8} {peak:5.0f} {'':7} {MOST_MEBIBYTES:6}{'' if peak <= MOST_MEBIBYTES else '  over'}"
 
 
 def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    """Print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--sizes", default="100,1000,10000")
     arguments = parser.parse_args()
-    print(f"{'what':<44} {'points':>7} {'wall':>11} {'peak':>12} {'points/s':>12}")
-    row("--help", None, measure([*FIELDSCRIBE, "--help"], arguments.runs, environment=dict(os.environ)))
     with tempfile.TemporaryDirectory() as folder:
-        scratch = Path(folder)
-        counts = {one.parent: _points(one) for one in sorted(ROOT.glob("descriptions/*/device.yaml"))}
-        for description, points in counts.items():
-            bench_device(description.name, description, points, arguments.runs, scratch)
-        bench_device("all devices", ROOT / "descriptions", sum(counts.values()), arguments.runs, scratch)
-        for size in map(int, arguments.sizes.split(",")):
-            bench_device(f"synthetic_{size}", write_device(scratch, size), size, arguments.runs, scratch)
+        bench = Bench(Path(folder))
+        bench.run(arguments.runs)
+        print(*bench.table(), sep="\n", flush=True)
     print_python(3 * arguments.runs)
-
-
-def _points(description: Path) -> int:
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_device
-
-    device = load_device(description, Report())
-    return 0 if device is None else len(device.points)
 
 
 if __name__ == "__main__":

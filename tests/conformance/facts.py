@@ -112,6 +112,9 @@ def documented(package: Package, vector: Vector) -> bool:
     found = one.at.space, one.at.address, len(one.at.addresses), one.at.index
     where = ", ".join(map(str, one.at.addresses)) + ("" if one.at.index is None else f", index {one.at.index}")
     told = f"{one.reason}; `read_at` and `write_at` reach its words at {one.at.telegram or one.at.space} {where}"
+    if one.write_at is not None:
+        elsewhere = f" at {', '.join(map(str, one.write_at.addresses))}"
+        told = told.replace(" and `write_at` reach", " reaches") + f", `write_at`{elsewhere}"
     return str(one) == told and found == tuple(vector[key] for key in ("space", "address", "words", "index"))
 
 

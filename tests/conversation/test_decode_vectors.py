@@ -9,6 +9,7 @@ from fieldscribe.conversation.listener import decode
 from fieldscribe.families.modbus import requests as modbus
 from fieldscribe.families.modbus.functions import profile_of
 from fieldscribe.families.uss import telegrams as uss
+from fieldscribe.families.uss.parts import Link
 from fieldscribe.targets.vectors.collection import collect
 from support.asked import asked as chosen
 from support.described import made, shipped
@@ -70,7 +71,7 @@ def test_answers_of_uss(device: Device) -> None:
     """Refusals are answers; a telegram of another unit, parameter or task, or with a wrong byte, is a fault."""
     judged = set()
     for one in vectors(device, "uss_reply"):
-        link = uss.Link(one["pkw"], one["pzd"], bool(one["single_first"]))
+        link = Link(one["pkw"], one["pzd"], bool(one["single_first"]))
         asked = one["unit"], one["task"], one["parameter"], one["index"]
         request = uss.Request(*asked, words=(0,) * link.pzd)  # the values that are sent have no part in the answer
         status, sent = uss.build(device.bus, link, request)

@@ -12,9 +12,10 @@ from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.answers import refused
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
+from fieldscribe.model import Place
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import changed, named, sample_device
@@ -103,7 +104,7 @@ def test_how_points_of_one_and_of_several_words_are_read() -> None:
     wide = next(one for one in DEVICE.points if len(one.addresses) == 2 and one.readable)
     assert re.match(r"function 0[34]h, 2 words\b", read_text(DEVICE, wide))
     assert read_text(DEVICE, changed(by_name["running"], access="w")) == ""
-    assert read_text(DEVICE, replace(by_name["running"], places=())) == ""
+    assert read_text(DEVICE, replace(by_name["running"], place=Place((), {}))) == ""
 
 
 def test_coils_by_name_with_padding() -> None:

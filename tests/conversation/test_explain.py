@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.hexadecimal import number_of
-from support.models import named, point, sample_device
+from support.models import changed, named, point, sample_device
 
 DEVICE = sample_device()
 
@@ -159,7 +159,7 @@ def test_several_printed_facts_in_one_erratum() -> None:
 
 
 def test_text_and_data_hold_no_control_characters() -> None:
-    hostile = replace(named(DEVICE, "third"), title={"en": "a\x1b[31m\nb\u202ec"}, reason="x\x00y", generated=False)
+    hostile = changed(named(DEVICE, "third"), title={"en": "a\x1b[31m\nb\u202ec"}, reason="x\x00y", generated=False)
     explained = explain_point(sample_device((hostile,)), hostile)
     text = explained.as_text()
     assert explained.heading == "third: a[31m bc"

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.families.directory import Directory
-    from fieldscribe.model import Place
 
 DEVICE = sample_device()
 QUIET = Heard(b"", "rtu", "request", 1, None, "said")
@@ -28,10 +27,6 @@ class Script:
     def frames(self, texts: Sequence[str]) -> Sequence[Spoken]:
         """None: nobody pastes anything here."""
         return [Spoken(replace(QUIET, summary=text)) for text in texts]
-
-    def space_of(self, place: Place) -> str:
-        """Every place is reached in its own space."""
-        return place.space
 
     def hear(self, frame: Spoken, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """The frame, and what was open before it."""

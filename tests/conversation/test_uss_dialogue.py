@@ -17,8 +17,9 @@ from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.speech import UssSpeech
-from fieldscribe.families.uss.telegrams import Link, Request, parse, telegram
+from fieldscribe.families.uss.telegrams import Request, parse, telegram
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
@@ -247,6 +248,12 @@ def test_words_that_are_no_telegram() -> None:
 def test_links_that_the_device_does_not_know(options: Options, why: str) -> None:
     with pytest.raises(UnclearError, match=why):
         hear("00", options=options)
+
+
+def test_a_part_longer_than_any_telegram_is_read_after_a_request() -> None:
+    """Its words were once put into a telegram to be judged, whose length byte could not say so many."""
+    _, long = pkw(READ, ANSWER + " 0000" * 150)
+    assert (long.kind, long.unit) == ("reply", None)
 
 
 @given(

@@ -7,16 +7,8 @@ from dataclasses import replace
 import pytest
 from fieldscribe.families.uss.facts import UssBus, of_bus
 from fieldscribe.families.uss.links import default_link
-from fieldscribe.families.uss.telegrams import (
-    Link,
-    Request,
-    broadcast,
-    build,
-    check_byte,
-    parameter_words,
-    parse,
-    telegram,
-)
+from fieldscribe.families.uss.parts import Link, parameter_words
+from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_byte, parse, telegram
 from fieldscribe.model import Bus, Code
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,7 +17,7 @@ from support.described import shipped
 
 def test_variants_may_take_fewer_words() -> None:
     """Maximale PZD-Länge, section on BiCo: 4 words for the 410 and 420, 8 for the 430 and 440."""
-    assert dict(of_bus(shipped("siemens_mm4").bus).variant_pzd) == {
+    assert {str(variant): most for variant, most in of_bus(shipped("siemens_mm4").bus).variant_pzd} == {
         "model=mm410": 4,
         "model=mm420": 4,
         "model=mm430": 8,

@@ -42,6 +42,7 @@ class Point:
     def settled(self) -> bool:
         """Whether address, type and scale are known and the point can be reached at all."""
         unsettled = any(self.row.get(key) in NOTHING for key in ("at", "type", "scale") if key in self.row)
+        unsettled = unsettled or "untyped" in self.row
         closed = self.row.get("access") == "none" or self.row.get("reserved") == "true"
         return "at" in self.row and not unsettled and not closed
 
@@ -87,7 +88,9 @@ class Point:
     @cached_property
     def references(self) -> dict[str, int]:
         """What the group's `numbering` makes of the address on the wire."""
-        found: dict[str, Fraction] = {"wire": Fraction(min(self.addresses))}
+        found: dict[str, Fraction] = {
+            "wire": Fraction(self.addresses[0] if self.type == "text" else min(self.addresses))
+        }
         for key, rule in self.row.get("numbering", {}).items():
             found[key] = evaluate(rule, lambda name, _: found[name])
         return {key: int(exact) for key, exact in found.items() if key != "wire"}

@@ -74,9 +74,15 @@ def _members(description: Description, row: Row) -> Iterator[Row]:
     kept = {key: value for key, value in row.items() if key in (*_INHERITED, "code", "around")}
     for member in description.records[row["record"]]["points"]:
         shared = description.formats.get(member.get("format", ""), {})
-        at = "~" if row["at"] in NOTHING else str(_whole(member["at"], {"base": number(row["at"])}))
-        own = row.get("members", {}).get(member["name"], {}) | {"name": f"{row['name']}_{member['name']}", "at": at}
+        own = row.get("members", {}).get(member["name"], {}) | {"name": f"{row['name']}_{member['name']}"}
+        for key in ("at", "write_at"):
+            if key in member | own:
+                own[key] = "~" if row["at"] in NOTHING else _by_base((member | own)[key], row["at"])
         yield from _places(kept | shared | member | own | {"format_special": shared.get("special", {})})
+
+
+def _by_base(text: str, base: str) -> str:
+    return str(_whole(text, {"base": number(base)}))
 
 
 def _sets(row: Row) -> Iterator[Row]:
@@ -99,7 +105,7 @@ def _places(row: Row) -> Iterator[Row]:
             repeated = [key for key, many in _CHOICES.items() if many in whole and key not in whole]
             name = whole["name"] + "".join(f"_{key}_{chosen[key]}" for key in repeated)
             each = _own_of(whole.get("each", {}), chosen, by="index" if "index" in repeated else "set")
-            at = {"at": _by_rule(whole, chosen)} if "at" in whole else {}
+            at = {key: _by_rule(whole, chosen, key) for key in ("at", "write_at") if key in whole}
             yield whole | each | own | at | {"name": name, "item": name + ending}
 
 
@@ -124,12 +130,12 @@ def _own_of(each: Row, chosen: Mapping[str, int], by: str) -> Row:
     return own
 
 
-def _by_rule(row: Row, chosen: Mapping[str, int]) -> str:
+def _by_rule(row: Row, chosen: Mapping[str, int], key: str) -> str:
     """The address that the group's rule gives, for both ends of a text."""
-    if "addressing" not in row or row["at"] in NOTHING:
-        return str(row["at"])
+    if "addressing" not in row or row[key] in NOTHING:
+        return str(row[key])
     counts = {many: number(row[many]) if is_number(row.get(many, "")) else 1 for many in _CHOICES.values()}
-    names = [{**counts, **chosen, "number": number(end)} for end in row["at"].split("..")]
+    names = [{**counts, **chosen, "number": number(end)} for end in row[key].split("..")]
     return "..".join(str(_whole(row["addressing"], one)) for one in names)
 
 

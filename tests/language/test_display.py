@@ -24,7 +24,7 @@ from fieldscribe.wording import meaning_text
 from fieldscribe.wording.exact import rounded
 from jsonschema import Draft202012Validator
 from support.described import kitchen_sink
-from support.models import named
+from support.models import changed, named
 from support.places import TESTS
 from support.python_package import imported, write_package
 
@@ -89,7 +89,7 @@ def test_the_exact_value_stays_beside_its_text() -> None:
 
 def test_a_plain_number_has_a_text_of_its_own() -> None:
     point = named(DEVICE, "shown_hours")
-    assert meaning_text(replace(point, unit=replace(point.unit, symbol="")), 7) == "7.00"
+    assert meaning_text(changed(point, unit=replace(point.unit, symbol="")), 7) == "7.00"
 
 
 def test_explain_and_encode_say_it(capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from fieldscribe.model import Factor, Limit, Linear, Point
+from fieldscribe.model import Factor, Limit, Linear, Named, Point
 from support.described import kitchen_sink
 
 
@@ -248,9 +248,9 @@ def test_errata() -> None:
     """They reach the points and frames that they are about."""
     assert point("address_misprinted").errata == ("address_misprinted_decimal", "address_misprinted_choices")
     assert [one.where for one in kitchen_sink().errata if not one.points] == [
-        "frame:start_misprinted",
-        "table 3, modes",
-        "function:8",
+        Named("frame", "start_misprinted"),
+        "table 3: modes",
+        Named("function", 8),
     ]
     frame = next(one for one in kitchen_sink().frames if one.name == "start_misprinted")
     assert (frame.valid, frame.errata) == (False, ("start_crc",))

@@ -61,7 +61,7 @@ WRITTEN = [
     ("type: bool", "type: bit"),
     ("type: U16", "type: u16"),
     ("type: uint32_be", "type: u32"),
-    ("keeps: true", "keeps: yes"),
+    ("reserved: 1", "reserved: yes"),
     ("words: little endian, type: u32", "words: low first"),
     ("changes: constant", "changes: never"),
     ("steps: 10", "steps: {0: 10}"),

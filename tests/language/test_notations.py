@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
@@ -45,6 +46,19 @@ def test_all_numbers_in_one_notation_are_the_same_device(folder: Path, notation:
         files[path.name] = noted(load(SourceFile(path.name, path.read_text("utf-8")), Report()), notation)
     rewrite(tmp_path / "device", as_texts(files))
     assert loaded(tmp_path / "device" / "device.yaml") == loaded(folder / "device.yaml")
+
+
+SWITCH = re.compile(r"\b(reserved|open|broadcast|keeps|no_value|writable): (yes|no)\b")
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_true_and_false_are_yes_and_no(folder: Path, tmp_path: Path) -> None:
+    """At every key that is true or false."""
+    words = {"yes": "true", "no": "false"}
+    for path in sorted(folder.glob("*.yaml")):
+        text = SWITCH.sub(lambda said: f"{said[1]}: {words[said[2]]}", path.read_text("utf-8"))
+        (tmp_path / path.name).write_text(text, "utf-8")
+    assert loaded(tmp_path / "device.yaml") == loaded(folder / "device.yaml")
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.modbus.requests import crc16
+from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.language.json_schema import json_schema, schema_text
 from fieldscribe.language.keys import TABLE, keys_of
 from fieldscribe.language.keys.places import DEVICE, PART

@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.arithmetic.lines import Line, count_line
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.lowered import lower, plan_of
-from fieldscribe.model import Limit, Special
+from fieldscribe.model import Limit, Special, Variant
 from fieldscribe.targets.rust.rules import limit_lines
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -100,7 +100,7 @@ def test_a_device_is_lowered_once() -> None:
 
 
 def test_points_are_found_by_item_and_by_name() -> None:
-    variants = tuple(point("speed", at, variant=f"size={size}") for at, size in enumerate(("s", "l")))
+    variants = tuple(point("speed", at, variant=Variant("size", size)) for at, size in enumerate(("s", "l")))
     points = lower(sample_device(variants)).points
     assert (points["speed"], points["speed_s"], points["speed_l"]) == (variants[0], *variants)
     assert all(first.name == second.name for first, second in pairwise(variants))

@@ -15,6 +15,8 @@ from support.places import TESTS
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.reading import State
+
 DEVICES = TESTS / "devices"
 COMMAND = ["generate", "device", "--out", "made", "--target", "c,docs"]
 
@@ -57,6 +59,23 @@ def test_unchanged_input_is_not_compiled(place: Path, compiled: list[str]) -> No
     assert compiled == ["device/device.yaml"]
 
 
+@pytest.mark.parametrize("path", ["device/device.yaml", "made/c/kitchen_can.h"])
+def test_what_was_only_touched_is_not_compiled(place: Path, path: str, compiled: list[str]) -> None:
+    os.utime(place / path)
+    assert main(COMMAND) == 0
+    assert compiled == []
+
+
+def test_an_input_with_its_size_and_time_put_back_is_compiled(place: Path, compiled: list[str]) -> None:
+    source = place / "device/device.yaml"
+    text, before = source.read_text("utf-8"), source.stat()
+    assert "version: 1.0.0" in text
+    source.write_text(text.replace("version: 1.0.0", "version: 1.0.1"), "utf-8")
+    os.utime(source, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert main(COMMAND) == 0
+    assert compiled == ["device/device.yaml"]
+
+
 @pytest.mark.parametrize("path", ["c/kitchen_can.h", "docs/kitchen_can.csv", "manifest/kitchen_can.json"])
 def test_an_output_with_its_size_and_time_put_back_is_not_unchanged(
     place: Path, path: str, compiled: list[str]
@@ -85,11 +104,11 @@ def test_an_output_within_the_tick_of_the_clock_is_read(place: Path, monkeypatch
 BROKEN = {
     "empty": b"",
     "binary": b"\x80\x04\x95pickle",
-    "cut": b'{"compiler": "',
+    "cut": b'{"run": "',
     "list": b"[]",
     "deep": b"[" * 200_000,
-    "other shape": b'{"compiler": 1, "inputs": [], "outputs": {"x": 1}}',
-    "huge number": b'{"compiler": ' + b"9" * 5000 + b"}",
+    "other shape": b'{"run": 1, "inputs": [], "outputs": {"x": 1}}',
+    "huge number": b'{"run": ' + b"9" * 5000 + b"}",
 }
 
 
@@ -143,13 +162,17 @@ def test_a_relative_place_of_caches_is_none(place: Path, monkeypatch: pytest.Mon
 
 
 def test_a_full_disk_of_the_cache_is_ignored(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from fieldscribe.output import memory as room
+    from fieldscribe.output import writing
 
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+    replace = writing.replace
+
+    def full(path: Path, data: bytes, *by_way_of: str) -> State:
+        if path.is_relative_to(place / "cache"):
+            raise OSError(28, "No space left on device")
+        return replace(path, data, *by_way_of)
 
     memory(place).unlink()
-    monkeypatch.setattr(room, "replace", full)
+    monkeypatch.setattr(writing, "replace", full)
     assert main(COMMAND) == 0
     assert list((place / "cache/fieldscribe/runs").iterdir()) == []
 
@@ -171,4 +194,4 @@ def test_nothing_executable_is_kept_or_loaded(place: Path, monkeypatch: pytest.M
     shutil.rmtree(place / "made")
     assert main(COMMAND) == 0
     kept = [path for path in (place / "cache").rglob("*") if path.is_file()]
-    assert [json.loads(path.read_bytes()).keys() for path in kept] == [{"compiler", "inputs", "outputs"}]
+    assert [json.loads(path.read_bytes()).keys() for path in kept] == [{"run", "inputs", "outputs"}]

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe.families import FAMILIES
+from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,7 +23,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        "__init__ asked hexadecimal text names diagnostics kinds reading report resources render",
+        "__init__ asked hexadecimal text names patterns diagnostics kinds reading report resources render",
     ),
     ("the neutral model", "existence model plain"),
     ("exact arithmetic", "arithmetic"),
@@ -134,6 +135,18 @@ def test_only_its_folder_names_a_family() -> None:
     outside = [name for name in MODULES if not (name.startswith("families.") and name.split(".")[1] in FAMILIES)]
     found = {name for name in outside if name != "families" and named_families(name)}
     assert found == set(NAMES_A_FAMILY)
+
+
+_IN_A_TEMPLATE = re.compile(rf"[\"'/_:.](?:{'|'.join(FAMILIES)})[\"'/_:.]")
+"""A family as a part of code; `can` between spaces is the verb."""
+
+
+def test_only_its_own_templates_name_a_family() -> None:
+    templates = {path.relative_to(templates_dir()).as_posix(): path for path in templates_dir().glob("*/*.j2")}
+    own = {name for name in templates if re.split(r"[/._]", name)[1] in FAMILIES}
+    assert {name.split("/")[0] for name in own} == {"c", "rust"}
+    naming = {name for name, path in templates.items() if _IN_A_TEMPLATE.search(path.read_text("utf-8"))}
+    assert naming <= own
 
 
 def test_a_word_names_a_family() -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.model import (
+    NOWHERE,
     TYPES,
     Allowed,
     Block,
@@ -26,13 +27,16 @@ from fieldscribe.model import (
     Interval,
     Limit,
     Linear,
+    Named,
     Place,
     Point,
     ScaleCase,
     Shape,
     Source,
     Special,
+    Terms,
     Unit,
+    Variant,
 )
 
 SOURCE = Source("manual", "Gruppe A", None, 780)
@@ -43,7 +47,7 @@ MILLISECOND = Unit("ms", "millisecond", "time")
 VOLT = Unit("V", "volt", "voltage")
 WATT = Unit("W", "watt", "power")
 CELSIUS = Unit("°C", "degree Celsius", "temperature")
-VARIANTS = ("voltage_class=200V", "voltage_class=400V")
+VARIANTS = (Variant("voltage_class", "200V"), Variant("voltage_class", "400V"))
 
 
 def titles(english: str, german: str | None = None) -> dict[str, str]:
@@ -82,15 +86,20 @@ def entry(raw: int, name: str, english: str | None = None, quantity: str | None 
 
 
 _SHAPED = frozenset(one.name for one in fields(Shape))
+_TERMS = frozenset(one.name for one in fields(Terms))
 
 
 def changed(point: Point, **facts: Any) -> Point:
-    """The point with other facts, be they its own or of its shape."""
+    """The point with other facts, be they its own, of its place, of its shape or of its terms."""
+    if "references" in facts:
+        facts["place"] = replace(point.place, references=facts.pop("references"))
     shaped = {key: value for key, value in facts.items() if key in _SHAPED}
-    own = {key: value for key, value in facts.items() if key not in _SHAPED}
-    bits = own.get("bits", point.bits)
+    terms = {key: value for key, value in facts.items() if key in _TERMS}
+    own = {key: value for key, value in facts.items() if key not in _SHAPED | _TERMS}
+    bits = terms.get("bits", point.bits)
     width = TYPES[shaped.get("type", point.type)].bits if bits is None else bits[0] - bits[1] + 1
-    return replace(point, shape=replace(point.shape, **{"width": width, **shaped}), **own)
+    shape = replace(point.shape, **{"width": width, **shaped})
+    return replace(point, shape=shape, terms=replace(point.terms, **terms), **own)
 
 
 def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) -> Point:
@@ -104,37 +113,41 @@ def point(name: str, address: int | None, type_name: str = "u16", **facts: Any) 
     known = address is not None
     addresses = () if address is None else tuple(order or range(address, address + count))
     shape = Shape(type_name, info.bits, "rw", scale=None, decimals=0, enum=None, flags=(), specials=())
-    base = Point(
-        name=name,
-        variant=None,
-        code=None,
+    terms = Terms(
         group="main",
         space=space,
-        places=(Place("read", space, addresses, None),) if addresses else (),
-        references={"modicon": address + 1} if address is not None else {},
-        shape=shape,
         bits=None,
-        title=titles(name.replace("_", " ").capitalize()),
-        note={},
         unit=NUMBER,
-        allowed=Allowed((), False, ()),
-        default=None,
-        default_raw=None,
         steps=(),
-        record=None,
-        set=None,
         changes=None,
         keeps=None,
         conditions=(),
         when=None,
         since=None,
         until=None,
-        was=(),
         reserved=False,
-        source=SOURCE,
-        errata=(),
         generated=known,
         reason=None if known else "the manual prints no address",
+    )
+    base = Point(
+        name=name,
+        variant=None,
+        code=None,
+        title=titles(name.replace("_", " ").capitalize()),
+        note={},
+        source=SOURCE,
+        place=NOWHERE if address is None else Place(addresses, {"modicon": address + 1}),
+        write_place=None,
+        shape=shape,
+        terms=terms,
+        allowed=Allowed((), False, ()),
+        default=None,
+        default_raw=None,
+        record=None,
+        set=None,
+        index=None,
+        was=(),
+        errata=(),
     )
     made = changed(base, **facts)
     if info.floating or "allowed" in facts:
@@ -290,7 +303,16 @@ ERRATA = (
         (("wire", "4137"),),
     ),
     Erratum("f001_address", ("setpoint_display",), "", SOURCE, "No address.", "at: ~", "An empty cell.", "unknown"),
-    Erratum("write_crc", (), "frame:write_base", SOURCE, "crc A8 54", "crc 0C 91", "The CRC of the bytes.", "certain"),
+    Erratum(
+        "write_crc",
+        (),
+        Named("frame", "write_base"),
+        SOURCE,
+        "crc A8 54",
+        "crc 0C 91",
+        "The CRC of the bytes.",
+        "certain",
+    ),
 )
 
 

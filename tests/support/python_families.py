@@ -25,6 +25,7 @@ from fieldscribe.model import (
     ScaleCase,
     Telegram,
     Text,
+    Variant,
 )
 
 from support.models import (
@@ -56,15 +57,15 @@ WORD_FLAGS = (Flag(0, 1, "start", titles("Start"), 1, ()), Flag(10, 1, "valid", 
 
 def parameter(name: str, *addresses: int, type_name: str = "u16", **facts: Any) -> Point:
     """A parameter that can be read and written."""
-    made = point(name, addresses[0], type_name, space="parameter", group="main", references={}, **facts)
-    return replace(made, places=(Place("read", "parameter", addresses, None),))
+    made = point(name, addresses[0], type_name, space="parameter", group="main", **facts)
+    return replace(made, place=Place(addresses, {}))
 
 
 def word(telegram: str, name: str, *positions: int, type_name: str = "u16", **facts: Any) -> Point:
     """A point in words of a telegram, read only unless said."""
     facts = {"access": "r", "group": telegram, **facts}
-    made = point(name, positions[0], type_name, space="telegram", telegram=telegram, references={}, **facts)
-    return replace(made, places=(Place("read", "telegram", positions, None),))
+    made = point(name, positions[0], type_name, space="telegram", telegram=telegram, **facts)
+    return replace(made, place=Place(positions, {}))
 
 
 def text(name: str, characters: int, encoding: str, *addresses: int, **facts: Any) -> Point:
@@ -111,8 +112,8 @@ def can_points() -> tuple[Point, ...]:
         parameter("command_number", 31, fixed=Fixed(0x8000, 0x8000), allowed=allowed((0x8000, 0x80FF))),
         text("fault_text", 8, "ascii", 739, 738, 737, 736),
         text("label", 4, "latin-1", 740, 741),
-        parameter("level", 600, variant="voltage=100V", allowed=allowed((1, 9))),
-        parameter("level", 600, variant="voltage=400V", allowed=allowed((1, 99))),
+        parameter("level", 600, variant=Variant("voltage", "100V"), allowed=allowed((1, 9))),
+        parameter("level", 600, variant=Variant("voltage", "400V"), allowed=allowed((1, 99))),
         parameter("spare", 601, when=Condition(((Comparison("size", "!=", ("small",)),),))),
         word("measurements", "frequency", 0, unit=HERTZ, scale=scaled(100), decimals=2),
         word("measurements", "power", 1, type_name="s16", unit=WATT, scale=scaled(1, 0, exponent)),

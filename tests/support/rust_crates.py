@@ -112,7 +112,7 @@ def odd_points() -> tuple[Point, ...]:
         point("steep", 44, "s64", scale=scaled("1/1000"), decimals=0, allowed=allowed((-(10**12), 10**12))),
         point("both", 48, scale=by_long, decimals=2, allowed=allowed((0, highest))),
         point("limited", 49, allowed=allowed((3, 4), (10, highest))),
-        point("elsewhere", 50, places=(Place("read", "holding", (50,), 4), Place("write", "holding", (60,), 16))),
+        point("elsewhere", 50, write_place=Place((60,), {})),
         point("turned", 52, "u64", order=(54, 55, 52, 53)),
         point("written", 57, access="w", was=("written_before", LONG + "_before")),
     )

@@ -132,7 +132,7 @@ def _of_bus(device: Device) -> Facts:
         "pad_coil_bytes": modbus.of_bus(bus).pad_coil_bytes,
         "pkw": list(telegrams.pkw),
         "pzd": list(telegrams.pzd) if any(telegrams.pzd) else [],
-        "pzd_of": dict(telegrams.variant_pzd),
+        "pzd_of": {str(variant): most for variant, most in telegrams.variant_pzd},
         "bitrate": telegrams.bitrate or frames.bitrate,
         "identifier_bits": frames.identifier_bits,
         **{f"timing {name}": text for name, text in bus.timing.items()},

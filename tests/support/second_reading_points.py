@@ -24,7 +24,7 @@ def place_of(point: Point) -> Facts:
         "address": point.address if point.address is not None else point.item,
         "index": point.index,
         "bits": bits,
-        "variant": point.variant,
+        "variant": None if point.variant is None else str(point.variant),
     }
 
 
@@ -40,8 +40,7 @@ def of_point(point: Point, codes: Mapping[str, str]) -> Facts:
         "title": point.title.get("de"),
         "type": point.type if point.untyped is None else point.untyped,
         "words": list(point.addresses),
-        "places": [[one.purpose, list(one.addresses), one.function] for one in point.places[1:]],
-        "function": point.places[0].function if point.places else None,
+        "write_at": [list(place.addresses) for place in point.places[1:]],
         "access": point.access,
         "unit": point.unit.symbol,
         "scale": _scale(point, codes),

@@ -78,6 +78,7 @@ class Documented(Record):
     reason: str
     at: Place | None = None
     code: str | None = None
+    write_at: Place | None = None
 
     def __str__(self) -> str:
         """The reason, and what still works."""
@@ -85,7 +86,10 @@ class Documented(Record):
             return self.reason
         where = f"{self.at.telegram or self.at.space} {', '.join(map(str, self.at.addresses))}"
         index = "" if self.at.index is None else f", index {self.at.index}"
-        return f"{self.reason}; `read_at` and `write_at` reach its words at {where}{index}"
+        if self.write_at is None:
+            return f"{self.reason}; `read_at` and `write_at` reach its words at {where}{index}"
+        written = ", ".join(map(str, self.write_at.addresses))
+        return f"{self.reason}; `read_at` reaches its words at {where}{index}, `write_at` at {written}"
 
 
 class Telegram(Record):
@@ -164,7 +168,8 @@ class Facts:
 
     @property
     def where(self) -> str:
-        """The place for people: on the wire, which bits of the word, and the manual's other numberings."""
+        """The place for people: on the wire, which bits, the manual's other numberings, and where it is written."""
         bits = "" if self.bits is None else f" bits {self.bits[0]}..{self.bits[1]}"
         printed = ", ".join(f"{key} {number}" for key, number in self.references.items())
-        return f"{self.at}{bits} ({printed})" if printed else f"{self.at}{bits}"
+        written = "" if self.write_at is None else f", written at {self.write_at}"
+        return f"{self.at}{bits}" + (f" ({printed})" if printed else "") + written

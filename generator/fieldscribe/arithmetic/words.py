@@ -44,6 +44,11 @@ def joined(words: Iterable[int]) -> int:
     return pattern
 
 
+def words_in(data: bytes) -> tuple[int, ...]:
+    """The words in the data; a single last byte is left out."""
+    return tuple(data[at] << 8 | data[at + 1] for at in range(0, len(data) - 1, 2))
+
+
 def split(raw: int, count: int) -> tuple[int, ...]:
     """A number as so many unsigned words."""
     return tuple(raw >> 16 * place & 0xFFFF for place in reversed(range(count)))

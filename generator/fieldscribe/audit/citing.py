@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
     from fractions import Fraction
 
+    from fieldscribe.model import About
+
 _LITERAL = re.compile(
     r"(?<![\w.'])(?:0[xX][0-9A-Fa-f]+|[Hh]'[0-9A-Fa-f]+|(?:[0-9][0-9A-Fa-f]*[hH]|[A-F][0-9A-F]*h)\b|0b[01]+|[0-9]+(?:\.[0-9]+)?)(?!\w)"
 )
@@ -39,8 +41,8 @@ class Claim:
     cited: tuple[tuple[int, int], ...]
     anchor: bool = False
     between: frozenset[Fraction] = frozenset()
-    point: str = ""
-    """As errata name the subject: a point without its variant, `frame:NAME`, `function:NUMBER`."""
+    about: About = ""
+    """As errata name the subject: a point without its variant, or another thing."""
     optional: bool = False
     """Whether the manual may lack it, such as a title in the author's own words; where it is printed, its numbers count
     as used."""
@@ -56,9 +58,9 @@ class Claim:
 class Citing:
     """Makes the claims of one subject: at its own line, or at the lines that its key `lines` names for a fact."""
 
-    def __init__(self, subject: str, line: int | None, lines: Any, point: str = "") -> None:
+    def __init__(self, subject: str, line: int | None, lines: Any, about: About = "") -> None:
         self.subject = subject
-        self.point = point
+        self.about = about
         self.own_line = () if line is None else ((line, 0),)
         self.lines_of_fact = (
             {key: tuple(spans_of(value)) for key, value in lines.items()} if isinstance(lines, Map) else {}
@@ -81,7 +83,7 @@ class Citing:
         wanted = frozenset(abs(number) for number in numbers)
         at_own_line = anchor and cited == self.own_line
         if cited and wanted:
-            yield Claim(self.subject, fact, shown, wanted, words, cited, at_own_line, between, self.point, optional)
+            yield Claim(self.subject, fact, shown, wanted, words, cited, at_own_line, between, self.about, optional)
 
     def title(self, titles: Mapping[str, str], kind: str = "") -> Iterator[Claim]:
         """Titles with digits in them: where the manual prints them alike, those digits count as used."""
@@ -95,7 +97,7 @@ class Citing:
         cited = self.lines_of_fact.get(fact, self.own_line)
         if cited:
             anchor = cited == self.own_line
-            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, point=self.point)
+            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, about=self.about)
 
 
 def spans_of(value: Any) -> Iterator[tuple[int, int]]:

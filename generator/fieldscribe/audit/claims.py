@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.citing import Citing, numbers_in, spans_of
 from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_frames, claims_of_line_settings
 from fieldscribe.audit.claims_of_points import Wordings, claims_of_point
+from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.resolve.subject import Subject
+
+_ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
+"""Sections of named entries, by what one is called."""
 
 
 def claims_of(subject: Subject) -> Iterator[Claim]:
@@ -24,15 +28,15 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
     for name, entries in subject.scope.named_enums.items():
         yield from _claims_of_enum(name, entries)
     for file in subject.scope.files:
-        for key in ("commands", "messages", "telegrams"):
-            for entry in file.get(key, ()):
-                yield from claims_of_entry(key.removesuffix("s"), entry)
+        for kind, section in _ENTRIES.items():
+            for entry in file.get(section, ()):
+                yield from claims_of_entry(kind, entry)
         yield from claims_of_frames(file)
         bus = file.get("bus")
         if isinstance(bus, Map):
             yield from claims_of_line_settings(bus)
-            for key in ("functions", "responses", "exceptions"):
-                yield from claims_of_codes(key, bus.get(key))
+            for kind, section in sections_of_codes().items():
+                yield from claims_of_codes(kind, bus.get(section))
 
 
 def _claims_of_enum(name: str, entries: Map) -> Iterator[Claim]:

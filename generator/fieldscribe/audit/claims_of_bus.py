@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.audit.citing import Citing, Claim, numbers_in
 from fieldscribe.families import families
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import parse_integer
+from fieldscribe.model import Named
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,8 +49,8 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
             rows.setdefault(entry["line"], []).extend(numbers_in(key))
     for key, entry in codes.items() if isinstance(codes, Map) else ():
         if isinstance(entry, Map):
-            name = kind.removesuffix("s")
-            citing = Citing(f"{name} {key}", entry.get("line"), entry.get("lines"), f"{name}:{key}")
+            about = Named(kind, parse_integer(key))
+            citing = Citing(f"{kind} {key}", entry.get("line"), entry.get("lines"), about)
             row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
             for number in numbers_in(key):
@@ -63,7 +65,8 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
 def claims_of_frames(file: Map) -> Iterator[Claim]:
     """The bytes of the worked frames, and the numbers that they are said to carry."""
     for frame in file.get("frames", ()):
-        citing = Citing(f"frame {frame['name']}", frame.get("line"), frame.get("lines"), f"frame:{frame['name']}")
+        about = Named("frame", frame["name"])
+        citing = Citing(f"frame {frame['name']}", frame.get("line"), frame.get("lines"), about)
         digits = "".join(str(frame["bytes"]).split()).upper()
         if citing.own_line:
             yield Claim(

@@ -53,7 +53,7 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     if _says_itself(draft, "section"):
         yield from citing.words("section", str(draft.get("section")))
     yield from _address(citing, point, draft, code or "")
-    yield from citing.title({**point.title, "": (point.variant or "").partition("=")[2]})
+    yield from citing.title({**point.title, "": "" if point.variant is None else point.variant.value})
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums)
     yield from _flags(citing, point, wordings)
@@ -72,7 +72,6 @@ def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
 def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[Claim]:
     if point.address is None:
         return
-    references = [Fraction(number) for number in point.references.values() if isinstance(number, int)]
     at = draft.get("at")
     by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
     rule = [Fraction(int(at))] if by_rule else []
@@ -86,13 +85,15 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
             inner = ends if address not in ends else frozenset()
             yield from citing.numbers("address", str(address), (address,), anchor=not inner, between=inner)
         return
-    yield from citing.numbers(
-        "address",
-        f"{point.address:04X}h",
-        (Fraction(point.address), *references, *rule),
-        anchor=True,
-        words=tuple(word for name, number in point.references.items() for word in _joined(name, number)),
-    )
+    for place in point.places:
+        references = [Fraction(number) for number in place.references.values() if isinstance(number, int)]
+        yield from citing.numbers(
+            "address",
+            f"{min(place.addresses):04X}h",
+            (Fraction(min(place.addresses)), *references, *rule),
+            anchor=place is point.place,
+            words=tuple(word for name, number in place.references.items() for word in _joined(name, number)),
+        )
 
 
 def _joined(numbering: str, number: object) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
+    from fieldscribe.model import About
     from fieldscribe.resolve.subject import Subject
 
 _SHORT = 100
@@ -49,7 +50,7 @@ class _Comparison:
     ) -> None:
         self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
         self.used: set[tuple[int, int]] = set()
-        self.taken: dict[str, list[PrintedErratum]] = {}
+        self.taken: dict[About, list[PrintedErratum]] = {}
         for erratum in errata:
             for name in erratum.subjects:
                 self.taken.setdefault(name, []).append(erratum)
@@ -116,7 +117,7 @@ class _Comparison:
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" else ()
-        for erratum in self.taken.get(claim.point, ()):
+        for erratum in self.taken.get(claim.about, ()):
             if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False

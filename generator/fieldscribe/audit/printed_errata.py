@@ -13,6 +13,7 @@ from fieldscribe.language.nodes import Map
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.model import About
     from fieldscribe.resolve.errata import OpenErratum
     from fieldscribe.resolve.subject import Subject
 
@@ -30,7 +31,7 @@ class PrintedErratum:
     texts: tuple[str, ...]
     cited: tuple[tuple[int, int], ...]
     """Lines (first, last); last is 0 where the line opens a row or section."""
-    subjects: tuple[str, ...]
+    subjects: tuple[About, ...]
     taken: frozenset[Fraction]
     """The numbers that the description has instead. The manual does not print them, so no fact misses them there."""
     is_sentence: bool

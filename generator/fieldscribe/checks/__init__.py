@@ -28,6 +28,7 @@ def run_checks(subject: Subject) -> None:
         names_do_not_clash,
         printed_facts_agree,
         references_exist,
+        write_addresses_are_used,
     )
 
     family_part = subject.scope.family.part("checks")
@@ -37,6 +38,7 @@ def run_checks(subject: Subject) -> None:
         lines_run_upwards.check,
         meanings_do_not_compete.check,
         conditions_can_hold.check,
+        write_addresses_are_used.check,
         addresses_do_not_overlap.check,
         groups_use_what_they_say.check,
         enums_fit_their_range.check,

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.checks.meetings import Meetings
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.diagnostics import Span
     from fieldscribe.model import Command, Point
     from fieldscribe.resolve.subject import Subject
 
@@ -24,35 +27,69 @@ Taken = dict[_Key, list[Resolved]]
 def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
-    told_rows: set[int] = set()
-    meetings = Meetings(subject)
+    known = _Known(Meetings(subject), set())
+    gaps = any(subject.bus.gaps.values())
     for resolved in subject.resolved:
         if subject.report.full:
             return
         if "space" in resolved.draft.failed:
             continue
-        for address in resolved.point.addresses:
+        for address, key in _stands(resolved.point):
             others = taken.setdefault(_key(subject, resolved.point, address), [])
-            fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
-            rivals = [
-                other
-                for other in fresh
-                if _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
-            ]
-            if rivals:
-                _report_overlap(subject, resolved, rivals, address)
-            told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
-            if len(fresh) == _MOST:
-                message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
-                subject.report.error("too-many-items", message, resolved.draft.span("at"), "nobody needs so many")
+            if others:
+                _compare(subject, resolved, others, (address, key), known)
             others.append(resolved)
-            _gap(subject, resolved, address)
+            if gaps:
+                _gap(subject, resolved, address, key)
     _commands(subject, taken)
 
 
+class _Known(NamedTuple):
+    """Which points can meet, and the rows of the manual whose overlaps are told."""
+
+    meetings: Meetings
+    told_rows: set[int]
+
+
+def _compare(
+    subject: Subject, resolved: Resolved, others: list[Resolved], stands: tuple[int, str], known: _Known
+) -> None:
+    """Findings for bits of an address that the others there have, too."""
+    meetings, told_rows = known
+    address, key = stands
+    fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
+    rivals = [
+        other
+        for other in fresh
+        if other is not resolved and _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
+    ]
+    if rivals:
+        _report_overlap(subject, resolved, rivals, address, key)
+    told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
+    if len(fresh) == _MOST:
+        message = f"more than {_MOST} points stand at {_place_in_words(subject, resolved.point, address)}"
+        subject.report.error("too-many-items", message, resolved.draft.span(key), "nobody needs so many")
+
+
+def _stands(point: Point) -> Iterator[tuple[int, str]]:
+    """The addresses where the point is read, and those where else it is written, with the keys that say them."""
+    for address in point.place.addresses:
+        yield address, "at"
+    for address in () if point.write_place is None else point.write_place.addresses:
+        yield address, "write_at"
+
+
+def _stands_here(other: Resolved, address: int) -> tuple[Span, str]:
+    """The place in the text that puts a point at an address, with a remark."""
+    if address in other.point.addresses:
+        return other.draft.span("at"), f"`{other.point.name}` stands here"
+    return other.draft.span("write_at"), f"`{other.point.name}` is written here"
+
+
 def _key(subject: Subject, point: Point, address: int) -> _Key:
-    indexed = point.space in subject.scope.family.indexed
-    return point.space, point.telegram, (point.index or 0) if indexed else 0, address
+    terms = point.terms
+    index = point.index if point.index and terms.space in subject.scope.family.indexed else 0
+    return terms.space, terms.telegram, index, address
 
 
 def _place_in_words(subject: Subject, point: Point, address: int) -> str:
@@ -77,10 +114,10 @@ def _overlap(mine: Point, other: Point) -> bool:
     ]
 
 
-def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
+def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], address: int, key: str) -> None:
     """One finding that names all points at the address."""
     together = [mine, *others]
-    related = [(other.draft.span("at"), f"`{other.point.name}` stands here") for other in others]
+    related = [_stands_here(other, address) for other in others]
     place = _place_in_words(subject, mine.point, address)
     what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
     if all(resolved.point.bits for resolved in together):
@@ -90,12 +127,14 @@ def _report_overlap(subject: Subject, mine: Resolved, others: list[Resolved], ad
             "bits-overlap", f"{what} take bit {bit} of {place}", mine.draft.span("bits"), hint, related
         )
         return
-    hint = f"correct one `at`, give each `bits` of the word{_APART}"
+    hint = f"correct one `{key}`, give each `bits` of the word{_APART}"
     if any(len(resolved.point.addresses) > 1 for resolved in together):
         hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+    elif key == "write_at" and any(mine.draft.layer(key) is other.draft.layer(key) for other in others):
+        hint = "each set, variant and member with an `at` of its own needs a `write_at`, or `write_at: ~`"
     elif any(_row(mine, other) is not None for other in others):
         hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
-    subject.report.error("address-taken", f"{what} stand at {place}", mine.draft.span("at"), hint, related)
+    subject.report.error("address-taken", f"{what} stand at {place}", mine.draft.span(key), hint, related)
 
 
 def _listed(names: list[str]) -> str:
@@ -103,12 +142,12 @@ def _listed(names: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
 
 
-def _gap(subject: Subject, resolved: Resolved, address: int) -> None:
+def _gap(subject: Subject, resolved: Resolved, address: int, key: str) -> None:
     gap = _gap_at(subject, resolved.point.space, address)
     if gap is not None:
         message = f"`{resolved.point.name}` lies in the gap {gap[0]:04X}h..{gap[1]:04X}h, which no request may touch"
         hint = "correct the gap under `bus`, or the address"
-        subject.report.error("address-in-gap", message, resolved.draft.span("at"), hint)
+        subject.report.error("address-in-gap", message, resolved.draft.span(key), hint)
 
 
 def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | None:
@@ -119,8 +158,13 @@ def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | Non
 
 def _writes_a_value(command: Command, point: Point) -> bool:
     """Whether the command is a name for writing one allowed value to the point."""
-    whole = point.writable and point.bits is None and len(point.addresses) == 1 and not point.info.floating
-    return whole and command.value is not None and point.allowed.holds(command.value)
+    whole = point.writable and point.bits is None and not point.info.floating
+    return (
+        whole
+        and point.written.addresses == (command.address,)
+        and command.value is not None
+        and point.allowed.holds(command.value)
+    )
 
 
 def _commands(subject: Subject, taken: Taken) -> None:
@@ -130,7 +174,7 @@ def _commands(subject: Subject, taken: Taken) -> None:
         for other in taken.get((command.space, None, 0, command.address), ()):
             if _writes_a_value(command, other.point):
                 continue
-            related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
+            related = [_stands_here(other, command.address)]
             message = f"the command `{command.name}` and the point `{other.point.name}` share an address"
             hint = "a command writes where no point is, or a value that the range of a whole writable word allows"
             subject.report.error("address-taken", message, span, hint, related)

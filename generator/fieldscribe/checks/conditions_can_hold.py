@@ -10,7 +10,6 @@ from fieldscribe.existence import ends_before
 
 if TYPE_CHECKING:
     from fieldscribe.existence import Clause, Domain
-    from fieldscribe.model import Point
     from fieldscribe.resolve.points import Resolved
     from fieldscribe.resolve.subject import Subject
 
@@ -21,7 +20,6 @@ def check(subject: Subject) -> None:
     """Comparisons and clauses that nothing in the device can make true, and circles of conditions."""
     _circles(subject)
     meetings = Meetings(subject)
-    points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
     known: dict[Clause, bool] = {}
     for resolved in subject.resolved:
         point = resolved.point
@@ -35,7 +33,7 @@ def check(subject: Subject) -> None:
             if clause not in known:
                 known[clause] = meetings.possible(clause)
             if not known[clause]:
-                _report_never_true(subject, resolved, meetings, clause, points)
+                _report_never_true(subject, resolved, meetings, clause)
 
 
 def _circles(subject: Subject) -> None:
@@ -57,10 +55,9 @@ def _circles(subject: Subject) -> None:
             return
 
 
-def _report_never_true(
-    subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]
-) -> None:
+def _report_never_true(subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause) -> None:
     """A finding about the first comparison that is never true, or about all of them together."""
+    points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
     alone = next((part for part in clause if not meetings.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)
     hint = "one thing has one value at a time: correct the condition, or join its parts with `or`"

@@ -13,11 +13,14 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
     from fieldscribe.resolve.subject import Subject
 
+_UNKNOWN = {"type", "bits"}
+"""Keys without which nothing is known of a point's numbers."""
+
 
 def check(subject: Subject) -> None:
     """Entries that the range or the type excludes or that are special codes too, and steps outside the type."""
     for resolved in subject.resolved:
-        if resolved.draft.failed & {"type", "bits"}:
+        if not resolved.draft.failed.isdisjoint(_UNKNOWN):
             continue
         if resolved.point.enum is not None:
             _entries(subject, resolved)
@@ -49,13 +52,14 @@ def _specials(subject: Subject, resolved: Resolved) -> None:
 
 def _entries(subject: Subject, resolved: Resolved) -> None:
     point, draft = resolved.point, resolved.draft
+    least, greatest = point.least, point.greatest
     ranged = draft.layer("range") is not None and "range" not in draft.failed
     for entry in point.enum.entries if point.enum is not None else ():
-        if not point.least <= entry.raw <= point.greatest:
+        if not least <= entry.raw <= greatest:
             message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {_held(point)}"
             hint = "correct the number or the `type`"
             subject.report.error("enum-outside-range", message, _place(resolved, entry.raw), hint)
-        elif ranged and point.special(entry.raw) is None and not point.allowed.holds(entry.raw):
+        elif ranged and not point.allowed.holds(entry.raw) and point.special(entry.raw) is None:
             related = [(draft.span("range"), "the range")]
             message = f"`{entry.name}` is {entry.raw}, which the range does not allow"
             hint = "correct the number or the range; a code beside the numbers goes under `special`"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import Named
 
 if TYPE_CHECKING:
     from fieldscribe.resolve.subject import Subject
@@ -14,7 +15,7 @@ def check(subject: Subject) -> None:
     """Findings for what an erratum says is printed wrong, where nothing disagrees."""
     for erratum in subject.errata:
         printed = erratum.raw["printed"]
-        on_bus = any(":" in about for about in erratum.subjects)
+        on_bus = any(isinstance(about, Named) for about in erratum.subjects)
         if not isinstance(printed, Map) or (on_bus and not subject.bus_is_whole):
             continue
         for key in printed:

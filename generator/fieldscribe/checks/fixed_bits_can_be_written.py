@@ -25,8 +25,8 @@ def check(subject: Subject) -> None:
     words: dict[tuple[str, str | None, int, int], list[Resolved]] = {}
     fixed = [resolved for resolved in subject.resolved if resolved.point.fixed is not None]
     for resolved in subject.resolved if fixed else ():
-        if resolved.point.writable and resolved.point.bits is not None and resolved.point.address is not None:
-            words.setdefault(_word(subject, resolved.point, resolved.point.address), []).append(resolved)
+        if resolved.point.writable and resolved.point.bits is not None and resolved.point.addresses:
+            words.setdefault(_word(subject, resolved.point), []).append(resolved)
     for resolved in fixed:
         point = resolved.point
         if point.fixed is None or resolved.draft.failed & {"type", "range", "fixed"}:
@@ -36,8 +36,8 @@ def check(subject: Subject) -> None:
             message = f"no number that may be written to `{point.name}` has these bits"
             hint = "numbers are the whole word, fixed bits with it: correct the range, or leave `fixed` out"
             subject.report.error("two-meanings", message, resolved.draft.span("fixed"), hint)
-        if point.bits is not None and point.address is not None:
-            others = words[_word(subject, point, point.address)][:_MOST]
+        if point.bits is not None and point.addresses:
+            others = words[_word(subject, point)][:_MOST]
             behind = False
             for other in others:
                 if other is not resolved and not meetings.never(resolved, other):
@@ -45,9 +45,10 @@ def check(subject: Subject) -> None:
                 behind = behind or other is resolved
 
 
-def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None, int, int]:
+def _word(subject: Subject, point: Point) -> tuple[str, str | None, int, int]:
+    """The word that is written, by space, telegram, index and address."""
     index = (point.index or 0) if point.space in subject.scope.family.indexed else 0
-    return point.space, point.telegram, index, address
+    return point.space, point.telegram, index, min(point.written.addresses)
 
 
 def _compare(subject: Subject, resolved: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:

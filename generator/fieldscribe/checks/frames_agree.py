@@ -50,7 +50,7 @@ def check(subject: Subject) -> None:
             _compare_meaning(subject, open_frame, read_frame.carries, points)
             if open_frame.frame.direction == "request":
                 _compare_fixed_bits(subject, open_frame, read_frame.carries, fixed)
-        ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{open_frame.frame.name}", ()))
+        ids = tuple(erratum.erratum.id for erratum in subject.cited.get(open_frame.about, ()))
         seen[open_frame.frame.name] = read_frame
         subject.frames.append(replace(read_frame.frame, errata=ids))
 
@@ -74,9 +74,7 @@ def _compare_meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, 
         if carried != wanted:
             shown = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
-            subject.disagrees(
-                Printed(f"frame:{open_frame.frame.name}", "says", says[word], None, says.span(word), message)
-            )
+            subject.disagrees(Printed(open_frame.about, "says", says[word], None, says.span(word), message))
 
 
 def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carries, points: list[Point]) -> None:
@@ -87,23 +85,29 @@ def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carrie
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        subject.disagrees(
-            Printed(f"frame:{open_frame.frame.name}", "fixed", printed, None, open_frame.raw.span("bytes"), message)
-        )
+        subject.disagrees(Printed(open_frame.about, "fixed", printed, None, open_frame.raw.span("bytes"), message))
 
 
 def _whole_word(point: Point) -> Point:
     """The point, or the whole word that it has a few bits of, as a point."""
-    return point if point.bits is None else replace(point, bits=None, shape=replace(point.shape, type="u16", width=16))
+    if point.bits is None:
+        return point
+    return replace(point, terms=replace(point.terms, bits=None), shape=replace(point.shape, type="u16", width=16))
 
 
 def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
     """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
     printed = hex_of(open_frame.frame.printed)
-    subject.disagrees(
-        Printed(f"frame:{open_frame.frame.name}", "form", printed, None, open_frame.raw.span("bytes"), message)
-    )
+    subject.disagrees(Printed(open_frame.about, "form", printed, None, open_frame.raw.span("bytes"), message))
     return Seen(replace(open_frame.frame, valid=False))
+
+
+def report_refused(subject: Subject, open_frame: OpenFrame, status: str) -> Seen:
+    """A finding for a request that the device does not take, or a response that is no answer to its request."""
+    frame = open_frame.frame
+    asks = frame.direction == "request"
+    what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
+    return report_no_frame(subject, open_frame, f"{what}: {status.replace('_', ' ')}")
 
 
 def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
@@ -119,9 +123,17 @@ def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | N
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        subject.disagrees(
-            Printed(f"frame:{open_frame.frame.name}", "error", stated, carried, open_frame.raw.span("error"), message)
-        )
+        subject.disagrees(Printed(open_frame.about, "error", stated, carried, open_frame.raw.span("error"), message))
+
+
+def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: bytes, right: bytes) -> None:
+    """A finding for a checksum or a length that is not the one that the bytes give."""
+    printed, taken = hex_of(here), hex_of(right)
+    if printed != taken:
+        what = "checksum" if key == "xor" else key.upper()
+        message = f"the {what} {printed} is printed, the bytes give {taken}"
+        span = open_frame.raw.span("bytes")
+        subject.disagrees(Printed(open_frame.about, key, printed, taken, span, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:

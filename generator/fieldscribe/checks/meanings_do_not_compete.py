@@ -31,8 +31,23 @@ _RIVALS = (
 )
 
 
+class _Rivals:
+    """Finds the rivals among the keys that points have; many have the same keys."""
+
+    def __init__(self) -> None:
+        self._known: dict[frozenset[str], tuple[tuple[str, str, str], ...]] = {}
+
+    def among(self, draft: Draft) -> tuple[tuple[str, str, str], ...]:
+        """The pairs of keys that a point has both of, though they exclude each other."""
+        keys = frozenset(draft.keys)
+        if keys not in self._known:
+            self._known[keys] = tuple(rivals for rivals in _RIVALS if keys.issuperset(rivals[:2]))
+        return self._known[keys]
+
+
 def check(subject: Subject) -> None:
     """Findings for facts of one point that exclude each other."""
+    rivals = _Rivals()
     for resolved in subject.resolved:
         draft = resolved.draft
         _shared_names(subject, resolved)
@@ -50,7 +65,7 @@ def check(subject: Subject) -> None:
         if draft.get("fixed") is not None and not resolved.point.writable:
             message = f"`fixed` says what is written, and `{draft.name}` is only read"
             subject.report.error("two-meanings", message, draft.span("fixed"), "leave it out, or correct `access`")
-        for first, second, hint in _RIVALS:
+        for first, second, hint in rivals.among(draft):
             if first == "fixed" and resolved.point.bits is not None:
                 continue
             if draft.get(first) is not None and draft.get(second) is not None:

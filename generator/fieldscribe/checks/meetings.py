@@ -58,8 +58,7 @@ def clauses(point: Point) -> tuple[Clause, ...]:
     """The clauses of which one must hold for the point to exist: its condition, and its variant in each."""
     variant_clause: Clause = ()
     if point.variant is not None:
-        axis, _, value = point.variant.partition("=")
-        variant_clause = (Comparison(axis, "==", (value,)),)
+        variant_clause = (Comparison(point.variant.axis, "==", (point.variant.value,)),)
     return (variant_clause,) if point.when is None else tuple(variant_clause + clause for clause in point.when.clauses)
 
 

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.checks.names_apart import Kinds
 from fieldscribe.checks.owners import Owners, given_names
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from fieldscribe.checks.owners import Thing
     from fieldscribe.resolve.subject import Subject
 
@@ -18,10 +21,10 @@ if TYPE_CHECKING:
 def check(subject: Subject) -> None:
     """Findings for equal names in the description, then for equal identifiers in a target."""
     told_pairs: set[frozenset[Thing]] = set()
-    first: dict[tuple[str, str], Thing] = {}
-    for namespace, name, thing in given_names(subject):
-        other = first.setdefault((namespace, name), thing)
-        if other != thing:
+    first: dict[tuple[str, str], Callable[[], Thing]] = {}
+    for namespace, name, whose in given_names(subject):
+        known = first.setdefault((namespace, name), whose)
+        if known is not whose and (other := known()) != (thing := whose()):
             _report(subject, other, thing, f"`{name}` in {namespace}", told_pairs)
     _compare_targets(subject, told_pairs)
 
@@ -31,8 +34,11 @@ def _compare_targets(subject: Subject, told_pairs: set[frozenset[Thing]]) -> Non
     from fieldscribe.targets.identifiers import clashes
 
     owners, device = Owners(subject), subject.sound
-    for name in (known for known in TARGETS if knows(known, device)):
-        for clash in clashes(target(name).identifiers(device)):
+    kinds = Kinds(device)
+    for identifiers in [target(name).identifiers for name in TARGETS if knows(name, device)]:
+        if kinds.proves(identifiers):
+            continue
+        for clash in clashes(identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import item_of
 from fieldscribe.resolve.drafts import groups
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
@@ -39,29 +39,34 @@ class _EnumFound(NamedTuple):
     entries: Map
 
 
-def given_names(subject: Subject) -> Iterator[tuple[str, str, Thing]]:
-    """The names of groups, points and enums as the description gives them, with their namespace."""
+def given_names(subject: Subject) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
+    """The names of groups, points and enums as the description gives them: namespace, name, and whose it is."""
     for group in groups(subject.scope):
         name = str(group["group"])
-        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
+        yield "the list of groups", name, partial(Thing, f"the group `{name}`", group.span("group"))
     for resolved in subject.resolved:
         yield from _names_of_point(subject, resolved)
     for enum in _enums(subject):
-        yield "the enums of generated code", enum.name, enum.thing
+        yield "the enums of generated code", enum.name, partial(Thing, *enum.thing)
 
 
-def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Thing]]:
+def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
     """The names of a point: its item, its own name where it has a variant, and its former names."""
     where, point, draft = "generated code", resolved.point, resolved.draft
-    yield where, point.item, Thing(_point_words(draft), draft.span())
+    yield where, draft.item, partial(_point_thing, draft)
     if point.variant is not None:
         first = subject.index.by_name[point.name][0]
-        yield where, point.name, Thing(f"the point `{point.name}`", first.span())
+        yield where, point.name, partial(Thing, f"the point `{point.name}`", first.span())
     for old in point.was:
         place = draft.span("was")
         if point.variant is not None:
-            yield where, replace(point, name=old).item, Thing(f"the old name `{old}` of {_short(draft)}", place)
-        yield where, old, Thing(f"the old name `{old}` of `{point.name}`", place)
+            item = item_of(old, point.variant)
+            yield where, item, partial(Thing, f"the old name `{old}` of {_short(draft)}", place)
+        yield where, old, partial(Thing, f"the old name `{old}` of `{point.name}`", place)
+
+
+def _point_thing(draft: Draft) -> Thing:
+    return Thing(_point_words(draft), draft.span())
 
 
 def _short(draft: Draft) -> str:

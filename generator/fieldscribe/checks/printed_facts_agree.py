@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Point
     from fieldscribe.resolve.points import Resolved
 
-_LOW = "low_"
+_LOW, _WRITE = "low_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}
 _NEEDS = {
     "range": {"range", "type"},
@@ -52,6 +52,8 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
     draft = resolved.draft
     unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
     for key, value in printed.items():
+        if key not in _NEEDS and _is_number(value, _plain_number(resolved.point, key)):
+            continue
         span = printed.span(key)
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
@@ -70,19 +72,49 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
             _number(subject, resolved, key, printed, numbers)
 
 
+def _plain_number(point: Point, key: str) -> int | str | None:
+    """The point's number in a numbering of its group, or its address; None where that needs a closer look."""
+    if key != WIRE:
+        return point.references.get(key)
+    return None if not point.addresses else point.addresses[0] if point.text is not None else min(point.addresses)
+
+
+def _is_number(value: object, number: int | str | None) -> bool:
+    """Whether all that is printed is plainly this number: decimal, or hexadecimal with an `h`."""
+    if isinstance(value, int):
+        return value == number
+    if isinstance(value, Seq):
+        return all(_is_number(item, number) for item in value)
+    digits = (
+        value[:-1]
+        if isinstance(value, str) and value[-1:] in ("h", "H") and value.isalnum() and value.isascii()
+        else ""
+    )
+    try:
+        return int(digits, 16) == number
+    except ValueError:
+        return False
+
+
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
-    """The point's number in every numbering of its group; `low_...` for the word with the low part."""
-    point, addresses = resolved.point, resolved.point.addresses
-    if not addresses:
-        return {}
-    first = addresses[0] if point.text is not None else min(addresses)
+    """The point's number in every numbering of its group.
+
+    `low_...` is for the word with the low part, `write_...` for where else the point is written.
+    """
     known: dict[str, int] = {}
-    for prefix, address in (("", first), (_LOW, addresses[-1] if len(addresses) > 1 else None)):
-        if address is not None:
-            known[prefix + WIRE] = address
-            numbered = subject.places.references(resolved.draft, address)
-            known.update({prefix + name: number for name, number in numbered.items()})
+    for place in resolved.point.places:
+        addresses, prefix = place.addresses, "" if place is resolved.point.place else _WRITE
+        known[prefix + WIRE] = first = addresses[0] if resolved.point.text is not None else min(addresses)
+        known |= _numbered(subject, resolved, first, prefix)
+        if len(addresses) > 1:
+            known[prefix + _LOW + WIRE] = addresses[-1]
+            known |= _numbered(subject, resolved, addresses[-1], prefix + _LOW)
     return known
+
+
+def _numbered(subject: Subject, resolved: Resolved, address: int, prefix: str) -> dict[str, int]:
+    numbers = subject.places.references(resolved.draft, address)
+    return {prefix + name: number for name, number in numbers.items()}
 
 
 def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, numbers: Mapping[str, int]) -> None:

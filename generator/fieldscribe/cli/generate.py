@@ -71,7 +71,7 @@ def run(arguments: Namespace) -> int:
     if known is not None:
         from fieldscribe.output.result import Result
 
-        return _say(arguments, Result(wanted=set(known)), report)
+        return _say(arguments, Result(known), report)
     try:
         result = _compiled(arguments, targets, device_files, report, memory)
     except OSError as error:

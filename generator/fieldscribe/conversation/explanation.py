@@ -73,16 +73,14 @@ def _all_rows(device: Device, point: Point, without_requests: bool) -> Iterator[
 def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     group = next((group for group in device.groups if group.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
-    yield "Variant", point.variant or ""
+    yield "Variant", str(point.variant or "")
     where = "not printed in the manual" if point.address is None else _address_text(device, point)
     yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
         yield key.capitalize(), f"{printed}{as_hex}"
     yield "Words", wording.words_text(point) if len(point.addresses) > 1 else ""
-    for place in point.places[1:]:
-        words = ", ".join(map(wording.address_text, place.addresses))
-        yield f"Place to {place.purpose}", f"{words}, space {place.space}"
+    yield "Written at", wording.write_place_text(point)
     yield "Type", _type_text(point)
     yield "Access", wording.access_text(point.access)
 

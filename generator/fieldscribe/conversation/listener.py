@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.conversation import oddities
 from fieldscribe.conversation.hearing import Hearing
 from fieldscribe.conversation.parameters import element_items, word_items
 from fieldscribe.conversation.requests import part_of
@@ -54,7 +55,7 @@ class Listener:
         self._device = device
         self._given = dict(settings)
         self._speech = speech
-        self._directory = Directory(device, speech.space_of)
+        self._directory = Directory(device)
         self._course = Course()
         self._parties: dict[int | None, Hearing] = {}
 
@@ -65,7 +66,9 @@ class Listener:
         hearing = self._parties.setdefault(spoken.party, unheard)
         items = tuple(item for carried in spoken.carried for item in _says(hearing, carried))
         self._course.follow(spoken, expecting=expecting)
-        return replace(spoken.heard, items=items)
+        findings = (*spoken.heard.findings, *oddities.findings(self._device, spoken))
+        notes = (*spoken.heard.notes, *oddities.notes(self._device, self._directory, spoken))
+        return replace(spoken.heard, items=items, findings=findings, notes=notes)
 
     def expect_reply_to(self, frame: Any) -> Heard:
         """Treat a frame as the request that the following frames answer."""

@@ -15,7 +15,7 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Place, Point
 
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _LONGEST = 64
@@ -106,11 +106,10 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
     for point in device.points:
         for place in point.places:
             if number in place.addresses:
-                purpose = "" if place is point.places[0] else f", to {place.purpose}"
-                meaning = f"{reading}, {place.space}{purpose}"
+                meaning = f"{reading}, {point.space}{_purpose(point, place)}"
                 if point.telegram is not None:
                     meaning = f"word {number} of the telegram {line(point.telegram)}"
-                elif point.index is not None and place.space in family(device.family).indexed:
+                elif point.index is not None and point.space in family(device.family).indexed:
                     meaning += f", index {point.index}"
                 yield Match(meaning, point, word_text(place.addresses, number, text=point.text is not None))
                 break
@@ -120,16 +119,23 @@ def _by_reference(device: Device, key: str, asked: str, number: int | None) -> I
     """Points whose printed number is this one; each further word of a point has the next number."""
     per_frame = _words_per_frame(device)
     for point in device.points:
-        printed = point.references.get(key)
         size = per_frame.get(point.telegram or "", 0)
         if key in _NOT_ALONE and size:
             yield from _in_frames(point, key, number, size)
-        elif isinstance(printed, int) and number is not None:
-            if printed <= number < printed + max(1, len(point.addresses)):
-                lowest = point.address or 0
-                yield Match(f"{line(key)} {number}", point, word_text(point.addresses, lowest + number - printed))
-        elif isinstance(printed, str) and printed.lower() == asked.lower():
-            yield Match(f"{line(key)} {line(printed)}", point, "")
+            continue
+        for place in point.places:
+            printed, purpose = place.references.get(key), _purpose(point, place)
+            if isinstance(printed, int) and number is not None:
+                if printed <= number < printed + len(place.addresses):
+                    address = min(place.addresses) + number - printed
+                    yield Match(f"{line(key)} {number}{purpose}", point, word_text(place.addresses, address))
+            elif isinstance(printed, str) and printed.lower() == asked.lower():
+                yield Match(f"{line(key)} {line(printed)}{purpose}", point, "")
+
+
+def _purpose(point: Point, place: Place) -> str:
+    """What a place is for, if it is not the first one."""
+    return ", to write" if place is point.write_place else ""
 
 
 def _words_per_frame(device: Device) -> dict[str, int]:

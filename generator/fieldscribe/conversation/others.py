@@ -73,7 +73,7 @@ def _erratum(erratum: Erratum) -> Explanation:
     return _clean(
         f"erratum {erratum.id} ({erratum.certainty})",
         [
-            ("About", ", ".join(erratum.points) or erratum.where),
+            ("About", ", ".join(erratum.points) or str(erratum.where)),
             ("Printed", erratum.printed),
             ("Taken", erratum.taken),
             ("Why", erratum.why),

@@ -33,13 +33,13 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
 def read_text(device: Device, point: Point) -> str:
     """How the point is read, with an example; empty if it cannot be read."""
     part = family(device.family).part("explaining")
-    return str(part.read_text(device, point)) if part and point.readable and point.places else ""
+    return str(part.read_text(device, point)) if part and point.readable and point.addresses else ""
 
 
 def write_text(device: Device, point: Point) -> str:
     """How the point is written, with an example; empty if it cannot be written."""
     part = family(device.family).part("explaining")
-    way: Way | None = part.way_to_write(device, point) if part and point.writable and point.places else None
+    way: Way | None = part.way_to_write(device, point) if part and point.writable and point.addresses else None
     if way is None:
         return ""
     raw = None if way.shown is None else sample_raw(point)

@@ -110,7 +110,5 @@ def _axes(device: Device) -> str:
 
 
 def _stays(point: Point, wanted: Mapping[str, str]) -> bool:
-    if point.variant is None:
-        return True
-    axis, _, value = point.variant.partition("=")
-    return wanted.get(axis, value) == value
+    variant = point.variant
+    return variant is None or wanted.get(variant.axis, variant.value) == variant.value

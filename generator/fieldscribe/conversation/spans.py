@@ -11,7 +11,7 @@ from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.answers import Item
 from fieldscribe.text import line
-from fieldscribe.wording import title_text
+from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.buses import span_text, word_text
 from fieldscribe.wording.exact import hex_text
 
@@ -48,7 +48,11 @@ def _whole_points(hearing: Hearing, span: Span, words: dict[int, int]) -> Iterat
     """The points that the span carries whole, with their raw numbers."""
     for address in words:
         for point, place in hearing.directory.places(span.space, address):
-            if address == place.addresses[0] and all(at in words for at in place.addresses):
+            if (
+                _is_meant(span, point, place)
+                and address == place.addresses[0]
+                and all(at in words for at in place.addresses)
+            ):
                 yield point, raw_of(point, [words[at] for at in place.addresses])
 
 
@@ -66,6 +70,10 @@ def _items(hearing: Hearing, span: Span, words: dict[int, int], address: int) ->
 def _point(hearing: Hearing, span: Span, words: dict[int, int], point: Point, place: Place) -> Item:
     inside = [at for at in place.addresses if span.address <= at < span.address + span.count]
     base = (span.space, min(inside), len(inside))
+    if not _is_meant(span, point, place):
+        right = point.written if span.written else point.place
+        verb = "written" if span.written else "read"
+        return named_item(point, base, odd=f"it is {verb} at {address_text(min(right.addresses))}")
     odd = "" if words and not span.written else absence(hearing.device, point)
     if len(inside) != len(place.addresses):
         carried = [f" = {words[at]:04X}h" if at in words else "" for at in inside]
@@ -74,6 +82,11 @@ def _point(hearing: Hearing, span: Span, words: dict[int, int], point: Point, pl
     if not all(at in words for at in inside):
         return named_item(point, base, odd=odd)
     return hearing.value(point, base, raw_of(point, [words[at] for at in place.addresses]), written=span.written)
+
+
+def _is_meant(span: Span, point: Point, place: Place) -> bool:
+    """Whether the point is read here, or written here, as the frame does."""
+    return place is (point.written if span.written else point.place)
 
 
 def _unknown(device: Device, span: Span, words: dict[int, int], addresses: Sequence[int]) -> Iterator[Item]:

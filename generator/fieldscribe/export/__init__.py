@@ -58,8 +58,8 @@ def export_form(form: str, device: Device, unit: int | None) -> bytes:
 def _point(device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str]) -> dict[str, object]:
     direction = None if point.telegram is None else directions.get(point.telegram)
     family_part: Any = family(device.family).part("export")
-    places = family_part.places(device.bus, point) if hasattr(family_part, "places") else None
-    return export_point(point, by_name, direction, places)
+    tasks = family_part.tasks(device.bus, point) if hasattr(family_part, "tasks") else ()
+    return export_point(point, by_name, direction, tasks)
 
 
 def _document(document: Document) -> dict[str, object]:
@@ -162,7 +162,7 @@ def _erratum(erratum: Erratum) -> dict[str, object]:
     return {
         "id": erratum.id,
         "point": erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
-        "where": erratum.where,
+        "where": str(erratum.where),
         "source": source_of(erratum.source),
         "printed": erratum.printed,
         "taken": erratum.taken,

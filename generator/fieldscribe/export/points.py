@@ -8,19 +8,21 @@ from fieldscribe.export.rules import PointsByName, bound_of, scale_of
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from fieldscribe.existence import Comparison, Condition
-    from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
+    from fieldscribe.model import Allowed, Entry, Enum, Flag, Point, Source, Special
 
 _MOST_VALUES = 4096
 """Longer lists of single numbers are exported as ranges only."""
 
 
 def export_point(
-    point: Point, by_name: PointsByName, direction: str | None = None, places: tuple[Place, ...] | None = None
+    point: Point, by_name: PointsByName, direction: str | None = None, tasks: Sequence[tuple[str, int]] = ()
 ) -> dict[str, object]:
     """All facts of a point, in the order of the schema.
 
-    `direction` is that of its telegram; `places` replace its own where its family derives more of them.
+    `direction` is that of its telegram; `tasks` are the purposes and functions that its family has for it.
     """
     return {
         "name": point.name,
@@ -33,12 +35,12 @@ def export_point(
         "index": point.index,
         "addresses": list(point.addresses),
         "references": dict(point.references),
-        "places": [_place(place) for place in places or point.places],
+        "places": _places(point, tasks),
         "type": point.type if point.untyped is None else None,
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),
-        "variant": point.variant,
+        "variant": None if point.variant is None else str(point.variant),
         "when": None if point.when is None else _condition(point.when),
         "since": point.since,
         "until": point.until,
@@ -95,9 +97,14 @@ def _comparison(comparison: Comparison) -> dict[str, object]:
     }
 
 
-def _place(place: Place) -> dict[str, object]:
-    address = min(place.addresses, default=None)
-    return {"for": place.purpose, "space": place.space, "address": address, "function": place.function}
+def _places(point: Point, tasks: Sequence[tuple[str, int]]) -> list[dict[str, object]]:
+    """Where it is read, and where it is written if that is elsewhere, or by which functions it is read and written."""
+    purposes = ("write",) if point.access == "w" else ("read", "write")
+    usual = [(purpose, place, None) for purpose, place in zip(purposes, point.places, strict=False)]
+    return [
+        {"for": purpose, "space": point.space, "address": min(place.addresses), "function": function}
+        for purpose, place, function in [(purpose, point.place, task) for purpose, task in tasks] or usual
+    ]
 
 
 def _special(special: Special) -> dict[str, object]:

@@ -30,6 +30,11 @@ def families() -> tuple[Family, ...]:
     return tuple(family(name) for name in FAMILIES)
 
 
+def sections_of_codes() -> dict[str, str]:
+    """The sections of numbered codes under `bus`, by what errata call such a code."""
+    return {codes.key: codes.section for each_family in families() for codes in each_family.codes}
+
+
 @cache
 def _offered(package: str) -> Family:
     module: Any = import_module(f"{package}.facts")

@@ -91,6 +91,8 @@ class Family:
     """Whether descriptions lay out the messages of the device byte by byte."""
     commands_in: str | None = None
     """The space of commands that do not name one; None where the family has no commands."""
+    writes_elsewhere: bool = False
+    """Whether a point may be written at another address than it is read at."""
     chooses_memory: bool = False
     """Whether a request chooses the memory that the device keeps the value in."""
     options: tuple[Option, ...] = ()

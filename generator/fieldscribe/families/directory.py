@@ -9,7 +9,7 @@ from fieldscribe.existence import absent
 from fieldscribe.families import family
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
     from fieldscribe.model import Device, Place, Point
@@ -21,18 +21,17 @@ Found = tuple["Point", "Place"]
 
 
 class Directory:
-    """Which points stand at an address; `space_of` names a second space through which a place can be reached."""
+    """Which points stand at an address: those that are read there, and those that are written there."""
 
-    def __init__(self, device: Device, space_of: Callable[[Place], str]) -> None:
+    def __init__(self, device: Device) -> None:
         self._at: dict[Where, list[Found]] = {}
         indexed = family(device.family).indexed
         # points that the chosen variants lack come last, so that present points win their places
         for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
             for place in point.places:
-                index = (point.index or 0) if place.space in indexed else 0
-                spaces = [point.telegram] if point.telegram else sorted({place.space, space_of(place)})
-                for key in ((space, address, index) for space in spaces for address in place.addresses):
-                    here = self._at.setdefault(key, [])
+                index = (point.index or 0) if point.space in indexed else 0
+                for address in place.addresses:
+                    here = self._at.setdefault((point.telegram or point.space, address, index), [])
                     if not (here and absent(point.when, device.variants)):
                         here.append((point, place))
         self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.answers import Heard
     from fieldscribe.families.directory import Directory
-    from fieldscribe.model import Place, Telegram
+    from fieldscribe.model import Telegram
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,9 +150,6 @@ class Speech(Protocol):
 
     def frames(self, texts: Sequence[str]) -> Sequence[Any]:
         """The frames that people pasted. Raises UnclearError."""
-
-    def space_of(self, place: Place) -> str:
-        """The space through which a place is reached."""
 
     def hear(self, frame: Any, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

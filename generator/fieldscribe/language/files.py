@@ -11,7 +11,8 @@ from fieldscribe.language.hints import nearest
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
-from fieldscribe.language.source import read_source, shown
+from fieldscribe.language.source import read_source
+from fieldscribe.reading import shown_path
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -63,7 +64,7 @@ def _is_part(header: Map, file: Path, report: Report) -> bool:
     whole = file.parent / "device.yaml"
     message = f"`{file.name}` is a part of a description and no device file"
     hint = f"name {whole.name} beside it" if whole.exists() else "name the device.yaml that lists it under `parts`"
-    report.error("no-device", message, Span(shown(file), 1, 1), hint)
+    report.error("no-device", message, Span(shown_path(file), 1, 1), hint)
     return True
 
 

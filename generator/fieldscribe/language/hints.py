@@ -50,7 +50,7 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form |
     elif isinstance(value, str) and (int in accepted or Decimal in accepted):
         said = _number_hint(value, Decimal in accepted)
     elif bool in accepted:
-        said = "write true or false"
+        said = "write yes or no"
     if said is None and Seq in accepted and not isinstance(value, Map):
         said = f"write a list: [{value}]" if len(str(value)) < 40 else "write a list: […]"
     return said or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.kinds import NOTHING, YES_NO, Items, Place, Plain, Text, Whole
+from fieldscribe.kinds import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
 
@@ -92,7 +92,7 @@ class _Definitions:
             types.append(kind.word if isinstance(kind, Plain) else _TYPES[type(kind)])
             said |= self._kind(kind)
         if "enum" in said:
-            said["enum"] = [*([True, False] if YES_NO in shape.kinds else ()), *said["enum"]]
+            said["enum"] += [True, False] if BOOLEAN in shape.kinds else []
             said["enum"] += [None] if NOTHING in shape.kinds else []
         if "integer" in types and "string" not in types:
             types.append("string")

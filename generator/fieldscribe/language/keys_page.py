@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Place, Text, Whole
+from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _FEW = 2
 _TYPES = {Items: "list", Place: "mapping", Whole: "whole number", Text: "text"}
-_PLAIN: dict[Kind, str] = {NUMBER: "number", YES_NO: "boolean", NOTHING: "`~`"}
+_PLAIN: dict[Kind, str] = {NUMBER: "number", BOOLEAN: "`true`, `false`", NOTHING: "`~`"}
 
 
 def keys_markdown() -> str:
@@ -23,6 +23,7 @@ def keys_markdown() -> str:
     lines = ["# All keys of the description language", ""]
     lines += ["Made by `make keys` from the table of keys; `README.md` beside this page shows them at work.", ""]
     lines += ["Whole numbers are written as manuals write them: `4136`, `0x1028`, `1028h`, `H'33F`, `0b0101`.", ""]
+    lines += ["`true` and `false` mean the same as `yes` and `no`.", ""]
     for place in PLACES:
         lines += [f"## {place.heading}", "", place.shape.meaning, ""]
         lines += ["| key | type | meaning | example |", "|---|---|---|---|"]
@@ -68,7 +69,8 @@ def _meaning(shape: Shape) -> str:
 
 
 def _type(shape: Shape) -> str:
-    return ", ".join(map(_kind, shape.kinds)) or "any"
+    kinds = [kind for kind in shape.kinds if kind is not BOOLEAN or not says_yes_or_no(shape)]
+    return ", ".join(map(_kind, kinds)) or "any"
 
 
 def _kind(kind: Kind) -> str:

@@ -200,6 +200,7 @@ class _Builder:
             first = (into.key_span(key), "first given here")
             message = f"the key `{key[:60]}` is given twice"
             self.report.error("duplicate-key", message, span, "remove or rename one of them", [first])
+            into.broken += (key,)  # which of the two is meant is not known
             return None
         return key
 

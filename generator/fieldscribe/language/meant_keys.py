@@ -20,6 +20,7 @@ _MEANT: Mapping[str, tuple[str, str]] = {
     word: (ours, hint)
     for ours, hint, words in (
         ("at", "", "address adress addr register reg wire"),
+        ("write_at", "", "write_address write_register write_reg write_start written_at set_address"),
         ("at", "an address is `at`; what is added to a number stands in its rule: `scale: value = raw - 40`", "offset"),
         ("scale", "", "scaling formula conversion"),
         ("scale", "*", "factor gain multiplier mult coefficient slope scale_factor resolution step lsb"),

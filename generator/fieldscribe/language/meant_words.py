@@ -41,8 +41,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     | dict.fromkeys(
         ("little", "le", "little endian", "cdab", "low", "lsw first", "lo hi", "swap", "swapped"), "low first"
     ),
-    "keeps": dict.fromkeys(("true", "eeprom", "flash", "nvram", "permanent"), "yes")
-    | dict.fromkeys(("false", "ram", "volatile"), "no"),
+    "keeps": dict.fromkeys(("eeprom", "flash", "nvram", "permanent"), "yes") | dict.fromkeys(("ram", "volatile"), "no"),
     "changes": dict.fromkeys(("constant", "const", "static", "once", "no", "false"), "never")
     | dict.fromkeys(("slow", "sometimes", "seldom", "settings"), "rarely")
     | dict.fromkeys(("fast", "often", "cyclic", "live", "yes", "true"), "always"),
@@ -60,8 +59,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     | dict.fromkeys(("do", "0x", "coils", "output", "digital_output"), "coil")
     | dict.fromkeys(("di", "1x", "discrete_input", "discrete_inputs", "discrete input", "digital_input"), "discrete"),
     "active": dict.fromkeys(("low", "false", "inverted", "0"), "0") | dict.fromkeys(("high", "true", "1"), "1"),
-    "open": {"yes": "true", "no": "false", "1": "true", "0": "false"},
-    "reserved": {"yes": "true", "no": "false", "1": "true", "0": "false"},
+    **{key: {"1": "yes", "0": "no"} for key in ("open", "reserved", "no_value", "writable")},
     "encoding": {"utf-8": "ascii` or `encoding: latin-1", "utf8": "ascii` or `encoding: latin-1"},
 }
 """By key: our word for each foreign word in lower case."""

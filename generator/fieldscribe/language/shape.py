@@ -9,7 +9,7 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from fieldscribe.kinds import NOTHING, NUMBER, YES_NO, Items, Place, Text, Whole
+from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.shape_checks import Check, ObjectCheck, any_value, array, by_type, number, string
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
 _PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
     NUMBER: ("a number", (int, Decimal)),
-    YES_NO: ("true or false", (bool,)),
+    BOOLEAN: ("true or false", (bool,)),
     NOTHING: ("~", (type(None),)),
 }
 _made: dict[Shape, Check] = {}
@@ -46,8 +46,9 @@ def _check(shape: Shape) -> Check:
         for python_type, check in _by_python_type(kind):
             checks.setdefault(python_type, check)
     form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
-    wanted = " or ".join(map(_word, shape.kinds))
-    return by_type(checks, wanted, next(iter(shape.examples), None), form)
+    yes_no = says_yes_or_no(shape)
+    wanted = "yes or no" if yes_no else " or ".join(map(_word, shape.kinds))
+    return by_type(checks, wanted, next(iter(shape.examples), None), form, yes_no=yes_no)
 
 
 def _word(kind: Kind) -> str:

@@ -23,6 +23,7 @@ Check = Callable[[Any, Map | Seq, Any, Report], bool]
 Broken keys and items are dropped from what holds them. Places are made only for findings.
 """
 
+_YES_NO = {"yes": True, "no": False}
 _NAMING = ("name", "code", "id")
 
 
@@ -37,16 +38,21 @@ def any_value(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> boo
     return True
 
 
-def by_type(checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None) -> Check:
+def by_type(
+    checks: Mapping[type, Check], wanted: str, example: Any, form: Form | None, *, yes_no: bool = False
+) -> Check:
     """Picks the check for the type of the value, if that is one of the `wanted` types.
 
-    A whole number may be written in every notation of numbers; from here on it is one.
+    A whole number may be written in every notation of numbers, and true and false as `yes` and `no`; from here on it is
+    a number, or true or false.
     """
     notation = compiled_pattern(forms.WHOLE.pattern).search if int in checks and str not in checks else None
 
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         if notation is not None and isinstance(value, str) and notation(value):
             value = holder[at] = parse_integer(value)
+        elif yes_no and isinstance(value, str) and value in _YES_NO:
+            value = holder[at] = _YES_NO[value]
         type_check = checks.get(type(value))
         if type_check is not None:
             return type_check(value, holder, at, report)
@@ -172,7 +178,7 @@ class ObjectCheck:
                 broken.append(key)
             if report.full:
                 return False
-        complete = self._complete(value, holder, at, report)
+        complete = self._complete(value, holder, at, report, broken)
         for key in broken:
             self._drop(value, key, holder is value)
         return complete and not any(key in broken for key in self.required) and len(value) >= self.least
@@ -183,14 +189,16 @@ class ObjectCheck:
                 return pattern_check
         return self.additional
 
-    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
+    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report, broken: list[str]) -> bool:
         missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
         for key, beside in self.needs.items():
             for needed in beside:
                 if key in value and needed not in value:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
+        deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
         for key, message in missing.items():
-            report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
+            if key not in deeper:  # else it stands a level too deep, and the finding there says so
+                report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.least:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         return not missing and len(value) >= self.least

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.reading import shown_path
 
 if TYPE_CHECKING:
-    from fieldscribe.reading import Inputs
+    from pathlib import Path
+
+    from fieldscribe.reading import Content, Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
@@ -41,33 +42,25 @@ class SourceFile:
         return Span(self.name, line, column, width)
 
 
-def shown(path: Path) -> str:
-    """The path for people: relative to the working folder if it lies inside that."""
-    try:
-        return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
-    except ValueError:
-        return path.as_posix()
-
-
 def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
     """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes.
 
     `inputs` takes note of the bytes that were read.
     """
-    name = shown(path)
-    data = _bytes(path, Span(name, 1, 1), report)
-    if data is None:
+    name = shown_path(path)
+    content = _content(path, Span(name, 1, 1), report)
+    if content is None:
         return None
     if inputs is not None:
-        inputs.note(path, data)
-    return _decoded(name, data, report)
+        inputs.note(path, content)
+    return _decoded(name, content.data, report)
 
 
-def _bytes(path: Path, start: Span, report: Report) -> bytes | None:
+def _content(path: Path, start: Span, report: Report) -> Content | None:
     from fieldscribe.reading import UnfitFileError, read_regular
 
     try:
-        return read_regular(path, MOST_BYTES).data
+        return read_regular(path, MOST_BYTES)
     except UnfitFileError as error:
         if error.errno == EFBIG:
             message = f"the file is larger than {MOST_BYTES >> 20} MiB"

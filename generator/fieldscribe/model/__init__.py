@@ -1,6 +1,7 @@
 """The neutral model of a device: frozen, typed, with all records and sets expanded. It knows no target and no YAML."""
 
 from fieldscribe.model.device import (
+    About,
     Block,
     Bus,
     Code,
@@ -11,18 +12,21 @@ from fieldscribe.model.device import (
     Frame,
     Group,
     Message,
+    Named,
     Own,
     Role,
     Telegram,
 )
 from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
-from fieldscribe.model.point import Place, Point, Source, Unit
+from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Shape
 
 __all__ = [
+    "NOWHERE",
     "TYPES",
+    "About",
     "Allowed",
     "Block",
     "Bound",
@@ -45,6 +49,7 @@ __all__ = [
     "Limit",
     "Linear",
     "Message",
+    "Named",
     "Own",
     "Place",
     "Point",
@@ -54,8 +59,11 @@ __all__ = [
     "Source",
     "Special",
     "Telegram",
+    "Terms",
     "Text",
     "Titles",
     "TypeInfo",
     "Unit",
+    "Variant",
+    "item_of",
 ]

@@ -23,12 +23,30 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True)
+class Named:
+    """A thing beside the points that an erratum is about: a `frame`, a `function`, ... by its name or its number."""
+
+    kind: str
+    name: str | int
+
+    def __str__(self) -> str:
+        return f"{self.kind}:{self.name}"
+
+
+About = str | Named
+"""What a fact is about: a point by its name, or another thing."""
+
+
+@dataclass(frozen=True, slots=True)
 class Erratum:
-    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, how sure that is."""
+    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, how sure that is.
+
+    `where` is what it is about if that is no whole point: a thing of the device, or a place in words.
+    """
 
     id: str
     points: tuple[str, ...]
-    where: str
+    where: Named | str
     source: Source
     printed: str
     taken: str

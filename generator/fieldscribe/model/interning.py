@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.model.rules import Allowed, Interval
+
 if TYPE_CHECKING:
-    from fieldscribe.model.rules import Allowed
     from fieldscribe.model.shape import Shape
 
 
@@ -15,10 +16,18 @@ class Interner:
     def __init__(self) -> None:
         self._shapes: dict[Shape, Shape] = {}
         self._allowed: dict[Allowed, Allowed] = {}
+        self._intervals: dict[tuple[int, int], Allowed] = {}
 
     def shape(self, shape: Shape) -> Shape:
         """The first shape that is equal."""
         return self._shapes.setdefault(shape, shape)
+
+    def interval(self, low: int, high: int) -> Allowed:
+        """The limits of a single interval."""
+        known = self._intervals.get((low, high))
+        if known is None:
+            known = self._intervals[low, high] = self.allowed(Allowed((Interval(low, high),), False, ()))
+        return known
 
     def allowed(self, allowed: Allowed) -> Allowed:
         """The first limits that are equal."""

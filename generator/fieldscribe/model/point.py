@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from fractions import Fraction
+    from typing import Self
 
     from fieldscribe.existence import Condition
     from fieldscribe.model.numbers import Special, Titles
@@ -17,16 +18,20 @@ if TYPE_CHECKING:
 Fact = TypeVar("Fact")
 
 
-class _Shared(Generic[Fact]):
-    """A fact of the shape as an attribute of the point: its users need not know which facts are shared."""
+class _Shared(property, Generic[Fact]):
+    """A fact of the shape or the terms as an attribute of the point: its users need not know which facts are shared."""
 
-    __slots__ = ("_of",)
+    if TYPE_CHECKING:
 
-    def __init__(self, of: Callable[[Shape], Fact]) -> None:
-        self._of = of
+        def __init__(self, of: Callable[[Point], Fact]) -> None: ...
 
-    def __get__(self, point: Point, _: object) -> Fact:
-        return self._of(point.shape)
+        @overload
+        def __get__(self, point: None, owner: type, /) -> Self: ...
+
+        @overload
+        def __get__(self, point: object, owner: type | None = None, /) -> Fact: ...
+
+        def __get__(self, point: object, owner: type | None = None, /) -> object: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,91 +55,137 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A place of a point: purpose, space, addresses (of the high part first) and function."""
+    """Where a point is read or written: its addresses, that of the high part first, and the manual's numbers for it."""
 
-    purpose: str
-    space: str
     addresses: tuple[int, ...]
-    function: int | None
+    references: Mapping[str, int | str]
+
+
+NOWHERE = Place((), {})
+"""The place of a point whose address the manual does not print."""
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
-    """One addressable datum: its identity, its shape and its limits.
+class Variant:
+    """One value of one axis, as people write it: `axis=value`."""
 
-    `name` is unique except for variants: points of the same name differ in `variant` ("axis=value"). `places` is empty
-    if the manual prints no address. `bits` are its (high, low) bits of the word, None for whole words. `default` is the
-    factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
-    floating-point number has only the first. `steps` has pairs (from raw, step in raw). `generated` is False for a
-    point that is only documented; `reason` says why.
+    axis: str
+    value: str
+
+    def __str__(self) -> str:
+        return f"{self.axis}={self.value}"
+
+
+def item_of(name: str, variant: Variant | None) -> str:
+    """The name in generated code: the plain name, and behind it the value of the variant."""
+    return name if variant is None else f"{name}_{variant.value.lower()}"
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What points of a group share beside their shape: their space and unit, how they are kept, and when they exist.
+
+    `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
+    `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual says in
+    place of a type: empty if it leaves the type open, None if there is a type.
     """
 
-    name: str
-    variant: str | None
-    code: str | None
     group: str
     space: str
-    places: tuple[Place, ...]
-    references: Mapping[str, int | str]
-    shape: Shape
     bits: tuple[int, int] | None
-    title: Titles
-    note: Titles
     unit: Unit
-    allowed: Allowed
-    default: Fraction | None
-    default_raw: int | None
     steps: tuple[tuple[int, int], ...]
-    record: str | None
-    set: int | None
     changes: str | None
     keeps: str | None
     conditions: tuple[str, ...]
     when: Condition | None
     since: str | None
     until: str | None
-    was: tuple[str, ...]
     reserved: bool
-    source: Source
-    errata: tuple[str, ...]
     generated: bool
     reason: str | None
     telegram: str | None = None
-    index: int | None = None
     changes_with: tuple[str, ...] = ()
     untyped: str | None = None
-    """What the manual says in place of a type; empty if it leaves the type open; None if the point has a type."""
 
-    type = _Shared(lambda shape: shape.type)
-    width = _Shared(lambda shape: shape.width)
-    access = _Shared(lambda shape: shape.access)
-    scale = _Shared(lambda shape: shape.scale)
-    decimals = _Shared(lambda shape: shape.decimals)
-    display = _Shared(lambda shape: shape.display)
-    encodes_values = _Shared(lambda shape: shape.encodes_values)
-    most_raw = _Shared(lambda shape: shape.most_raw)
-    enum = _Shared(lambda shape: shape.enum)
-    flags = _Shared(lambda shape: shape.flags)
-    specials = _Shared(lambda shape: shape.specials)
-    shared_codes = _Shared(lambda shape: shape.shared_codes)
-    specials_of = _Shared(lambda shape: shape.specials_of)
-    text = _Shared(lambda shape: shape.text)
-    digits = _Shared(lambda shape: shape.digits)
-    fixed = _Shared(lambda shape: shape.fixed)
-    info = _Shared(lambda shape: shape.info)
-    form = _Shared(lambda shape: shape.form)
-    least = _Shared(lambda shape: shape.least)
-    greatest = _Shared(lambda shape: shape.greatest)
-    held = _Shared(lambda shape: shape.held)
-    readable = _Shared(lambda shape: shape.readable)
-    writable = _Shared(lambda shape: shape.writable)
-    fixed_scale = _Shared(lambda shape: shape.fixed_scale)
-    scale_arguments = _Shared(lambda shape: shape.scale_arguments)
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One addressable datum: its identity, over the shape and the terms that it shares with others.
+
+    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
+    addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is
+    the factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
+    floating-point number has only the first.
+    """
+
+    name: str
+    variant: Variant | None
+    code: str | None
+    title: Titles
+    note: Titles
+    source: Source
+    place: Place
+    write_place: Place | None
+    shape: Shape
+    terms: Terms
+    allowed: Allowed
+    default: Fraction | None
+    default_raw: int | None
+    record: str | None
+    set: int | None
+    index: int | None
+    was: tuple[str, ...]
+    errata: tuple[str, ...]
+
+    type = _Shared(lambda point: point.shape.type)
+    width = _Shared(lambda point: point.shape.width)
+    access = _Shared(lambda point: point.shape.access)
+    scale = _Shared(lambda point: point.shape.scale)
+    decimals = _Shared(lambda point: point.shape.decimals)
+    display = _Shared(lambda point: point.shape.display)
+    encodes_values = _Shared(lambda point: point.shape.encodes_values)
+    most_raw = _Shared(lambda point: point.shape.most_raw)
+    enum = _Shared(lambda point: point.shape.enum)
+    flags = _Shared(lambda point: point.shape.flags)
+    specials = _Shared(lambda point: point.shape.specials)
+    shared_codes = _Shared(lambda point: point.shape.shared_codes)
+    specials_of = _Shared(lambda point: point.shape.specials_of)
+    text = _Shared(lambda point: point.shape.text)
+    digits = _Shared(lambda point: point.shape.digits)
+    fixed = _Shared(lambda point: point.shape.fixed)
+    info = _Shared(lambda point: point.shape.info)
+    form = _Shared(lambda point: point.shape.form)
+    least = _Shared(lambda point: point.shape.least)
+    greatest = _Shared(lambda point: point.shape.greatest)
+    held = _Shared(lambda point: point.shape.held)
+    readable = _Shared(lambda point: point.shape.readable)
+    writable = _Shared(lambda point: point.shape.writable)
+    fixed_scale = _Shared(lambda point: point.shape.fixed_scale)
+    scale_arguments = _Shared(lambda point: point.shape.scale_arguments)
+
+    group = _Shared(lambda point: point.terms.group)
+    space = _Shared(lambda point: point.terms.space)
+    bits = _Shared(lambda point: point.terms.bits)
+    unit = _Shared(lambda point: point.terms.unit)
+    steps = _Shared(lambda point: point.terms.steps)
+    changes = _Shared(lambda point: point.terms.changes)
+    keeps = _Shared(lambda point: point.terms.keeps)
+    conditions = _Shared(lambda point: point.terms.conditions)
+    when = _Shared(lambda point: point.terms.when)
+    since = _Shared(lambda point: point.terms.since)
+    until = _Shared(lambda point: point.terms.until)
+    reserved = _Shared(lambda point: point.terms.reserved)
+    generated = _Shared(lambda point: point.terms.generated)
+    reason = _Shared(lambda point: point.terms.reason)
+    telegram = _Shared(lambda point: point.terms.telegram)
+    changes_with = _Shared(lambda point: point.terms.changes_with)
+    untyped = _Shared(lambda point: point.terms.untyped)
 
     @property
     def raw_only(self) -> bool:
         """Whether only its address is known, not the meaning of its words: it is read and written raw."""
-        return not (self.generated or self.reserved) and self.access != "none" and bool(self.places)
+        return not (self.generated or self.reserved) and self.access != "none" and bool(self.addresses)
 
     @property
     def words(self) -> int:
@@ -151,7 +202,12 @@ class Point:
     @property
     def addresses(self) -> tuple[int, ...]:
         """The addresses where the point is read (or else written), the high part first; may be empty."""
-        return self.places[0].addresses if self.places else ()
+        return self.place.addresses
+
+    @property
+    def references(self) -> Mapping[str, int | str]:
+        """The numbers that the manual prints for people, by numbering."""
+        return self.place.references
 
     @property
     def address(self) -> int | None:
@@ -159,11 +215,15 @@ class Point:
         return min(self.addresses) if self.addresses else None
 
     @property
-    def write_place(self) -> Place | None:
-        """The place where the point is written, which mostly is where it is read; None without an address."""
-        return next(
-            (place for place in self.places if place.purpose == "write"), self.places[0] if self.places else None
-        )
+    def written(self) -> Place:
+        """The place where the point is written, which mostly is where it is read."""
+        return self.write_place or self.place
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Where the point is read, and where else it is written; empty if the manual prints no address."""
+        apart = () if self.write_place is None else (self.write_place,)
+        return (self.place, *apart) if self.addresses else ()
 
     def special(self, raw: int) -> Special | None:
         """The special code with that raw number, if there is one."""
@@ -171,8 +231,8 @@ class Point:
 
     @property
     def item(self) -> str:
-        """The name in generated code: its name, and behind it the value of its variant."""
-        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+        """The name in generated code, with the value of its variant."""
+        return item_of(self.name, self.variant)
 
     @property
     def arguments(self) -> tuple[str, ...]:

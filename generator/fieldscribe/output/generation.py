@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.source import shown
 from fieldscribe.output.result import Result
-from fieldscribe.reading import Inputs
+from fieldscribe.reading import Inputs, shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -121,7 +120,7 @@ class Generation:
             removable = not (self.out / path).is_dir()
             advice = "move it away, or replace it with `--force`" if removable else "move it away"
             hint = f"{advice}; nothing of {plan.device} was written"
-            place = Span(shown(self.out / path), 1, 1)
+            place = Span(shown_path(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 
     def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
@@ -129,7 +128,7 @@ class Generation:
         named = f"target {targets[0]} does" if len(targets) == 1 else f"targets {', '.join(targets)} do"
         message = f"the {named} not know the family {device.family}; nothing of {device.id} was written"
         hint = "choose others with --target"
-        self.report.error("unknown-family", message, Span(shown(device_file), 1, 1), hint)
+        self.report.error("unknown-family", message, Span(shown_path(device_file), 1, 1), hint)
 
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """An internal error is a finding of its device."""
@@ -137,7 +136,7 @@ class Generation:
         bug = f"{type(error).__name__}: {str(error)[:120]}"
         message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
-        self.report.error("internal-error", message, Span(shown(device_file), 1, 1), hint)
+        self.report.error("internal-error", message, Span(shown_path(device_file), 1, 1), hint)
 
 
 def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:

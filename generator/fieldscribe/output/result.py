@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from fieldscribe.reading import State
 
 
-@dataclass(slots=True)
 class Result:
-    """The relative paths of all outputs, sorted by what happened to them."""
+    """The relative paths of all outputs, sorted by what happened to them: `wanted` are all that should be there.
 
-    wanted: set[str] = field(default_factory=set)
-    """All files that should be there."""
-    written: set[str] = field(default_factory=set)
-    removed: set[str] = field(default_factory=set)
-    stale: set[str] = field(default_factory=set)
-    kept: set[str] = field(default_factory=set)
-    states: dict[str, State] = field(default_factory=dict)
-    """The states of the files that are up to date."""
-    digests: dict[str, str] = field(default_factory=dict)
+    `states` are those of the files that are up to date, with their `digests`.
+    """
+
+    def __init__(self, wanted: Iterable[str] = ()) -> None:
+        self.wanted = set(wanted)
+        self.written: set[str] = set()
+        self.removed: set[str] = set()
+        self.stale: set[str] = set()
+        self.kept: set[str] = set()
+        self.states: dict[str, State] = {}
+        self.digests: dict[str, str] = {}
 
     @property
     def left(self) -> int:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number
-from fieldscribe.model import TYPES, Place
+from fieldscribe.model import NOWHERE, TYPES, Place
 from fieldscribe.resolve.elements import ALONE
 from fieldscribe.resolve.numbering import Numberings
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
@@ -48,24 +48,35 @@ class Places:
         self._numberings = Numberings(scope.report)
         self._wrong_rules: set[int] = set()
 
-    def place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> Place | None:
-        """The addresses of a point's words, that of the highest bits (in a text: of the first characters) first.
+    def places(
+        self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None
+    ) -> tuple[Place, Place | None]:
+        """Where a point is, and where it is written if that is elsewhere.
 
-        None if the manual prints no address, or after a finding.
+        The first has no addresses if the manual prints none, or after a finding.
         """
+        place = self._place(draft, space, type_name, bits, "at")
+        if not place.addresses or draft.get("write_at") is None:
+            return place, None
+        write_place = self._place(draft, space, type_name, bits, "write_at")
+        return place, write_place if write_place.addresses else None
+
+    def _place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None, key: str) -> Place:
+        """What `key` says: the words, that of the highest bits (in a text: of the first characters) first."""
         last = self._last(draft, space)
-        words = self._text_words(draft, last) if type_name == "text" else self._words(draft, space, type_name, bits)
+        text = type_name == "text"
+        words = self._text_words(draft, last, key) if text else self._words(draft, space, type_name, bits, key)
         if words is None or last is None:
-            return None
+            return NOWHERE
         for address in (words[0], words[-1]):
             if not 0 <= address <= last:
-                self._outside(draft, space, address, last, single=address == words[0])
-                return None
-        if type_name != "text":
+                self._outside(draft, key, address, last, single=address == words[0])
+                return NOWHERE
+        if not text:
             self._refuse_scattered(draft, words)
-        order = "high first" if type_name == "text" else draft.get("words") or self._order(type_name)
-        purpose = "write" if self.access(draft, space) == "w" else "read"
-        return Place(purpose, space, words[::-1] if order == "low first" else words, None)
+        order = "high first" if text else draft.get("words") or self._order(type_name)
+        printed = words[0] if text else min(words)  # manuals print that of the first characters, else the lowest
+        return Place(words[::-1] if order == "low first" else words, self.references(draft, printed))
 
     def access(self, draft: Draft, space: str) -> str:
         """What a master may do: as the description says, else all that the direction of the telegram allows."""
@@ -80,13 +91,11 @@ class Places:
             return usual
         return access
 
-    def references(self, draft: Draft, address: int | None) -> Mapping[str, int]:
+    def references(self, draft: Draft, address: int) -> Mapping[str, int]:
         """The numbers that the manual prints for an address, by numbering.
 
         In a multiplexed telegram these are `mux`, the number of the frame, and `word`, the place in it, too.
         """
-        if address is None:
-            return {}
         numbering: Map | None = draft.group.get("numbering")
         numbers = {} if numbering is None else dict(self._numberings.numbers(numbering, address))
         carried = self.carried(draft)
@@ -108,68 +117,70 @@ class Places:
         telegram = telegram_of(self.scope, self.telegrams, draft)
         return None if telegram is None else telegram[0].words - 1
 
-    def _words(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> tuple[int, ...] | None:
-        first = self._address(draft)
+    def _words(
+        self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None, key: str
+    ) -> tuple[int, ...] | None:
+        first = self._address(draft, key)
         if first is None:
             return None
         single_word = bits is not None or space in self.scope.family.indexed  # there a number names a whole value
         words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
         return tuple(range(first, first + (1 if single_word else words)))
 
-    def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
+    def _text_words(self, draft: Draft, last: int | None, key: str) -> tuple[int, ...] | None:
         """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""
-        raw = self._written_address(draft)
+        raw = self._written_address(draft, key)
         characters: int | None = draft.get("characters")
         if raw is None or characters is None or "characters" in draft.failed:
             return None
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
-        first = self._text_end(draft, first_text) if dots else self._address(draft)
-        final = self._text_end(draft, last_text) if dots else None
+        first = self._text_end(draft, first_text, key) if dots else self._address(draft, key)
+        final = self._text_end(draft, last_text, key) if dots else None
         if first is None or (dots and final is None):
             return None
         if final is None:
             return tuple(range(first, first + characters // 2))
         step = 1 if first <= final else -1
         if abs(final - first) >= (_MOST_WORDS if last is None else last + 1):
-            self._outside(draft, str(draft.get("space")), max(first, final), last or _MOST_WORDS, single=True)
+            self._outside(draft, key, max(first, final), last or _MOST_WORDS, single=True)
             return None
         words = tuple(range(first, final + step, step))
         if 2 * len(words) != characters:
             message = f"{len(words)} words hold {2 * len(words)} characters, not {characters}"
-            hint = "two characters stand in a word: correct `at` or `characters`"
-            self.report.error("text-length", message, draft.span("at"), hint)
+            hint = f"two characters stand in a word: correct `{key}` or `characters`"
+            self.report.error("text-length", message, draft.span(key), hint)
             return None
         return words
 
-    def _text_end(self, draft: Draft, text: str) -> int | None:
+    def _text_end(self, draft: Draft, text: str, key: str) -> int | None:
         """The first or the last word of a text, as its row writes it."""
-        number = self._number(draft, text.strip())
+        number = self._number(draft, text.strip(), key)
         return None if number is None else self._address_of(draft, number)
 
-    def _written_address(self, draft: Draft) -> object:
-        """The value of `at` as it is written; None if the manual prints no address, or after a finding."""
-        layer = draft.layer("at")
+    def _written_address(self, draft: Draft, key: str) -> object:
+        """The value of `key` as it is written; None if the manual prints no address, or after a finding."""
+        layer = draft.layer(key)
         if layer is None:
             if "at" not in draft.failed:
                 hint = "add `at: …`, or `at: ~` if the manual prints none"
                 self.report.error("missing-key", f"`{draft.name}` says no address", draft.span(), hint)
             return None
-        return None if draft.use is not None and draft.use.get("at", 0) is None else layer["at"]
+        return None if draft.use is not None and draft.use.get("at", 0) is None else layer[key]
 
-    def _address(self, draft: Draft) -> int | None:
+    def _address(self, draft: Draft, key: str) -> int | None:
         """The first address of the point on the wire; None if the manual prints none, or after a finding."""
-        raw = self._written_address(draft)
+        raw = self._written_address(draft, key)
         if raw is None:
             return None
-        number = raw if isinstance(raw, int) else self._number(draft, str(raw))
+        number = raw if isinstance(raw, int) else self._number(draft, str(raw), key)
         return None if number is None else self._address_of(draft, number)
 
-    def _number(self, draft: Draft, text: str) -> int | None:
-        """The number that a text under `at` means, which may be a formula with `base`; None after a finding."""
-        span = draft.span("at")
+    def _number(self, draft: Draft, text: str, key: str) -> int | None:
+        """The number that a text under `key` means, which may be a formula with `base`; None after a finding."""
+        span = draft.span(key)
         several = _first_of_several(text)
         if several is not None:
-            hint = f"it stands once, at its first word: write `at: {several}`; the `type` says how many words it has"
+            hint = f"it stands once, at its first word: write `{key}: {several}`; the `type` says how many words it has"
             self.report.error("bad-number", f"`{text[:60]}` are several addresses", span, hint)
             return None
         if _FORMULA.search(text) is None:
@@ -250,18 +261,18 @@ class Places:
             hint = "a number that is parted has two words at most: describe the parts as points of their own"
             self.report.error("parted-number", message, draft.span("at"), hint)
 
-    def _outside(self, draft: Draft, space: str, address: int, last: int, *, single: bool) -> None:
+    def _outside(self, draft: Draft, key: str, address: int, last: int, *, single: bool) -> None:
         """A finding for an address that the space, or a word that the telegram, does not have."""
-        if space == SPACE:
+        if draft.get("space") == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
             hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
         elif single:
             message = f"the address {address} lies outside 0..{last}"
-            hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"
+            hint = f"`{key}` is the number on the wire; the numbers for people (40001) go under `printed`"
         else:
             message = f"the last word of `{draft.name}` lies outside 0..{last}"
             hint = "check the address and the type"
-        self.report.error("address-outside-space", message, draft.span("at"), hint)
+        self.report.error("address-outside-space", message, draft.span(key), hint)
 
     def _order(self, type_name: str) -> str:
         if isinstance(self.order, Map):

@@ -43,6 +43,8 @@ def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
     if default in named:
         return named[default]
     if isinstance(default, str) and enum is not None and default.isidentifier():
+        if "enum" in draft.failed:
+            return None  # it may be one of the names that could not be read
         hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
         return None

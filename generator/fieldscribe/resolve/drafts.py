@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
-from fieldscribe.model import TYPES, Titles
+from fieldscribe.model import TYPES, Titles, item_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Variant
     from fieldscribe.resolve.elements import Element
     from fieldscribe.resolve.scope import Scope
 
@@ -36,7 +37,7 @@ class Draft:
     group: Map
     own: Map
     title: Titles
-    variant: str | None = None
+    variant: Variant | None = None
     record: str | None = None
     set_number: int | None = None
     use: Map | None = None
@@ -86,12 +87,17 @@ class Draft:
     @property
     def keeps(self) -> str | None:
         """Whether a written value is kept, or by which command: the nearer one of `keep_with` and `keeps`."""
-        keeps: str | None = self.get("keep_with", self.get("keeps"))
-        return keeps
+        keeps: str | bool | None = self.get("keep_with", self.get("keeps"))
+        return {True: "yes", False: "no"}[keeps] if isinstance(keeps, bool) else keeps
 
     def _rank(self, layer: Map) -> int:
         """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""
         return next((place for place, other in enumerate(self.layers) if other is layer), len(self.layers))
+
+    @property
+    def keys(self) -> Collection[str]:
+        """The facts that someone says."""
+        return self._where.keys()
 
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""
@@ -123,7 +129,7 @@ class Draft:
     @property
     def item(self) -> str:
         """The name with the variant's value."""
-        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+        return item_of(self.name, self.variant)
 
 
 def groups(scope: Scope) -> Iterator[Map]:

@@ -38,6 +38,8 @@ def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
     key = (name, id(entries), closed)
     if key not in scope.enums:
         scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed)
+    if entries.broken or len(scope.enums[key].entries) < len(entries):
+        draft.failed.add("enum")  # some of its names are not known
     return scope.enums[key]
 
 

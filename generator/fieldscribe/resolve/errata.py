@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.families import families
+from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.model import Bus, Erratum
+from fieldscribe.model import About, Bus, Erratum, Named
 from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.values import integer
 
@@ -30,9 +30,10 @@ class OpenErratum:
     used: set[str]
 
     @property
-    def subjects(self) -> tuple[str, ...]:
-        """What it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
-        return self.erratum.points or ((self.erratum.where,) if ":" in self.erratum.where else ())
+    def subjects(self) -> tuple[About, ...]:
+        """What it is about: its points, another thing, or nothing that has a name."""
+        where = self.erratum.where
+        return self.erratum.points or ((where,) if isinstance(where, Named) else ())
 
     def printed(self, key: str) -> Any:
         """The printed value of a key, or None."""
@@ -101,22 +102,22 @@ def _flag_exists(scope: Scope, index: Index, raw: Map) -> None:
         scope.unknown("flag", raw["flag"], raw.span("flag"), names)
 
 
-def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
-    """What it is about, if not a whole point: `frame:NAME`, `response:7`, words, or nothing; None after a finding."""
+def _where(scope: Scope, raw: Map, bus: Bus) -> Named | str | None:
+    """What it is about, if not a whole point: a thing, words, or nothing; None after a finding."""
     for section, key in _NAMED:
         if key in raw:
             known = [str(item["name"]) for item in scope.listed(section)]
             if raw[key] not in known:
                 scope.unknown(key, raw[key], raw.span(key), known)
-            return f"{key}:{raw[key]}"
-    for key, section in {codes.key: codes.section for family in families() for codes in family.codes}.items():
+            return Named(key, raw[key])
+    for key, section in sections_of_codes().items():
         if key in raw:
             number = integer(raw[key], raw.span(key), scope.report)
             if number is not None and all(code.number != number for code in bus.codes(section)):
                 scope.unknown(key, str(raw[key]), raw.span(key), ())
-            return f"{key}:{number}"
+            return Named(key, str(raw[key]) if number is None else number)
     if "where" in raw:
-        return str(raw["where"]).replace(":", ",")
+        return str(raw["where"])
     if "point" not in raw and "points" not in raw:
         hint = "say `point`, `points`, `frame`, `function`, `message`, `telegram` or `where`"
         scope.report.error("erratum-unused", f"the erratum `{raw['id']}` is about nothing", raw.span("id"), hint)

@@ -9,6 +9,7 @@ from fieldscribe.language.keys.places import FORMAT, POINT, USE
 from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
+from fieldscribe.model import Variant, item_of
 from fieldscribe.resolve.drafts import Draft, groups, humanised
 from fieldscribe.resolve.elements import Element, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, titles
@@ -179,22 +180,22 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
                 "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
             )
         else:
-            yield _varied(scope, draft, key, value, override)
+            yield _varied(scope, draft, Variant(axis, value), override)
 
 
-def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> Draft:
+def _varied(scope: Scope, draft: Draft, variant: Variant, override: Map) -> Draft:
     varied = Draft(
         draft.name,
         (override, *draft.layers),
         draft.group,
         draft.own,
         draft.title,
-        variant=key,
+        variant=variant,
         record=draft.record,
         set_number=draft.set_number,
         use=draft.use,
         element=draft.element,
-        enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
+        enum_name=item_of(draft.enum_name, variant) if "enum" in override else draft.enum_name,
         hidden=draft.hidden - override.keys(),
     )
     own_key = next((key for key in ("set", "index") if key in override), None)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
-from fieldscribe.model import Bus, Frame, Point
+from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.frame_meanings import meaning_of
@@ -26,6 +26,11 @@ class OpenFrame:
 
     frame: Frame
     raw: Map
+
+    @property
+    def about(self) -> Named:
+        """The frame as errata name it."""
+        return Named("frame", self.frame.name)
 
 
 def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point]) -> list[OpenFrame]:

@@ -133,14 +133,19 @@ def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
     return (sum(steps) + sum(constants)) * needs.raw <= _HALF
 
 
+def asks_limits(holds: tuple[int, int]) -> bool:
+    """Whether the limits of a type that holds such numbers decide how code computes a point."""
+    return max(map(abs, holds)) >= _NARROW
+
+
 def _largest(draft: Draft, bounds: Bounds) -> int:
     """The largest raw number that has to come back unchanged: any of a type of 32 bits, any in range of a wider type.
 
     Every pattern of up to 32 bits that a device may send has a count and a value. To ask that of 64 bits would rule out
     most scales: there only numbers that may be written have to, and decoding reports others as an overflow.
     """
-    raw = max(map(abs, bounds.holds[draft]))
-    return raw if raw < _NARROW else max(map(abs, bounds.own_hull(draft)))
+    holds = bounds.holds[draft]
+    return max(map(abs, bounds.own_hull(draft) if asks_limits(holds) else holds))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:

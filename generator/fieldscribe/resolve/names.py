@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Variant
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.scope import Scope
 
@@ -27,7 +28,7 @@ class Index:
     by_code: dict[str, list[Draft]]
     by_items: dict[str, Draft]
 
-    def find(self, word: str, variant: str | None = None) -> Draft | None:
+    def find(self, word: str, variant: Variant | None = None) -> Draft | None:
         """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
 
         Of a point that differs by variant it is the one of this variant, else the first.

@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Interner, Place, Point, ScaleCase, Shape, Special, Unit
+from fieldscribe.model import Point, Terms
 from fieldscribe.resolve.addresses import Places
+from fieldscribe.resolve.alike import Kinds, Once, frozen
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.defaults import default_of
-from fieldscribe.resolve.display import display_of
-from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
-from fieldscribe.resolve.integer_path import Paths, paths_of
-from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
+from fieldscribe.resolve.meanings import Meaning, Meanings, Word, Words
 from fieldscribe.resolve.rules import Scales
-from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
-from fieldscribe.resolve.special_codes import SpecialCodes, quantities
+from fieldscribe.resolve.scope import PLAIN, Scope, Sources, titles
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import integer
-from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
+    from collections.abc import Hashable
+    from fractions import Fraction
+
     from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Shape, Unit
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.names import Index
     from fieldscribe.resolve.telegrams import Telegrams
 
 
@@ -38,159 +39,102 @@ class Resolved:
     draft: Draft
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
-    """What is known of a point before any formula is read: its space, type, bits of the word and special codes."""
-
-    space: str
-    type: str
-    bits: tuple[int, int] | None
-    specials: tuple[Special, ...]
-    specials_of: str
-
-    @property
-    def width(self) -> int:
-        """How many bits the raw number has."""
-        return TYPES[self.type].bits if self.bits is None else self.bits[0] - self.bits[1] + 1
-
-    @property
-    def holds(self) -> tuple[int, int]:
-        """The least and greatest raw number."""
-        return ends_of(self.width, signed=TYPES[self.type].signed)
-
-
-class _Tools(NamedTuple):
-    """What works out the facts of all points."""
-
-    places: Places
-    ranges: Ranges
-    interner: Interner
-
-
 def resolve_points(
     scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
 ) -> tuple[list[Resolved], Ranges, Places]:
     """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
-    codes = SpecialCodes(scope)
-    codes.check_types()
-    words = {draft: _word(scope, draft, codes) for draft in drafts}
+    kind_of, word_of = Kinds().of, Words(scope).of
+    kinds = {draft: kind_of(draft) for draft in drafts}
+    words = {draft: word_of(draft, kind) for draft, kind in kinds.items()}
     bounds = Bounds(
         Scales(scope, index),
         {draft: word.holds for draft, word in words.items()},
         {draft: word.specials for draft, word in words.items()},
     )
-    ranges = Ranges(bounds)
-    places = Places(scope, telegrams)
-    tools = _Tools(places, ranges, Interner())
-    resolved = [Resolved(_point(scope, draft, word, tools), draft) for draft, word in words.items()]
+    ranges, places = Ranges(bounds), Places(scope, telegrams)
+    meaning_of = Meanings(scope, words, ranges, places).of
+    points = _Points(scope, ranges.bounds.scales, places)
+    resolved = [
+        Resolved(points.point(draft, kind, words[draft], meaning_of(draft, kind)), draft)
+        for draft, kind in kinds.items()
+    ]
     return resolved, ranges, places
 
 
-def _word(scope: Scope, draft: Draft, codes: SpecialCodes) -> Word:
-    space = space_of(scope, draft)
-    bits = bits_of(scope, draft, space)
-    kind = type_of(scope, draft, space, bits)
-    return Word(space, kind, bits, *codes.of(draft, kind, bits))
+class _Points:
+    """Puts points together: their identity, and what they share with others."""
+
+    def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
+        self._scope, self._scales, self._places = scope, scales, places
+        self._sources = Sources(scope)
+        self._terms: Once[Terms] = Once(scope.report)
+        self._defaults: Once[tuple[Fraction | None, int | None]] = Once(scope.report)
+
+    def point(self, draft: Draft, kind: Hashable, word: Word, meaning: Meaning) -> Point:
+        """The point of a draft."""
+        shape, get = meaning.shape, draft.get
+        place, write_place = self._places.places(draft, word.space, word.type, word.bits)
+        terms = self._terms.of(kind, draft, partial(self._computed_terms, word, meaning), _are_general)
+        default, default_raw = self._default(draft, kind, shape)
+        return Point(
+            draft.name,
+            draft.variant,
+            draft.code,
+            draft.title,
+            titles(get("note")),
+            self._sources.of(draft),
+            place,
+            write_place,
+            shape,
+            terms if place.addresses else replace(terms, generated=False, reason="the manual prints no address"),
+            meaning.allowed,
+            default,
+            default_raw,
+            draft.record,
+            draft.set_number,
+            None if draft.element is None else draft.element.index,
+            tuple([f"{name}{draft.suffix}" for name in get("was", ())]),
+            (),
+        )
+
+    def _default(self, draft: Draft, kind: Hashable, shape: Shape) -> tuple[Fraction | None, int | None]:
+        """The factory setting in the unit and as raw number."""
+        if draft.layer("default") is None and draft.layer("default_in_units") is None:
+            return None, None
+        said = kind, frozen(draft.get("default")), frozen(draft.get("default_in_units"))
+        return self._defaults.of(said, draft, lambda _: default_of(self._scope, draft, shape), lambda _: True)
+
+    def _computed_terms(self, word: Word, meaning: Meaning, draft: Draft) -> Terms:
+        get, scope, shape = draft.get, self._scope, meaning.shape
+        reason = _reason(draft, shape.access, raw_alone=meaning.raw_alone)
+        return Terms(
+            group=str(draft.group["group"]),
+            space=word.space,
+            bits=word.bits,
+            unit=_unit(scope, draft),
+            steps=_steps(scope, draft),
+            changes=get("changes"),
+            keeps=_keeps(scope, draft) if shape.writable else None,
+            conditions=tuple(get("conditions", ())) if shape.writable else (),
+            when=existence_of(scope, draft, self._scales),
+            since=get("since"),
+            until=get("until"),
+            reserved=bool(get("reserved", False)),
+            generated=reason is None,
+            reason=reason,
+            telegram=draft.group.get("telegram") if word.space == SPACE else None,
+            changes_with=_changes_with(draft, self._scales.index),
+            untyped=_untyped(scope, draft),
+        )
 
 
-def _point(scope: Scope, draft: Draft, word: Word, tools: _Tools) -> Point:
-    get, (places, ranges, interner) = draft.get, tools
-    shape, allowed, paths = _meaning(scope, draft, word, places.access(draft, word.space), ranges)
-    place = places.place(draft, word.space, word.type, word.bits)
-    reason = _reason(draft, place is not None, shape.access, raw_alone=paths.raw_alone)
-    default, default_raw = default_of(scope, draft, shape)
-    return Point(
-        name=draft.name,
-        variant=draft.variant,
-        code=draft.code,
-        group=str(draft.group["group"]),
-        space=word.space,
-        places=() if place is None else (place,),
-        references=places.references(draft, None if place is None else _printed_address(place, word)),
-        shape=interner.shape(shape),
-        bits=word.bits,
-        title=draft.title,
-        note=titles(get("note")),
-        unit=_unit(scope, draft),
-        allowed=interner.allowed(allowed),
-        default=default,
-        default_raw=default_raw,
-        steps=_steps(scope, draft),
-        record=draft.record,
-        set=draft.set_number,
-        changes=get("changes"),
-        keeps=_keeps(scope, draft) if shape.writable else None,
-        conditions=tuple(get("conditions", ())) if shape.writable else (),
-        when=existence_of(scope, draft, ranges.bounds.scales),
-        since=get("since"),
-        until=get("until"),
-        was=tuple(f"{name}{draft.suffix}" for name in get("was", ())),
-        reserved=bool(get("reserved", False)),
-        source=source_of(scope, *draft.layers, draft.group),
-        errata=(),
-        generated=reason is None,
-        reason=reason,
-        telegram=draft.group.get("telegram") if word.space == SPACE else None,
-        index=None if draft.element is None else draft.element.index,
-        changes_with=_changes_with(draft, ranges.bounds.scales.index),
-        untyped=_untyped(scope, draft),
-    )
+def _are_general(terms: Terms) -> bool:
+    """Whether alike points share them: not where no point may name itself."""
+    return terms.when is None and not terms.changes_with
 
 
-def _meaning(scope: Scope, draft: Draft, word: Word, access: str, ranges: Ranges) -> tuple[Shape, Allowed, Paths]:
-    """What the raw numbers of a point are and which may be written."""
-    text, digits = text_of(scope, draft), digits_of(scope, draft)
-    ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
-    said_open = bool(draft.get("open", False))
-    enum = None if draft.text else enum_of(scope, draft, closed=not ranged and not said_open)
-    allowed = ranges.allowed(draft, enum)
-    if digits is not None and not ranged:
-        allowed = allowed_digits(scope, draft, digits, word.holds[1])
-    if word.specials:
-        allowed = quantities(scope, draft, allowed, word.specials)
-    if enum is not None and not said_open and _all_named(allowed, enum):
-        enum = enum_of(scope, draft, closed=True)
-    cases = _cases(draft, ranges.bounds)
-    paths = paths_of(draft, cases, ranges.bounds)
-    shape = Shape(
-        type=word.type,
-        width=word.width,
-        access=access,
-        scale=cases,
-        decimals=paths.decimals,
-        encodes_values=paths.encodes_values,
-        most_raw=paths.most_raw,
-        enum=enum,
-        flags=flags_of(scope, draft, word.bits, word.width),
-        specials=word.specials,
-        specials_of=word.specials_of,
-        text=text,
-        digits=digits,
-        fixed=fixed_of(scope, draft, word.bits, word.width) if "w" in access else None,
-    )
-    shown = display_of(draft, shape, ranges.bounds)
-    return shape if shown is None else replace(shape, display=shown), allowed, paths
-
-
-def _printed_address(place: Place, word: Word) -> int:
-    """The address whose number manuals print: in a text that of the first characters, else the lowest."""
-    return place.addresses[0] if word.type == "text" else min(place.addresses)
-
-
-def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
-    """The cases of the point's scale; None without a scale, or if an exponent in it is too large (a finding)."""
-    cases = None if draft.floating else bounds.scales.cases(draft)
-    for case in cases or ():
-        if case.rule.factors and not bounds.exponents_fit(case.rule, draft.span("scale")):
-            draft.failed.add("scale")
-            return None
-    return cases
-
-
-def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> str | None:
-    """Why no code is generated for the point; None if there is code for it."""
-    if not has_place:
-        return "the manual prints no address"
+def _reason(draft: Draft, access: str, *, raw_alone: bool) -> str | None:
+    """Why no code is generated for a point that has an address; None if there is code for it."""
     if draft.get("reserved", False):
         return "reserved by the maker"
     if draft.untyped is not None:
@@ -246,14 +190,6 @@ def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
             scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them")
         steps.setdefault(start, step)
     return tuple(sorted(steps.items()))
-
-
-def _all_named(allowed: Allowed, enum: Enum) -> bool:
-    """Whether every number that may be written has a name."""
-    numbers = {entry.raw for entry in enum.entries}
-    return not allowed.moves and all(
-        high - low < len(numbers) and numbers.issuperset(range(low, high + 1)) for low, high in allowed.fixed
-    )
 
 
 def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:

@@ -15,11 +15,12 @@ from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.families.contract import Family
     from fieldscribe.language.files import Files
+    from fieldscribe.resolve.drafts import Draft
 
 _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
@@ -164,6 +165,28 @@ def first_line(value: object) -> int | None:
 
 def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
+    return _source(scope, _cited(layers))
+
+
+class Sources:
+    """The sources of points; what their formats and groups cite is read once."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._shared: dict[tuple[int, ...], Mapping[str, object]] = {}
+
+    def of(self, draft: Draft) -> Source:
+        """The source of a point."""
+        own, *others = draft.layers
+        key = (*map(id, others), id(draft.group))
+        shared = self._shared.get(key)
+        if shared is None:
+            shared = self._shared[key] = _cited((*others, draft.group))
+        return _source(self._scope, {**shared, **_cited((own,))})
+
+
+def _cited(layers: Iterable[Map]) -> dict[str, object]:
+    """What the layers say of a source, the first of them that says it."""
     facts: dict[str, object] = {}
     for layer in layers:
         for key in _SOURCE:
@@ -172,6 +195,10 @@ def source_of(scope: Scope, *layers: Map) -> Source:
         if "source" in layer and isinstance(layer["source"], Map):
             for key, value in layer["source"].items():
                 facts.setdefault(key, value)
+    return facts
+
+
+def _source(scope: Scope, facts: Mapping[str, object]) -> Source:
     document = str(facts.get("document") or next(iter(scope.documents), ""))
     line, section, page = first_line(facts.get("line")), facts.get("section"), facts.get("page")
     return Source(

@@ -265,8 +265,8 @@ def _special(code: _Code, own: bool) -> Special:
         code.high,
         name,
         entry_titles(value, name),
-        facts.get("no_value") in (True, "yes"),
-        facts.get("writable") in (True, "yes"),
+        facts.get("no_value", False),
+        facts.get("writable", False),
         code.hexadecimal,
         own,
     )

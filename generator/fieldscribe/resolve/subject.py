@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Bus, Command, Device, Frame, Message
+    from fieldscribe.model import About, Bus, Command, Device, Frame, Message
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.allowed import Ranges
     from fieldscribe.resolve.errata import OpenErratum
@@ -30,7 +30,7 @@ class Printed:
     what an erratum says was taken, where comparing numbers or texts is not enough. `flag` is the flag that it is about.
     """
 
-    about: str
+    about: About
     key: str
     printed: Any
     taken: Any
@@ -59,7 +59,7 @@ class Subject:
     open_frames: list[OpenFrame]
     errata: list[OpenErratum]
     frames: list[Frame] = field(default_factory=list)
-    cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
+    cited: dict[About, list[OpenErratum]] = field(default_factory=dict)
     _models: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:

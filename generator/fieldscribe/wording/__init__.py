@@ -33,7 +33,18 @@ def address_text(address: int) -> str:
 
 def words_text(point: Point) -> str:
     """All words of a point, and which one holds the high part: `1013h (4115) high, 1014h (4116) low`."""
-    addresses = point.addresses
+    return _words_of(point, point.addresses)
+
+
+def write_place_text(point: Point) -> str:
+    """Where else the point is written, with the manual's numbers: `2028h (8232), modicon 8233`; mostly empty."""
+    if point.write_place is None:
+        return ""
+    printed = (f"{name} {number}" for name, number in point.write_place.references.items())
+    return ", ".join((_words_of(point, point.write_place.addresses), *printed))
+
+
+def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
     if len(addresses) < 2:
         return address_text(addresses[0]) if addresses else ""
     if len(addresses) == 2:

@@ -48,9 +48,9 @@ def counted(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def too_short(what: str, least: int, data: bytes) -> str:
+def too_short(what: str, least: int, here: int) -> str:
     """That there are fewer bytes than every frame has."""
-    return f"{what} has at least {least} bytes, here {'is 1' if len(data) == 1 else f'are {len(data)}'}"
+    return f"{what} has at least {least} bytes, here {'is' if here == 1 else 'are'} {here}"
 
 
 def spaced(data: bytes) -> str:

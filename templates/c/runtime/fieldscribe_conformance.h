@@ -555,6 +555,11 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         others                                                                                   \
     }
 
+#define FIELDSCRIBE_WRITE_ADDRESS(macro)                                                         \
+    if (fieldscribe_asks(v, "write_address")) {                                                  \
+        fieldscribe_is_number(v, "address", (uint64_t)(macro##_WRITE_ADDRESS));                  \
+    }
+
 #define FIELDSCRIBE_DISPLAY(macro)                                                               \
     if (fieldscribe_asks(v, "display")) {                                                        \
         fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DISPLAY_DECIMALS));              \

@@ -65,10 +65,10 @@ def test_every_table_is_well_formed() -> None:
     assert lines[-2] != ""
 
 
-def test_a_second_place_says_what_it_is_for() -> None:
-    places = (Place("read", "holding", (7,), None), Place("write", "holding", (0x20, 0x21), None))
-    made = changed(point("made", 7), places=places)
-    assert any("write: holding 0020h (32), 0021h (33)" in cell for cell in _row(_page(sample_device((made,))), "made"))
+def test_a_write_address_stands_among_the_remarks() -> None:
+    made = point("made", 7, "u32", write_place=Place((0x20, 0x21), {"modicon": 33}))
+    told = "written at 0020h (32) high, 0021h (33) low, modicon 33"
+    assert any(told in cell for cell in _row(_page(sample_device((made,))), "made"))
 
 
 def test_every_link_has_its_target() -> None:

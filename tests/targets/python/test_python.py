@@ -317,7 +317,7 @@ def test_other_points_are_read_as_needed(drive: Any, slave: Slave) -> None:
 
 def test_remembered_until_forgotten(tmp_path: Path) -> None:
     points = tuple(
-        replace(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
+        changed(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
     )
     folder = write_package(replace(sample_device(points), id="keeping_drive"), tmp_path)
     slave = Slave()
@@ -645,18 +645,18 @@ def test_long_names_of_words_are_formatted(tmp_path: Path) -> None:
 
 
 def test_separate_places(tmp_path: Path) -> None:
-    both = (Place("read", "input", (7,), None), Place("write", "holding", (9,), 16))
-    device = sample_device((replace(plain_points()[2], places=both, errata=()), changed(plain_points()[1], access="w")))
+    apart = replace(plain_points()[2], place=Place((7,), {}), write_place=Place((9,), {}), errata=())
+    device = sample_device((apart, changed(plain_points()[1], access="w")))
     folder = write_package(replace(device, blocks={}, id="placed"), tmp_path)
     text = (folder / "placed" / "points.py").read_text("utf-8")
-    assert "at=input_register(0x0007)," in text
-    assert "write_at=holding(0x0009, function=0x10)," in text
+    assert "at=holding(0x0007)," in text
+    assert "write_at=holding(0x0009)," in text
     slave = Slave()
     for package in imported(folder, "placed"):
         drive = package.Placed(slave, unit=1)
         drive.base_frequency.write(1.0)
         drive.running.write(False)
-        assert slave.log == [(16, 9, 1), (5, 13, 1)]
+        assert slave.log == [(6, 9, 1), (5, 13, 1)]
         assert not hasattr(drive.running, "read")
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.model import Fixed
+from fieldscribe.model import Fixed, Variant
 from support.python_families import AsyncUssDrive, UssDrive, uss_device, word
 from support.python_package import error, imported, typed_findings, write_package
 
@@ -360,7 +360,10 @@ def test_groups_leave_out_what_the_link_does_not_carry(package: Any, uss: Any) -
 def test_the_link_is_held_against_the_variant(tmp_path: Path) -> None:
     device = replace(uss_device(), id="sizes", variants={"model": ("small", "large")})
     own = of_bus(device.bus)
-    bus = replace(device.bus, own=replace(own, variant_pzd=(("model=small", 2), ("model=large", own.pzd[1]))))
+    bus = replace(
+        device.bus,
+        own=replace(own, variant_pzd=((Variant("model", "small"), 2), (Variant("model", "large"), own.pzd[1]))),
+    )
     folder = write_package(replace(device, bus=bus), tmp_path)
     for package in imported(folder, "sizes"):
         link = sys.modules["fieldscribe_runtime.uss"].Link
@@ -379,7 +382,7 @@ def test_needs_that_depend_on_a_variant(tmp_path: Path) -> None:
     device = uss_device()
     points = [one for one in device.points if one.name != "normalisation"]
     found = next(one for one in device.points if one.name == "normalisation")
-    points += [replace(found, variant=f"interface={one}", index=at) for at, one in enumerate(("rs485", "rs232"))]
+    points += [replace(found, variant=Variant("interface", one), index=at) for at, one in enumerate(("rs485", "rs232"))]
     device = replace(device, points=tuple(points), id="faces", variants={"interface": ("rs485", "rs232")})
     folder = write_package(device, tmp_path)
     for package in imported(folder, "faces"):

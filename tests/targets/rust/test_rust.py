@@ -19,11 +19,11 @@ from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out, point_doc, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import assignment, binding, calls, chain, chained, comparison, filled
+from fieldscribe.targets.rust.layout import Item, assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
 from support.described import kitchen_sink, made, shipped
 from support.made_once import made_once
-from support.models import entry, point, sample_device, titles, trip_device
+from support.models import changed, entry, point, sample_device, titles, trip_device
 from support.places import ROOT, TESTS
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from support.toolchains import run, succeed, tool
@@ -153,14 +153,19 @@ def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
 def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     """The crates' own lines are held against rustfmt itself; these say which break is meant."""
     name = "x" * 60
-    assert assignment(4, f"const {name}: A", ("A::new(", "    1,", ")"))[0].endswith("A::new(")
-    assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
-    assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
-    assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
-    assert calls(4, "const A: B", [("C", (name, name))])[1] == f"    {name},"
-    assert calls(4, "const A: B", [("C", (name, name)), ("D", ("1",))])[2] == f"        {name},"
-    assert chain("static A: B", "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
-    assert chain("static A: B", "C::new(1)", [".d()", ".e()"]) == ("static A: B = C::new(1)", "    .d()", "    .e();")
+    assert assignment(4, Item(f"const {name}", "A"), ("A::new(", "    1,", ")"))[0].endswith("A::new(")
+    assert binding(4, Item(f"const {name}", "&'static str"), '"abc"') == (f'const {name}: &\'static str = "abc";',)
+    assert assignment(4, Item(f"const {name}", f"{name}"), ("A::new(", "    1,", ")"))[0].endswith("=")
+    assert calls(4, Item("const A", "B"), [("C", ("1",))]) == ("const A: B = &[C(1)];",)
+    assert calls(4, Item("const A", "B"), [("C", (name, name))])[1] == f"    {name},"
+    assert calls(4, Item("const A", "B"), [("C", (name, name)), ("D", ("1",))])[2] == f"        {name},"
+    assert binding(0, Item(f"pub type {name}{name}"), "A") == (f"pub type {name}{name} =", "    A;")
+    assert chain(Item("static A", "B"), "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
+    assert chain(Item("static A", "B"), "C::new(1)", [".d()", ".e()"]) == (
+        "static A: B = C::new(1)",
+        "    .d()",
+        "    .e();",
+    )
     assert comparison(8, name, "== 0") == (f"{name} == 0",)
     assert comparison(36, name, "== 0") == (name, "    == 0")
 
@@ -217,12 +222,12 @@ def test_active_low_bits_say_so() -> None:
 
 def test_what_is_only_documented_has_its_address() -> None:
     settled = point("speed", 5)
-    device = sample_device((settled, replace(settled, name="ramp", code="P1", generated=False)))
+    device = sample_device((settled, changed(settled, name="ramp", code="P1", generated=False)))
     assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
     assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
     drive = shipped("nord_sk5xxe")
     known = ["h (" in line for line in left_out(drive)]
-    assert known == [bool(one.places) for one in drive.points if not one.generated]
+    assert known == [bool(one.addresses) for one in drive.points if not one.generated]
     assert any(known)
 
 
@@ -461,7 +466,7 @@ def probe_source(device: str) -> str:
         reached = model.family == "modbus" or "::Parameter" in traits
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         bodies += parameter_probes(subject, name) if reached else ()
-        item = subject.point.item
+        item = subject.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
 

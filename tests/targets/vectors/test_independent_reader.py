@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.targets.vectors import outputs
 from independent.answers import Point, UnknownError, float_of
-from independent.arithmetic import nearest
+from independent.arithmetic import nearest, number
 from independent.reader import read
 from support.described import loaded
 from support.places import ROOT
@@ -86,12 +86,18 @@ def place(point: Point, vector: Vector, _: Points) -> object:
     return point.addresses == vector["addresses"]
 
 
+def write_address(point: Point, vector: Vector, _: Points) -> object:
+    elsewhere = point.row.get("write_at", "~")
+    ends = [] if elsewhere == "~" else [number(end) for end in elsewhere.split("..")]
+    return min(ends, default=None) == vector["address"]
+
+
 def fixed(point: Point, vector: Vector, _: Points) -> object:
     return point.fixed == (vector["mask"], vector["bits"])
 
 
 ANSWERS: dict[str, Answer] = {
-    one.__name__: one for one in (address, decode, decode_count, check, name, flag, words, place, fixed)
+    one.__name__: one for one in (address, decode, decode_count, check, name, flag, words, place, write_address, fixed)
 }
 """What this reader can say of a vector of each kind."""
 

@@ -552,7 +552,7 @@ class Reading:
 
     def address(self, subject: Point, vector: Vector) -> Vector:
         del vector
-        found: Vector = {"space": subject.places[0].space, "address": subject.address, "words": subject.words}
+        found: Vector = {"space": subject.space, "address": subject.address, "words": subject.words}
         found["references"] = {key: str(number) for key, number in subject.references.items()}
         found["code"] = subject.code
         if subject.form == "float":
@@ -690,14 +690,15 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
             flags[index] = other
             yield f"flag {flag.name}", changed(subject, flags=tuple(flags))
     yield from near_codes(subject)
-    place = subject.places[0]
+    place = subject.place
     yield "code", replace(subject, code=f"{subject.code}x")
     for key, number in subject.references.items():
         assert isinstance(number, int)
-        yield f"reference {key}", replace(subject, references={**subject.references, key: number + 1})
-    yield "address", replace(subject, places=(replace(place, addresses=tuple(one + 1 for one in place.addresses)),))
+        other_numbers = replace(place, references={**subject.references, key: number + 1})
+        yield f"reference {key}", replace(subject, place=other_numbers)
+    yield "address", replace(subject, place=replace(place, addresses=tuple(one + 1 for one in place.addresses)))
     if len(place.addresses) > 1:
-        yield "word order", replace(subject, places=(replace(place, addresses=place.addresses[::-1]),))
+        yield "word order", replace(subject, place=replace(place, addresses=place.addresses[::-1]))
     if subject.bits is not None:
         high, low = subject.bits
         yield "lower bits", changed(subject, bits=(high - 1, low - 1))

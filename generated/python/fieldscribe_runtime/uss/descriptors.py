@@ -22,8 +22,8 @@ W_contra = TypeVar("W_contra", contravariant=True)
 
 def _place(point: Point, keep: bool) -> Place:
     """Where a value is written, with the task that keeps it in EEPROM if it is to be kept."""
-    place = point.facts.write_at or point.facts.at
-    return place.replaced(function=EEPROM.get((point.size, place.index is not None))) if keep else place
+    at = point.facts.at
+    return at.replaced(function=EEPROM.get((point.size, at.index is not None))) if keep else at
 
 
 class StoredWriteHandle(WriteHandle[W_contra]):

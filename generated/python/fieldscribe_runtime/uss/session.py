@@ -236,7 +236,7 @@ class UssSession(Session):
         """The bits that are always written as a constant, mask and bits, by the word of process data."""
         found: dict[int, tuple[int, int]] = {}
         for point in self.POINTS.values():
-            at = point.facts.write_at or point.facts.at
+            at = point.facts.at
             if point.facts.fixed and at.telegram is not None and self._is_sent(at):
                 mask, bits = found.get(at.address, (0, 0))
                 found[at.address] = mask | point.facts.fixed[0], bits | point.facts.fixed[1]

@@ -8,7 +8,8 @@ from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.families.answers import Way
 from fieldscribe.families.can.frames import CanFrame, carries, identifier
-from fieldscribe.families.can.sending import frame_text, read_frame, request_of, write_frames
+from fieldscribe.families.can.notation import frame_text
+from fieldscribe.families.can.sending import read_frame, request_of, write_frames
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
 

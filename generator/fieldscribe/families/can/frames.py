@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 LENGTH = 8
 """How many bytes every message of this family has."""
 _WORD = 0xFFFF
+_STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit", "xor": "wrong_check"}
+"""What is wrong with a frame whose bytes of this role differ."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +34,16 @@ class Parsed:
     raw: int = 0
 
 
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A byte that a message cannot have: its place, the kind of its role, what is here and what is due."""
+
+    place: int
+    kind: str
+    here: int
+    due: int
+
+
 def identifier(message: Message, unit: int) -> int:
     """The identifier that carries a message to or from a unit."""
     return message.identifier + unit if message.adds_unit else message.identifier
@@ -46,9 +58,14 @@ def checksum(data: Sequence[int], mask: int) -> int:
     return result
 
 
+def places(message: Message, kind: str) -> list[int]:
+    """The bytes of the message with a role of this kind."""
+    return [place for place, role in enumerate(message.roles) if role.kind == kind]
+
+
 def carries(message: Message, kind: str) -> bool:
     """Whether any byte of the message has a role of this kind."""
-    return any(role.kind == kind for role in message.roles)
+    return bool(places(message, kind))
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
@@ -57,6 +74,24 @@ def carried(message: Message, frame: CanFrame, kind: str) -> int:
     return sum(
         byte << (0 if kind == "multiplexer" else role.number) for role, byte in bytes_by_role if role.kind == kind
     )
+
+
+def unit_of(message: Message, frame: CanFrame) -> int | None:
+    """The unit that a frame says it is to or from, by its identifier or its bytes; None where neither tells."""
+    if message.adds_unit:
+        return frame.id - message.identifier
+    return carried(message, frame, "unit") if carries(message, "unit") else None
+
+
+def telegram_words(message: Message, frame: CanFrame) -> dict[int, int]:
+    """The words of a telegram that a frame brings, by their position in the telegram."""
+    first = carried(message, frame, "multiplexer") * message.words
+    words: dict[int, int] = {}
+    for role, byte in zip(message.roles, frame.data, strict=True):
+        if role.kind == "word":
+            place = first + role.number // 2
+            words[place] = words.get(place, 0) | byte << (0 if role.number & 1 else 8)
+    return words
 
 
 def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:
@@ -72,9 +107,8 @@ def build(message: Message, units: tuple[int, int], unit: int, address: int, raw
         if not low <= number <= high:
             return status, CanFrame(0, b"")
     data = [_byte(role, unit, address, raw) for role in message.roles]
-    for place, role in enumerate(message.roles):
-        if role.kind == "xor":
-            data[place] = checksum(data, role.number)
+    for place in places(message, "xor"):
+        data[place] = checksum(data, message.roles[place].number)
     return "ok", CanFrame(identifier(message, unit), bytes(data))
 
 
@@ -85,25 +119,27 @@ def _byte(role: Role, unit: int, address: int, raw: int) -> int:
     return carried >> role.number & 0xFF
 
 
+def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Difference, ...]:
+    """The bytes of a frame of the right length that this message of this unit cannot have."""
+    result = []
+    for place, (role, here) in enumerate(zip(message.roles, frame.data, strict=True)):
+        if role.kind in _STATUSES:
+            due = checksum(frame.data, role.number) if role.kind == "xor" else _byte(role, unit, 0, 0)
+            result += [Difference(place, role.kind, here, due)] if here != due else []
+    return tuple(result)
+
+
 def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
     """The frame read as this message of this unit. Any bytes at any length are safe; the first failure wins.
 
     `wrong_id`, `wrong_length` (not 8 bytes), `wrong_constant`, `wrong_unit`, `wrong_check`.
     """
-    data = frame.data
     if frame.id != identifier(message, unit):
         return Parsed("wrong_id")
-    if len(data) != LENGTH:
+    if len(frame.data) != LENGTH:
         return Parsed("wrong_length")
-    bytes_by_role = list(zip(message.roles, data, strict=True))
-    if any(role.kind == "constant" and byte != role.number for role, byte in bytes_by_role):
-        return Parsed("wrong_constant")
-    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in bytes_by_role):
-        return Parsed("wrong_unit")
-    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in bytes_by_role):
-        return Parsed("wrong_check")
-    return Parsed("ok", _carried(bytes_by_role, "address"), _carried(bytes_by_role, "raw"))
-
-
-def _carried(bytes_by_role: list[tuple[Role, int]], kind: str) -> int:
-    return sum(byte << role.number for role, byte in bytes_by_role if role.kind == kind)
+    wrong = {difference.kind for difference in differences(message, unit, frame)}
+    for kind, status in _STATUSES.items():
+        if kind in wrong:
+            return Parsed(status)
+    return Parsed("ok", carried(message, frame, "address"), carried(message, frame, "raw"))

@@ -41,9 +41,12 @@ class Pasted:
     @property
     def shown(self) -> str:
         """The frame as candump logs it."""
-        width = 3 if self.frame.id <= 0x7FF else 8
-        data = "R" if self.remote else self.frame.data.hex().upper()
-        return " ".join(part for part in (self.stamp, self.bus, f"{self.frame.id:0{width}X}#{data}") if part)
+        return " ".join(part for part in (self.stamp, self.bus, frame_text(self.frame, remote=self.remote)) if part)
+
+
+def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
+    """A frame as candump and cansend write it."""
+    return f"{frame.id:0{3 if frame.id <= 0x7FF else 8}X}#{'R' if remote else frame.data.hex().upper()}"
 
 
 def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import parse
+from fieldscribe.families.can.frames import carried, parse, telegram_words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,14 +39,7 @@ class Receiver:
         place = self._place(frame)
         if place is None:
             return False
-        words = tuple(
-            sum(
-                byte << (0 if role.number & 1 else 8)
-                for role, byte in zip(self.message.roles, frame.data, strict=True)
-                if role.kind == "word" and role.number >> 1 == word
-            )
-            for word in range(self.per_frame)
-        )
+        words = tuple(telegram_words(self.message, frame).values())
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
@@ -57,8 +50,7 @@ class Receiver:
         """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
         if parse(self.message, self.unit, frame).status != "ok":
             return None
-        roles = zip(self.message.roles, frame.data, strict=True)
-        place = next((byte for role, byte in roles if role.kind == "multiplexer"), 0)
+        place = carried(self.message, frame, "multiplexer")
         return place if place < len(self._slots) else None
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:

@@ -5,25 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, CanFrame, carried, carries, checksum
-from fieldscribe.wording.buses import check_text, strange_unit
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.families.can.frames import LENGTH, CanFrame, Difference, carried, carries, differences, places, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Bus, Device, Message
+    from fieldscribe.model import Device, Message
 
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """A frame read as a message. `checks` describes its checksum, `faults` what is wrong."""
+    """A frame read as a message. `foreign`: it answers for a unit that the device cannot have."""
 
     message: Message
     unit: int | None
     frame: CanFrame
-    checks: str = ""
-    faults: tuple[str, ...] = ()
+    differences: tuple[Difference, ...]
+    foreign: bool
+
+    @property
+    def flaws(self) -> int:
+        """How much is wrong; a checksum counts once."""
+        wrong = [difference.kind for difference in self.differences]
+        return self.foreign + len(wrong) - max(0, wrong.count("xor") - 1)
 
     @property
     def slot(self) -> int:
@@ -42,46 +46,29 @@ class Recognised:
 
 
 def recognise(device: Device, frame: CanFrame) -> Recognised | None:
-    """The message with the fewest faults for this frame; None if no message fits."""
-    readings = [_read(message, unit, frame, device.bus) for message, unit in senders(device, frame)]
-    whole = [reading for reading in readings if reading is not None]
-    return min(whole, key=lambda reading: len(reading.faults), default=None)
+    """The message with the fewest flaws for this frame; None if no message fits."""
+    if len(frame.data) != LENGTH:
+        return None
+    readings = [_read(device, message, unit, frame) for message, unit in senders(device, frame)]
+    return min((reading for reading in readings if _is_kind(reading)), key=lambda reading: reading.flaws, default=None)
 
 
 def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:
-    """The messages with the identifier of the frame, and the unit that the identifier gives."""
+    """The messages with the identifier of the frame, and the unit that identifier or bytes give."""
     low, high = device.bus.units
     for message in device.messages:
-        if message.adds_unit:
-            if low <= frame.id - message.identifier <= high:
-                yield message, frame.id - message.identifier
-        elif frame.id == message.identifier:
-            yield message, carried(message, frame, "unit") if carries(message, "unit") else None
+        numbers = (low, high) if message.adds_unit else (0, 0)
+        if numbers[0] <= frame.id - message.identifier <= numbers[1]:
+            yield message, unit_of(message, frame)
 
 
-def _read(message: Message, unit: int | None, frame: CanFrame, bus: Bus) -> Recognised | None:
-    """The frame read as this message; None where the first constant byte shows that it is another message."""
-    if len(frame.data) != LENGTH:
-        return None
-    bytes_by_role = list(zip(message.roles, frame.data, strict=True))
-    fixed = [(role.number, byte) for role, byte in bytes_by_role if role.kind == "constant"]
-    if fixed and fixed[0][0] != fixed[0][1]:
-        return None
-    faults = []
-    if unit is not None and message.direction != "request" and (strange := strange_unit(bus, unit)):
-        faults.append(strange)
-    for place, (role, byte) in enumerate(bytes_by_role):
-        right = byte
-        if role.kind == "constant":
-            right = role.number
-        elif role.kind == "unit" and unit is not None:
-            right = unit >> role.number & 0xFF
-        if byte != right:
-            faults.append(f"byte {place} is {hex_text(byte, 2)}, in this message it is {hex_text(right, 2)}")
-    sums = [(byte, checksum(frame.data, role.number)) for role, byte in bytes_by_role if role.kind == "xor"]
-    checks = ""
-    if sums:
-        there, right_sums = (bytes(pair[at] for pair in sums) for at in (0, 1))
-        checks = check_text(there, right_sums)
-        faults += ["the checksum is wrong"] if there != right_sums else []
-    return Recognised(message, unit, frame, checks, tuple(faults))
+def _read(device: Device, message: Message, unit: int | None, frame: CanFrame) -> Recognised:
+    low, high = device.bus.units
+    foreign = unit is not None and message.direction != "request" and not low <= unit <= high
+    return Recognised(message, unit, frame, differences(message, unit or 0, frame), foreign)
+
+
+def _is_kind(reading: Recognised) -> bool:
+    """Whether the first constant byte is that of the message; else it is another message."""
+    first = places(reading.message, "constant")[:1]
+    return all(difference.place not in first for difference in reading.differences)

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import carries
+from fieldscribe.families.can.frames import LENGTH, carries, checksum, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
+from fieldscribe.wording.buses import check_text, strange_unit, words_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
-    from fieldscribe.families.can.frames import CanFrame
+    from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.can.recognition import Recognised
-    from fieldscribe.model import Device, Message
+    from fieldscribe.model import Bus, Device, Message, Telegram
+
+DAMAGED = "its words are not read, for the frame is damaged"
 
 
-def message_text(device: Device, recognised: Recognised) -> str:
+def message_text(recognised: Recognised, telegram: Telegram | None) -> str:
     """A frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
     message = recognised.message
     unit = "" if recognised.unit is None else f", unit {recognised.unit}"
     head = f"CAN {hex_text(recognised.frame.id, 3)}{unit}, {message.name}"
     if recognised.address is not None:
         return f"{head}: parameter {address_text(recognised.address)}"
-    telegram = next((telegram for telegram in device.telegrams if telegram.message == message.name), None)
     if telegram is None:
         return line(f"{head}: {message.title['en']}")
     first = recognised.slot * message.words
@@ -32,7 +34,7 @@ def message_text(device: Device, recognised: Recognised) -> str:
     return f"{head}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
 
 
-def identifiers_text(device: Device) -> str:
+def foreign_note(device: Device) -> str:
     """Which identifiers the messages have: `33Fh read_request, write_request; 320h to 33Eh visualisation, ...`."""
     low, high = device.bus.units
     names: dict[str, list[str]] = {}
@@ -41,16 +43,53 @@ def identifiers_text(device: Device) -> str:
         if message.adds_unit:
             where = f"{hex_text(message.identifier + low, 3)} to {hex_text(message.identifier + high, 3)}"
         names.setdefault(where, []).append(message.name)
-    return "; ".join(f"{where} {', '.join(here)}" for where, here in names.items())
+    known = "; ".join(f"{where} {', '.join(here)}" for where, here in names.items())
+    return f"no message of {device.id} has this identifier: {known}"
 
 
-def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
+def faults(recognised: Recognised, bus: Bus) -> Iterator[str]:
+    """What is wrong with a frame as this message."""
+    if recognised.foreign:
+        yield strange_unit(bus, recognised.unit or 0)
+    for byte in recognised.differences:
+        if byte.kind != "xor":
+            here, due = hex_text(byte.here, 2), hex_text(byte.due, 2)
+            yield f"byte {byte.place} is {here}, in this message it is {due}"
+    if any(byte.kind == "xor" for byte in recognised.differences):
+        yield "the checksum is wrong"
+
+
+def checks_text(recognised: Recognised) -> str:
+    """What the checksum of a frame says; empty where it has none."""
+    data = recognised.frame.data
+    sums = places(recognised.message, "xor")
+    right = bytes(checksum(data, recognised.message.roles[place].number) for place in sums)
+    return check_text(bytes(data[place] for place in sums), right) if sums else ""
+
+
+def multiplexer_finding(message: Message, telegram: Telegram) -> str:
+    """That a telegram has no words at a multiplexer."""
+    last = -(-telegram.words // max(1, message.words)) - 1
+    return f"the manual knows multiplexers 0 to {last} only"
+
+
+def answer_findings(asked: Recognised, known: Recognised) -> Iterator[str]:
+    """How an answer contradicts the request before it."""
+    if asked.address != known.address:
+        yield f"the request before asked for parameter {asked.address}, this answers {known.address}"
+    elif asked.raw is not None and asked.raw != known.raw:
+        was, came = (words_text((word or 0,)) for word in (asked.raw, known.raw))
+        yield f"it does not repeat what was written: {was} was, {came} came back"
+
+
+def unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
     """Why a frame is none of the messages with its identifier."""
-    known = []
-    for message in messages:
-        at = next((place for place, role in enumerate(message.roles) if role.kind == "constant"), None)
-        if at is not None:
-            known.append((at, message.roles[at].number, message.name))
+    frame = pasted.frame
+    if pasted.remote:
+        return "a remote request carries no data, and the manual knows none"
+    if len(frame.data) != LENGTH:
+        return f"every message has {LENGTH} bytes, here are {len(frame.data)}"
+    known = [(at, message) for message in messages for at in places(message, "constant")[:1]]
     place = known[0][0] if known else 0
-    names = ", ".join(f"{hex_text(number, 2)} {name}" for _, number, name in known)
+    names = ", ".join(f"{hex_text(message.roles[at].number, 2)} {message.name}" for at, message in known)
     return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"

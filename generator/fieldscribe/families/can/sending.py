@@ -8,6 +8,7 @@ from fieldscribe.arithmetic.words import group_mask, insert, words_of
 from fieldscribe.asked import RefusedError, UnclearError, quoted
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.can.frames import build, carries
+from fieldscribe.families.can.notation import frame_text
 from fieldscribe.hexadecimal import number_of
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
@@ -15,7 +16,6 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.model import Device, Message, Point
 
 
@@ -23,11 +23,6 @@ def request_of(device: Device, *, writes: bool) -> Message | None:
     """The message that asks for a parameter, or that changes one."""
     asking = (message for message in device.messages if message.direction == "request" and carries(message, "address"))
     return next((message for message in asking if carries(message, "raw") == writes), None)
-
-
-def frame_text(frame: CanFrame) -> str:
-    """A frame as candump and cansend write it."""
-    return f"{frame.id:0{3 if frame.id <= 0x7FF else 8}X}#{frame.data.hex().upper()}"
 
 
 def read_frame(device: Device, address: int, unit: int | None = None) -> str:
@@ -43,12 +38,11 @@ def read_frame(device: Device, address: int, unit: int | None = None) -> str:
 def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int | None) -> tuple[str, ...]:
     """A request for each word of a point. Raises RefusedError."""
     message = request_of(device, writes=True)
-    place = point.write_place
-    if message is None or place is None or place.space != "parameter":
+    if message is None or point.space != "parameter":
         raise refused(device.bus, point, "no_message")
     chosen = device.bus.usual_unit if unit is None else unit
     frames = []
-    for address, word in zip(place.addresses, words, strict=True):
+    for address, word in zip(point.addresses, words, strict=True):
         status, frame = build(message, device.bus.units, chosen, address, word)
         if status != "ok":
             raise refused(device.bus, point, status)

@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
-from fieldscribe.model import Block
+from fieldscribe.families.modbus.functions import SPACES, profile_of
+from fieldscribe.model import Block, Variant
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from fieldscribe.model import Bus, Place, Point
+    from fieldscribe.model import Bus, Point
+
+_Stand = tuple[str, str, tuple[int, ...]]
+"""The name of a point, its space, and the addresses where it is read."""
 
 
 @dataclass(slots=True)
@@ -47,46 +50,39 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
     lanes: dict[tuple[str, int], _Lane] = {}
     values = _variants_with_place(points)
     for point in points:
-        place = _read_place(point)
-        if place is None or place.space not in SPACES:
+        addresses = point.addresses
+        if not point.readable or not addresses or point.space not in SPACES:
             continue
-        function = SPACES[place.space].read if place.function is None else place.function
-        if function not in PROTOCOL_MOST:
-            continue
-        lane = lanes.setdefault((place.space, function), _Lane())
-        if _always_there(point, place, values, variants):
-            lane.crossable.update(place.addresses)
-        low, end = min(place.addresses), max(place.addresses) + 1
-        if point.generated and end - low == len(place.addresses):
+        lane = lanes.setdefault((point.space, SPACES[point.space].read), _Lane())
+        if _always_there(point, values, variants):
+            lane.crossable.update(addresses)
+        low, end = min(addresses), max(addresses) + 1
+        if point.generated and end - low == len(addresses):
             lane.spans.append((low, end, point.name))
     return lanes
 
 
-def _variants_with_place(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
-    """The variants that have a point of this name at this place."""
-    variants: dict[tuple[str, Place], set[str]] = {}
+def _variants_with_place(points: Iterable[Point]) -> dict[_Stand, set[Variant]]:
+    """The variants that have a readable point of this name in this space at these addresses."""
+    variants: dict[_Stand, set[Variant]] = {}
     for point in points:
-        place = _read_place(point)
-        if point.variant is not None and place is not None:
-            variants.setdefault((point.name, place), set()).add(point.variant)
+        if point.variant is not None and point.readable:
+            variants.setdefault(_stand(point), set()).add(point.variant)
     return variants
 
 
-def _always_there(
-    point: Point, place: Place, values: Mapping[tuple[str, Place], set[str]], variants: Mapping[str, tuple[str, ...]]
-) -> bool:
+def _stand(point: Point) -> _Stand:
+    return point.name, point.space, point.addresses
+
+
+def _always_there(point: Point, values: Mapping[_Stand, set[Variant]], variants: Mapping[str, tuple[str, ...]]) -> bool:
     """Whether every device has this point at the place that it is read from."""
     if point.when is not None or point.since is not None or point.until is not None:
         return False
-    axis = (point.variant or "").partition("=")[0]
-    return point.variant is None or {f"{axis}={value}" for value in variants.get(axis, ())} <= values[point.name, place]
-
-
-def _read_place(point: Point) -> Place | None:
-    if not point.readable:
-        return None
-    places = [place for place in point.places if place.addresses]
-    return next((place for place in places if place.purpose == "read"), places[0] if places else None)
+    if point.variant is None:
+        return True
+    axis = point.variant.axis
+    return {Variant(axis, value) for value in variants.get(axis, ())} <= values[_stand(point)]
 
 
 def _blocks_of_lane(

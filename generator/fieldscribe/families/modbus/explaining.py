@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Way
-from fieldscribe.families.modbus.functions import SPACES, profile_of
+from fieldscribe.families.modbus.functions import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
-from fieldscribe.families.modbus.sending import words_of
+from fieldscribe.families.modbus.sending import function_for, words_of
 from fieldscribe.wording.buses import counted
 from fieldscribe.wording.exact import hex_text
 
@@ -17,24 +17,17 @@ if TYPE_CHECKING:
 
 def read_text(device: Device, point: Point) -> str:
     """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
-    place = point.places[0]
-    function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
-    if function is None:
+    if point.space not in SPACES:
         return ""
-    count = len(place.addresses)
+    function, count = SPACES[point.space].read, len(point.addresses)
     how = f"function {hex_text(function, 2)}, {counted(count, 'bit' if point.type == 'bit' else 'word')}"
-    return how + _example(device, function, min(place.addresses), count, ())
+    return how + _example(device, function, min(point.addresses), count, ())
 
 
 def way_to_write(device: Device, point: Point) -> Way | None:
     """How to write the point; None if it cannot be written."""
-    place = point.write_place
-    space = SPACES.get(place.space) if place else None
-    if place is None or space is None:
-        return None
-    addresses = place.addresses
-    single = space.write_one if len(addresses) == 1 and space.write_one in profile_of(device.bus).most else None
-    function = place.function or single or space.write_many
+    addresses = point.written.addresses
+    function = function_for(device, point.space, len(addresses)) if point.space in SPACES else None
     if function is None:
         return None
     how = f"function {hex_text(function, 2)}"
@@ -49,7 +42,7 @@ def way_to_write(device: Device, point: Point) -> Way | None:
 def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:
     """An example request to unit 1, or to the lowest unit where the device cannot be unit 1."""
     unit = device.bus.usual_unit
-    framing = device.bus.framings[0]
+    framing = framings_of(device.bus)[0]
     status, data = build(profile_of(device.bus), framing, Request(unit, function, address, count, values))
     if status != "ok":
         return (

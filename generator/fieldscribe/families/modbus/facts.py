@@ -20,6 +20,7 @@ FAMILY = Family(
     framings=("rtu", "tcp"),
     codes=(Codes("functions", "function", "function", emitted=False), Codes("exceptions", "exception", "exception")),
     commands_in="holding",
+    writes_elsewhere=True,
 )
 
 

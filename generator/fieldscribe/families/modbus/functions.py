@@ -50,6 +50,13 @@ SPACES: Mapping[str, Space] = {
     "holding": Space(0x03, 0x06, 0x10),
     "input": Space(0x04, None, None),
 }
+SPACE_OF: Mapping[int, str] = {
+    function: name
+    for name, space in SPACES.items()
+    for function in (space.read, space.write_one, space.write_many)
+    if function is not None
+}
+"""The space that a function reads or writes; none for 08h."""
 
 
 @dataclass(frozen=True, slots=True)

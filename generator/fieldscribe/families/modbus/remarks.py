@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import FAMILY
-from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
+from fieldscribe.families.modbus.functions import BROADCAST, READS, SPACE_OF, profile_of
 from fieldscribe.text import line
-from fieldscribe.wording import label
-from fieldscribe.wording.buses import counted, numbered, spaced, span_text, strange_unit
+from fieldscribe.wording.buses import (
+    check_text,
+    counted,
+    numbered,
+    spaced,
+    span_text,
+    strange_unit,
+    too_short,
+)
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.families.directory import Directory
+    from fieldscribe.families.modbus.frames import Flaw, Unwrapped
     from fieldscribe.families.modbus.functions import Profile
     from fieldscribe.families.modbus.requests import Request
-    from fieldscribe.families.spoken import Span
     from fieldscribe.model import Device
 
 _FUNCTIONS: Mapping[int, str] = {
@@ -43,6 +49,88 @@ _EXCEPTIONS: Mapping[int, str] = {
     0x0A: "gateway path unavailable",
     0x0B: "gateway target did not answer",
 }
+_FLAWS: Mapping[str, str] = {
+    "bad_crc": "the checksum is wrong",
+    "no_crc": "the checksum is missing",
+    "bad_protocol": "the header does not say Modbus",
+    "bad_length": "the length in the header is wrong",
+    "bad_function": "function {of:02X}h is not one of the Modbus functions known here",
+    "short_request": "a request of function {of:02X}h has at least {due} bytes from the function on, here are {here}",
+    "long_request": "a request of function {of:02X}h has {due} bytes from the function on, here are {here}",
+    "bad_count": "a count of {here} is outside 1 to {due}",
+    "bad_coil": "a coil is written with FF00h or 0000h, here is {here:04X}h",
+    "no_byte_count": "the byte count is missing, here are 0 bytes of data",
+    "bad_byte_count": "the byte count says {due}, here are {here} bytes of data",
+    "bad_words": "{of} words are {due} bytes, here are {here}",
+    "bad_coils": "{of} coils are {due} bytes (or padded to an even number), here are {here}",
+    "long_exception": "an exception has {due} bytes from the function on, here are {here}",
+}
+_MOST_BYTES = {"rtu": 256, "tcp": 260}
+_LEAST = {4: "an RTU frame", 8: "a TCP frame"}
+UNASKED = "which addresses these are, only the request says: give it before this frame, or with --request"
+SILENT = "broadcast: no unit answers"
+UNKNOWN_REQUEST = "which request it refuses is not in the frame"
+
+
+def flaw_text(flaw: Flaw) -> str:
+    """Why bytes are no frame, or no request."""
+    if flaw.status == "short_frame":
+        return too_short(_LEAST[flaw.due], flaw.due, flaw.here)
+    return "the bytes of the checksum are swapped" if flaw.swapped else _FLAWS[flaw.status].format(**asdict(flaw))
+
+
+def frame_faults(unwrapped: Unwrapped) -> tuple[str, ...]:
+    """What is wrong with the frame round the PDU."""
+    if unwrapped.flaw is not None:
+        return (flaw_text(unwrapped.flaw),)
+    size, most = len(unwrapped.data), _MOST_BYTES[unwrapped.framing]
+    return (f"the frame has {size} bytes, {most} are the most",) if size > most else ()
+
+
+def frame_checks(unwrapped: Unwrapped) -> str:
+    """What the checksum or the header of a frame says."""
+    flaw, here = unwrapped.flaw, unwrapped.data[-2:]
+    if flaw is None:
+        return check_text(here, here) if unwrapped.framing == "rtu" else f"ok (transaction {unwrapped.transaction})"
+    right = flaw.due.to_bytes(2, "little")
+    if flaw.swapped:
+        return f"its two bytes are swapped: {spaced(here)}, the low byte {spaced(right)} travels first"
+    if flaw.status in ("bad_crc", "no_crc"):
+        return check_text(here if flaw.status == "bad_crc" else b"", right)
+    if flaw.status == "bad_protocol":
+        return f"wrong: protocol number {spaced(unwrapped.data[2:4])} in place of 00 00"
+    return f"wrong: it says {flaw.due} bytes follow, {flaw.here} do" if flaw.status == "bad_length" else "none"
+
+
+def summary(unwrapped: Unwrapped, function: int | None, said: str) -> str:
+    """A frame in one line: `RTU, unit 1, 03h read holding registers: request, ...`."""
+    unit = "no unit" if unwrapped.unit is None else f"unit {unwrapped.unit}"
+    named = "" if function is None else f", {function_text(function)}"
+    return f"{unwrapped.framing.upper()}, {unit}{named}: {said}"
+
+
+def reply_said(request: Request) -> str:
+    """The reply to a request."""
+    done = "" if request.function in READS else ", the device has taken the request"
+    return f"reply{done}, {span_said(request)}"
+
+
+def data_said(data: bytes) -> str:
+    """The data of a reply whose request is unknown."""
+    return f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
+
+
+def data_fault(request: Request, here: int, due: int) -> str:
+    """That a reply brings another number of bytes than its request asks for."""
+    return f"it brings {here} bytes, the request asks for {due} ({request.count} items)"
+
+
+def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
+    """Why a PDU is no request, and if it is a read, why it is no reply either."""
+    problem = flaw_text(flaw)
+    if pdu[0] not in READS or len(pdu) < 2:
+        return problem
+    return f"as a request: {problem}; as a reply: it says that {pdu[1]} bytes of data follow, here are {len(pdu) - 2}"
 
 
 def function_text(function: int) -> str:
@@ -67,7 +155,7 @@ def span_said(request: Request) -> str:
     """The addresses of a request in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
     if request.function == 0x08:
         return f"sub-function {hex_text(request.address)}"
-    space = next(name for name, space in SPACES.items() if request.function in astuple(space))
+    space = SPACE_OF[request.function]
     where = span_text(request.address, request.address + request.count - 1)
     return f"{space} {where}, {counted(request.count, FAMILY.spaces[space])}"
 
@@ -88,48 +176,8 @@ def request_findings(device: Device, request: Request) -> Iterator[str]:
         yield "it reaches beyond the last address"
 
 
-def request_notes(device: Device, directory: Directory, request: Request, span: Span) -> Iterator[str]:
-    """What to know about a request, and what looks like a mistake."""
-    if request.unit == profile_of(device.bus).broadcast and not any(request_findings(device, request)):
-        yield "broadcast: no unit answers"
-    if request.function != 0x08:
-        yield from _off_by_one(directory, span)
-
-
 def _broadcast_findings(function: int, profile: Profile) -> Iterator[str]:
     if function not in BROADCAST:
         yield "broadcast: only writes may be sent to all units"
     elif function not in profile.broadcasts:
         yield f"broadcast: the device does not take function {hex_text(function, 2)} so"
-
-
-def manual_notes(device: Device, data: bytes) -> Iterator[str]:
-    """A note for a frame that the manual prints with this very error."""
-    for frame in device.frames:
-        if frame.printed == data and not frame.valid:
-            known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
-            right = spaced(frame.corrected)
-            yield line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {right}")
-            return
-
-
-def framing_finding(device: Device, framing: str) -> str:
-    """The finding that the device does not use this framing; empty if it does."""
-    known = device.bus.framings
-    return "" if not known or framing in known else f"the manual knows only {' and '.join(known).upper()} frames"
-
-
-def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
-    """A note if no point stands at the address, but one stands just below: probably a Modicon number (from 1)."""
-    if span.address == 0 or directory.starting_at(span.space, span.address):
-        return
-    for point, place in directory.starting_at(span.space, span.address - 1):
-        if len(place.addresses) > span.count:
-            continue
-        keys = [key for key, number in point.references.items() if number == span.address]
-        called = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
-        below = hex_text(span.address - 1)
-        yield (
-            f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {called}on "
-            "the wire addresses count from 0, so this frame may be one too high"
-        )

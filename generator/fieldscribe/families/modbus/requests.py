@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fieldscribe.families.modbus.functions import (
-    PROTOCOL_MOST,
-    READS,
-    SINGLE,
-    Profile,
-)
+from fieldscribe.arithmetic.words import words_in
+from fieldscribe.families.modbus.frames import Flaw, Unwrapped, data_size, frame, pack_bits, unwrap, values_in
+from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, Profile
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,43 +22,6 @@ class Request:
     count: int
     values: tuple[int, ...] = ()
     transaction: int = 0
-
-
-def _crc_table() -> tuple[int, ...]:
-    table = []
-    for byte in range(256):
-        crc = byte
-        for _ in range(8):
-            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
-        table.append(crc)
-    return tuple(table)
-
-
-_CRC = _crc_table()
-
-
-def crc16(data: bytes) -> int:
-    """The CRC-16 of Modbus RTU; its low byte travels first."""
-    crc = 0xFFFF
-    for byte in data:
-        crc = crc >> 8 ^ _CRC[(crc ^ byte) & 0xFF]
-    return crc
-
-
-def frame(framing: str, unit: int, transaction: int, pdu: bytes) -> bytes:
-    """A PDU in its frame: with unit and CRC for rtu, with the MBAP header for tcp."""
-    if framing == "tcp":
-        return bytes((*divmod(transaction, 256), 0, 0, *divmod(len(pdu) + 1, 256), unit)) + pdu
-    body = bytes((unit,)) + pdu
-    return body + crc16(body).to_bytes(2, "little")
-
-
-def pack_bits(values: tuple[int, ...], even: bool) -> bytes:
-    """Bits packed from the lowest bit of the first byte on; an even number of bytes if `even`."""
-    size = (len(values) + 7) // 8
-    if even:
-        size += size & 1
-    return sum(bit << place for place, bit in enumerate(values)).to_bytes(size, "little")
 
 
 def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]:
@@ -114,75 +74,57 @@ def _pdu(profile: Profile, request: Request) -> bytes:
     return head + request.count.to_bytes(2, "big") + bytes((len(data),)) + data
 
 
-def parse_request(framing: str, data: bytes) -> Request | str:
-    """The request in the bytes, or a sentence about what is wrong with them. Any bytes are safe."""
-    unframed = _unframe_tcp(data) if framing == "tcp" else _unframe_rtu(data)
-    if isinstance(unframed, str):
-        return unframed
-    unit, transaction, pdu = unframed
+def parse_request(framing: str, data: bytes) -> Request | Flaw:
+    """The request in the bytes, or what is wrong with them. Any bytes are safe."""
+    unwrapped = unwrap(framing, data)
+    return unwrapped.flaw or request_in(unwrapped)
+
+
+def request_in(unwrapped: Unwrapped) -> Request | Flaw:
+    """The request in a PDU, also out of a flawed frame; else the first flaw.
+
+    `bad_function` (not one of the nine), `short_request`, `long_request`, `bad_count`, and those of what it writes.
+    """
+    pdu = unwrapped.pdu
+    flaw = _head_flaw(pdu) if pdu else unwrapped.flaw or Flaw("short_request", 0, 5)
+    if flaw is not None:
+        return flaw
+    function, (address, number) = pdu[0], words_in(pdu[1:5])
+    count = 1 if function in SINGLE else number
+    if not 1 <= count <= PROTOCOL_MOST[function]:
+        return Flaw("bad_count", count, PROTOCOL_MOST[function])
+    short = function in READS | SINGLE
+    values = _one_value(function, number) if short else _several(function, count, pdu[5:])
+    if isinstance(values, Flaw):
+        return values
+    return Request(unwrapped.unit or 0, function, address, count, values, unwrapped.transaction)
+
+
+def _head_flaw(pdu: bytes) -> Flaw | None:
+    """What is wrong with the function of a request, or with the length that it gives."""
     function = pdu[0]
     if function not in PROTOCOL_MOST:
-        return f"function {function:02X}h is not one of the Modbus functions known here"
+        return Flaw("bad_function", of=function)
     if len(pdu) < 5:
-        return f"a request of function {function:02X}h has at least 5 bytes from the function on, here are {len(pdu)}"
-    address, count = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
-    if function in READS or function in SINGLE:
-        if len(pdu) != 5:
-            return f"a request of function {function:02X}h has 5 bytes from the function on, here are {len(pdu)}"
-        return _short_request(Request(unit, function, address, count, (), transaction))
-    return _long_request(Request(unit, function, address, count, (), transaction), pdu[5:])
+        return Flaw("short_request", len(pdu), 5, function)
+    return Flaw("long_request", len(pdu), 5, function) if function in READS | SINGLE and len(pdu) > 5 else None
 
 
-def _unframe_rtu(data: bytes) -> tuple[int, int, bytes] | str:
-    if len(data) < 4:
-        return f"an RTU frame has at least 4 bytes, here are {len(data)}"
-    right, there = crc16(data[:-2]).to_bytes(2, "little"), data[-2:]
-    if right != there:
-        return f"the CRC is {there[0]:02X} {there[1]:02X}, the bytes give {right[0]:02X} {right[1]:02X}"
-    return data[0], 0, data[1:-2]
+def _one_value(function: int, number: int) -> tuple[int, ...] | Flaw:
+    """What a read (nothing) or a single write carries in its second word."""
+    if function == 0x05:
+        return Flaw("bad_coil", number) if number % 0xFF00 else (number // 0xFF00,)
+    return (number,) if function in SINGLE else ()
 
 
-def _unframe_tcp(data: bytes) -> tuple[int, int, bytes] | str:
-    if len(data) < 8:
-        return f"a TCP frame has at least 8 bytes, here are {len(data)}"
-    protocol, length = int.from_bytes(data[2:4], "big"), int.from_bytes(data[4:6], "big")
-    if protocol != 0:
-        return f"the protocol number is {protocol}, Modbus is 0"
-    if length != len(data) - 6:
-        return f"the length field says {length} bytes, here are {len(data) - 6}"
-    return data[6], int.from_bytes(data[:2], "big"), data[7:]
-
-
-def _short_request(head: Request) -> Request | str:
-    """A read or a single write; `head.count` holds its last two bytes."""
-    if head.function in READS:
-        if not 1 <= head.count <= PROTOCOL_MOST[head.function]:
-            return f"a count of {head.count} is outside 1 to {PROTOCOL_MOST[head.function]}"
-        return head
-    value = head.count
-    if head.function == 0x05:
-        if value not in (0x0000, 0xFF00):
-            return f"a coil is written with FF00h or 0000h, here is {value:04X}h"
-        value //= 0xFF00
-    return Request(head.unit, head.function, head.address, 1, (value,), head.transaction)
-
-
-def _long_request(head: Request, rest: bytes) -> Request | str:
-    """A write of several items; `rest` is what follows the count: the byte count and the data."""
-    most = PROTOCOL_MOST[head.function]
-    if not 1 <= head.count <= most:
-        return f"a count of {head.count} is outside 1 to {most}"
-    if not rest or rest[0] != len(rest) - 1:
-        said = f"says {rest[0]}" if rest else "is missing"
-        return f"the byte count {said}, here are {max(0, len(rest) - 1)} bytes of data"
-    data = rest[1:]
-    if head.function == 0x10:
-        if len(data) != 2 * head.count:
-            return f"{head.count} words are {2 * head.count} bytes, here are {len(data)}"
-        values = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2))
-    else:
-        size = (head.count + 7) // 8
-        if len(data) not in (size, size + (size & 1)):
-            return f"{head.count} coils are {size} bytes (or padded to an even number), here are {len(data)}"
-        values = tuple(data[at >> 3] >> (at & 7) & 1 for at in range(head.count))
-    return Request(head.unit, head.function, head.address, head.count, values, head.transaction)
+def _several(function: int, count: int, rest: bytes) -> tuple[int, ...] | Flaw:
+    """The values of a write of several items, from what follows their count: the byte count and the data."""
+    data, size = rest[1:], data_size(function, count)
+    if not rest:
+        return Flaw("no_byte_count")
+    if rest[0] != len(data):
+        return Flaw("bad_byte_count", len(data), rest[0])
+    # coils may be padded to an even number of bytes
+    if len(data) not in (size, size + (size & 1)):
+        return Flaw("bad_coils" if function == 0x0F else "bad_words", len(data), size, count)
+    return values_in(function, data)[:count]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.words import group_mask, split
 from fieldscribe.asked import RefusedError
 from fieldscribe.families.answers import Sent, refused
-from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
+from fieldscribe.families.modbus.functions import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import spaced, units_text
@@ -16,7 +16,7 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.model import Device, Place, Point
+    from fieldscribe.model import Device, Point
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
@@ -36,33 +36,31 @@ def write_request(
     device: Device, point: Point, raw: int, unit: int | None, framing: str | None
 ) -> tuple[Request, bytes]:
     """The request that writes a raw number, and its bytes. Raises RefusedError."""
-    place = point.write_place or point.places[0]
+    addresses = point.written.addresses
     if point.bits is not None:
         mask = group_mask(point)
         raise RefusedError(
             "shared_word",
             f"{label(point)} shares its word with other points, so no single request can write it",
-            f"read {hex_text(min(place.addresses))}, replace the bits of mask {hex_text(mask)} "
+            f"read {hex_text(min(addresses))}, replace the bits of mask {hex_text(mask)} "
             f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
         )
-    values = words_of(point, raw, place.addresses)
+    values = words_of(point, raw, addresses)
     to = device.bus.usual_unit if unit is None else unit
-    request = Request(to, _function(device, place), min(place.addresses), len(values), values)
-    chosen = framing or (device.bus.framings[0] if device.bus.framings else "rtu")
+    function = function_for(device, point.space, len(addresses)) or 0
+    request = Request(to, function, min(addresses), len(values), values)
+    chosen = framing or framings_of(device.bus)[0]
     status, data = build(profile_of(device.bus), chosen, request)
     if status != "ok":
         raise refused(device.bus, point, status, _hint(device, status))
     return request, data
 
 
-def _function(device: Device, place: Place) -> int:
-    if place.function in BROADCAST:
-        return place.function
-    space = SPACES[place.space]
-    single = space.write_one if len(place.addresses) == 1 else None
-    most = profile_of(device.bus).most
-    usable = [function for function in (single, space.write_many) if function is not None]
-    return next((function for function in usable if function in most), usable[0] if usable else 0)
+def function_for(device: Device, space_name: str, count: int) -> int | None:
+    """The function that writes a place of so many words or bits: that for a single item, else that for several."""
+    space = SPACES[space_name]
+    single = count == 1 and space.write_one in profile_of(device.bus).most
+    return space.write_one if single else space.write_many or space.write_one
 
 
 def _hint(device: Device, status: str) -> str:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.families.answers import Way
 from fieldscribe.families.uss.links import default_link
+from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
 from fieldscribe.families.uss.remarks import code_text
-from fieldscribe.families.uss.sending import part_words, read_request
-from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.families.uss.sending import part_words, read_request, write_request
+from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
@@ -44,9 +45,7 @@ def way_to_write(device: Device, point: Point) -> Way | None:
 def _written(device: Device, point: Point, raw: int) -> str:
     """The telegram that writes a parameter; empty where there is none over the usual link."""
     link, unit = default_link(device.bus), device.bus.usual_unit
-    value = with_fixed(point, raw) & ((1 << 16 * point.words) - 1)
-    task = write_task(point.words, array=point.index is not None, keep=False)
-    request = Request(unit, task, point.addresses[0], point.index or 0, point.words, value, (0,) * link.pzd)
+    request = write_request(point, with_fixed(point, raw), unit, (0,) * link.pzd, keep=False)
     status, data = build(device.bus, link, request)
     return f"; PKW {part_words(data, link)}; {_example(data, link, unit)}" if status == "ok" else ""
 

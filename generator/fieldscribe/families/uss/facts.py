@@ -9,7 +9,7 @@ from fieldscribe.families.contract import BusKeys, Codes, Family, Option
 from fieldscribe.model import Own
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Code, Frame
+    from fieldscribe.model import Bus, Code, Frame, Variant
 
 _BOTH = ("decode", "encode")
 
@@ -54,13 +54,13 @@ class UssBus(Own):
     """The response ids, and the lengths that the parts of a telegram may have.
 
     `pkw` are the lengths in words that the parameter part may have (127 is variable), `pzd` how many words of process
-    data there may be; `variant_pzd` names variants ("axis=value") that take at most so many.
+    data there may be; `variant_pzd` has variants that take at most so many.
     """
 
     responses: tuple[Code, ...] = ()
     pkw: tuple[int, ...] = ()
     pzd: tuple[int, int] = (0, 0)
-    variant_pzd: tuple[tuple[str, int], ...] = ()
+    variant_pzd: tuple[tuple[Variant, int], ...] = ()
     bitrate: int | None = None
 
 

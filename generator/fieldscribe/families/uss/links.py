@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.asked import UnclearError
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.families.uss.telegrams import VARIABLE, Link
+from fieldscribe.families.uss.parts import VARIABLE, Link
 
 if TYPE_CHECKING:
     from fieldscribe.asked import Options

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss.facts import UssBus, UssFrame, of_bus
-from fieldscribe.families.uss.telegrams import VARIABLE
+from fieldscribe.families.uss.parts import VARIABLE
+from fieldscribe.model import Variant
 from fieldscribe.resolve.bus import codes_under, ends_of
 from fieldscribe.resolve.families import Reading
 from fieldscribe.resolve.values import integer, interval
@@ -76,7 +77,7 @@ def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
         scope.report.error("two-meanings", text, raw.span("direction"), hint)
 
 
-def _variant_pzd(scope: Scope) -> Iterator[tuple[str, int]]:
+def _variant_pzd(scope: Scope) -> Iterator[tuple[Variant, int]]:
     """The variants that take fewer words of process data than the whole product, by their property `pzd`."""
     for axis, entry in scope.axes.items():
         for value, properties in entry["values"].items():
@@ -87,7 +88,7 @@ def _variant_pzd(scope: Scope) -> Iterator[tuple[str, int]]:
                 message = f"{most} is no count of words"
                 scope.report.error("address-outside-space", message, properties.span("pzd"), f"write 0..{_MOST_PZD}")
             elif most is not None:
-                yield f"{axis}={value}", most
+                yield Variant(axis, value), most
 
 
 READING = UssReading()

@@ -4,16 +4,60 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.recognition import KEEPING_TASKS, TASK_WIDTHS
+from fieldscribe.families.uss.parts import KEEPING_TASKS, TASK_WIDTHS, VARIABLE
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
 from fieldscribe.text import line
-from fieldscribe.wording.buses import numbered, strange_unit
+from fieldscribe.wording.buses import check_text, counted, numbered, strange_unit, too_short
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.families.uss.recognition import Part
-    from fieldscribe.families.uss.telegrams import Link
+    from fieldscribe.families.uss.parts import Link, Part
+    from fieldscribe.families.uss.telegrams import Unwrapped
     from fieldscribe.model import Code, Device
+
+UNASKED = "read as a request, for none was heard before it; --direction response reads it as an answer"
+PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"
+FROM_MASTER = "read as words from the master; --direction response reads those of the device"
+_FLAWS: Mapping[str, str] = {
+    "no_words": "the part is made of words of two bytes, here {are} {size}",
+    "wrong_start": "a telegram begins with {start:02X}h, this with {data[0]:02X}h",
+    "no_check": "the check byte is missing",
+    "wrong_length": "its length byte says {said} bytes, here are {count}",
+    "wrong_check": "the check byte is wrong",
+    "odd": "its data is no whole number of words",
+}
+
+
+def flaw_texts(unwrapped: Unwrapped) -> Iterator[str]:
+    """What is wrong with the bytes of a telegram, or of a part alone."""
+    data = unwrapped.data
+    count, are = len(data), "is" if len(data) == 1 else "are"
+    said = data[1] + 2 if count > 1 else 0
+    for flaw in unwrapped.flaws:
+        if flaw == "short":
+            yield too_short("a telegram", LEAST_BYTES, count)
+        else:
+            size = counted(count, "byte")
+            yield _FLAWS[flaw].format(data=data, start=START, said=said, count=count, size=size, are=are)
+
+
+def checks_text(unwrapped: Unwrapped) -> str:
+    """What the check byte of a telegram says; empty where there is none to check."""
+    if unwrapped.unit is None:
+        return ""
+    body = unwrapped.data if "no_check" in unwrapped.flaws else unwrapped.data[:-1]
+    return check_text(unwrapped.data[len(body) :], bytes((check_byte(body),)))
+
+
+def misfit_text(words: int, link: Link, *, request: bool) -> str:
+    """That a telegram has another number of words than the link."""
+    length, sizes = f"of {link.pkw}", f"{link.pkw + link.pzd}"
+    if link.pkw == VARIABLE:
+        length = "of variable length"
+        sizes = f"{3 + link.pzd} or {4 + link.pzd}" if request else f"at least {3 + link.pzd}"
+    parts = f"a parameter part {length} and {counted(link.pzd, 'word')} of process data"
+    return f"it has {counted(words, 'word')}; {parts} make {sizes}"
 
 
 def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
@@ -22,12 +66,15 @@ def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
     return f"{kind} {number}" + (f" {code.name}" if code is not None else ", which the manual does not list")
 
 
-def error_text(device: Device, error: int) -> str:
-    """The meaning of an error value, from the manual."""
-    code = numbered(device.bus.exceptions, error)
-    if code is None:
-        return f"error {error}, which the manual does not list"
-    return line(f"error {error} {code.name}: {code.title['en']}")
+def titled_code(codes: tuple[Code, ...], number: int, kind: str) -> str:
+    """The same with its meaning in the manual: `error 17 busy: ...`."""
+    code = numbered(codes, number)
+    return line(code_text(codes, number, kind) + (f": {code.title['en']}" if code is not None else ""))
+
+
+def words_printed(words: Iterable[int]) -> str:
+    """Words as the manuals of this family print them: `143A 0000 4248 0000`."""
+    return " ".join(f"{word:04X}" for word in words)
 
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
@@ -48,19 +95,15 @@ def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[s
 
 def request_notes(part: Part, link: Link) -> Iterator[str]:
     """What to know about a request."""
-    if TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1:
-        yield from _misplaced(part, link)
-    if part.code in KEEPING_TASKS:
-        yield "it writes to the EEPROM too, which wears the memory"
-
-
-def _misplaced(part: Part, link: Link) -> Iterator[str]:
     here, there = (1, 0) if link.single_last else (0, 1)
-    if part.values[there] and not part.values[here]:
+    single = TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1
+    if single and part.values[there] and not part.values[here]:
         ordinal = ("first", "second")
         also = "; is --pkw 127 or --single-first meant?" if link.single_last else "; is --pkw 4 meant?"
         where = f"in the {ordinal[here]} value word, here the {ordinal[there]} is used"
         yield f"over this link a single word stands {where}{also}"
+    if part.code in KEEPING_TASKS:
+        yield "it writes to the EEPROM too, which wears the memory"
 
 
 def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:

@@ -6,18 +6,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.words import insert, words_of
+from fieldscribe.arithmetic.words import insert, words_in, words_of
 from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.uss.links import asked, link_of
-from fieldscribe.families.uss.telegrams import READ_TASK, VARIABLE, Link, Request, build, write_task
+from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
+from fieldscribe.families.uss.remarks import titled_code, words_printed
+from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.text import line
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import numbered, spaced
+from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
     from fieldscribe.model import Device, Point
@@ -37,12 +37,10 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     words, notes = process_words(device, link, settings)
     if framing == "pkw":
         link, words, notes = replace(link, pzd=0), (), []
-    task = write_task(point.words, array=point.index is not None, keep=keep) if point.words in (1, 2) else 0
-    value = _pattern(point, raw)
-    request = Request(unit, task, point.addresses[0], point.index or 0, point.words, value, words)
+    request = write_request(point, raw, unit, words, keep=keep)
     data = _built(device, point, link, request)
-    notes = [_task_note(device, task), *notes]
-    return Sent((_shown(data, framing, link, 0),), tuple(notes))
+    task = titled_code(device.bus.functions, request.task, "task")
+    return Sent((_shown(data, framing, link, 0),), (task, *notes))
 
 
 def process_words(
@@ -68,6 +66,13 @@ def process_words(
     return tuple(words.get(place, 0) for place in range(link.pzd)), notes
 
 
+def write_request(point: Point, raw: int, unit: int, words: tuple[int, ...], *, keep: bool) -> Request:
+    """The request that writes a parameter; task 0 where none can carry it."""
+    task = write_task(point.words, array=point.index is not None, keep=keep) if point.words in (1, 2) else 0
+    value = raw & ((1 << 16 * point.words) - 1)
+    return Request(unit, task, point.addresses[0], point.index or 0, point.words, value, words)
+
+
 def read_request(device: Device, point: Point, link: Link, unit: int) -> bytes:
     """The telegram that reads a point; empty if there is none."""
     if point.telegram is not None:
@@ -79,7 +84,7 @@ def read_request(device: Device, point: Point, link: Link, unit: int) -> bytes:
 
 def part_words(data: bytes, link: Link) -> str:
     """The words of the parameter part of a telegram, as manuals print them: `143A 0000 0000 0000`."""
-    return " ".join(data[at : at + 2].hex().upper() for at in range(3, 3 + 2 * link.sent, 2))
+    return words_printed(words_in(data[3 : 3 + 2 * link.sent]))
 
 
 def _process_data(device: Device, point: Point, raw: int, how: tuple[Settings, Link, int, str], *, keep: bool) -> Sent:
@@ -97,10 +102,6 @@ def _process_data(device: Device, point: Point, raw: int, how: tuple[Settings, L
     return Sent((_shown(data, framing, link, link.pzd),), tuple(notes))
 
 
-def _pattern(point: Point, raw: int) -> int:
-    return raw & ((1 << 16 * point.words) - 1)
-
-
 def _built(device: Device, point: Point, link: Link, request: Request) -> bytes:
     status, data = build(device.bus, link, request)
     if status != "ok":
@@ -115,17 +116,7 @@ def _hint(link: Link, status: str) -> str:
     return f"the parameter part of this link {length}; take another --pkw, if the device is set so"
 
 
-def _task_note(device: Device, task: int) -> str:
-    code = numbered(device.bus.functions, task)
-    return line(f"task {task}" + (f" {code.name}: {code.title['en']}" if code is not None else ""))
-
-
 def _shown(data: bytes, framing: str, link: Link, words: int) -> str:
     if framing == "uss":
         return spaced(data)
-    return part_words(data, link) if framing == "pkw" else " ".join(_pairs(data[-1 - 2 * words : -1]))
-
-
-def _pairs(data: bytes) -> Iterator[str]:
-    for at in range(0, len(data), 2):
-        yield data[at : at + 2].hex().upper()
+    return part_words(data, link) if framing == "pkw" else words_printed(words_in(data[-1 - 2 * words : -1]))

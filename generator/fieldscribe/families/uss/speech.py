@@ -6,21 +6,23 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
-from fieldscribe.families.spoken import Element, Masks, ProcessData, Spoken
+from fieldscribe.families.spoken import Element, Masks, ProcessData, Speech, Spoken
 from fieldscribe.families.uss import remarks
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.families.uss.links import asked as said_of
 from fieldscribe.families.uss.links import link_of
-from fieldscribe.families.uss.recognition import (
+from fieldscribe.families.uss.parts import (
+    MASKS,
+    NO_RIGHTS,
+    REFUSED,
     RESPONSE_WIDTHS,
-    TASK_WIDTHS,
+    SIZE,
+    Link,
     Part,
-    Wrapped,
     part_of,
-    recognise,
     split,
 )
-from fieldscribe.families.uss.telegrams import START, Link, Request, parse, telegram
+from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, request_in, unwrap
 from fieldscribe.hexadecimal import rejoined, typed_bytes
 from fieldscribe.wording.buses import element_text, no_answer_text
 
@@ -30,18 +32,12 @@ if TYPE_CHECKING:
     from fieldscribe.asked import Options
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Carried, Course
-    from fieldscribe.model import Device, Place
+    from fieldscribe.model import Device
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
-_REFUSED, _NO_RIGHTS = 7, 8
-_SIZE = 6
-"""The response with the number of elements."""
-_MASKS = 4
-_UNASKED = "read as a request, for none was heard before it; --direction response reads it as an answer"
-_PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"
 
 
-class UssSpeech:
+class UssSpeech(Speech):
     """Decodes the telegrams of one device, with the settings of its link."""
 
     def __init__(self, device: Device, link: Link, framing: str = "uss", direction: str | None = None) -> None:
@@ -55,30 +51,25 @@ class UssSpeech:
         example = "02 0E 01 143A 0000 0000 0000 0000 0000 23"
         return [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
 
-    def space_of(self, place: Place) -> str:
-        """Every place is reached in its own space."""
-        return place.space
-
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a telegram is; any bytes are safe."""
-        wrapped = recognise(frame, self._framing)
-        spoken = self._read(wrapped, course, directory, expecting=expecting)
+        unwrapped = unwrap(frame) if self._framing == "uss" else bare_words(frame)
+        spoken = self._read(unwrapped, course, directory, expecting=expecting)
         return replace(spoken, binds=True)
 
-    def _read(self, wrapped: Wrapped, course: Course, directory: Directory, *, expecting: bool) -> Spoken:
-        head = "USS" if wrapped.unit is None else f"USS, unit {wrapped.unit}"
-        base = Heard(
-            wrapped.data, self._framing, "unreadable", wrapped.unit, None, head, (), wrapped.checks, wrapped.faults
-        )
+    def _read(self, unwrapped: Unwrapped, course: Course, directory: Directory, *, expecting: bool) -> Spoken:
+        unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
+        head = "USS" if unit is None else f"USS, unit {unit}"
+        checks, faults = remarks.checks_text(unwrapped), tuple(remarks.flaw_texts(unwrapped))
+        base = Heard(unwrapped.data, framing, "unreadable", unit, None, head, checks=checks, faults=faults)
         direction = "request" if expecting else self._direction or ("response" if course.fixed else None)
-        words, whole = wrapped.words, self._framing == "uss"
         if words is None:
             return Spoken(replace(base, summary=f"{head}: not readable"))
-        if whole and wrapped.data[0] != START and len(wrapped.faults) > 1:
-            return Spoken(replace(base, summary=f"{head}: not readable", unit=None, notes=(_PARTS,)))
-        if self._framing == "broadcast" or (whole and wrapped.unit == self._device.bus.broadcast):
+        if "wrong_start" in unwrapped.flaws and len(faults) > 1:
+            return Spoken(replace(base, summary=f"{head}: not readable", unit=None, notes=(remarks.PARTS,)))
+        if framing == "broadcast" or (framing == "uss" and unit == self._device.bus.broadcast):
             return _broadcast(base, words)
-        if self._framing == "pzd":
+        if framing == "pzd":
             return self._process_data(base, words, direction)
         return self._telegram(base, words, course, directory, direction)
 
@@ -88,7 +79,7 @@ class UssSpeech:
         asked: Request | None = course.asked(base.unit)
         status = ""
         if asked is not None and direction != "request":
-            status = parse(self._device.bus, self._link, asked, telegram(asked.unit, words)).status
+            status = answer_in(self._device.bus, self._link, asked, words).status
         if direction == "response" or (direction is None and status in _ANSWERS):
             # the person fixed a request, but this unit has none open: that request went to another unit
             return self._reply(
@@ -96,28 +87,28 @@ class UssSpeech:
             )
         spoken = self._request(base, words, directory)
         if direction is None and not course.met(base.unit) and self._could_answer(words):
-            return replace(spoken, heard=replace(spoken.heard, notes=(*spoken.heard.notes, _UNASKED)))
+            return replace(spoken, heard=replace(spoken.heard, notes=(*spoken.heard.notes, remarks.UNASKED)))
         return spoken
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
         """Whether these words, read as a request, carry values, so that they could be an answer instead."""
-        part = part_of(split(words, self._link, request=True)[0])
+        part = part_of(split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
     def _request(self, base: Heard, words: tuple[int, ...], directory: Directory) -> Spoken:
-        part_words, rest, fault = split(words, self._link, request=True)
-        base = replace(base, kind="request", faults=(*base.faults, *((fault,) if fault else ())))
-        part = part_of(part_words)
-        data = ProcessData("request", rest)
+        divided = split(words, self._link, request=True)
+        misfit = () if divided.fits else (remarks.misfit_text(len(words), self._link, request=True),)
+        base = replace(base, kind="request", faults=(*base.faults, *misfit))
+        part, data = part_of(divided.part), ProcessData("request", divided.words)
         unit = 0 if base.unit is None else base.unit
         if part is None:
             alone = self._link.pkw == 0
             said = f"{base.summary}: {'request, process data' if alone else 'not readable'}"
             heard = replace(base, kind="request" if alone else "unreadable", summary=said)
-            return Spoken(heard, (data,), base.unit, asks=Request(unit, 0, words=rest))
-        width = TASK_WIDTHS.get(part.code, 0)
-        value = part.value(width, self._link) if width else None
-        element = Element(part.parameter, part.index, width, value, part.values, asked=True)
+            return Spoken(heard, (data,), base.unit, asks=Request(unit, 0, words=divided.words))
+        asks = request_in(unit, part, self._link, divided.words)
+        value = part.value(asks.width, self._link)
+        element = Element(part.parameter, part.index, asks.width, value, part.values, asked=True)
         task = remarks.code_text(self._device.bus.functions, part.code, "task")
         heard = replace(
             _about(base, f"request, {task}", part, "task", directory),
@@ -125,24 +116,23 @@ class UssSpeech:
             findings=tuple(remarks.request_findings(self._device, part, base.unit)),
             notes=tuple(remarks.request_notes(part, self._link)),
         )
-        asks = Request(unit, part.code, part.parameter, part.index, width, value or 0, rest)
         return Spoken(heard, (element, data) if part.code else (data,), base.unit, asks=asks)
 
     def _reply(
         self, base: Heard, words: tuple[int, ...], asked: Request | None, status: str, directory: Directory
     ) -> Spoken:
-        part_words, rest, fault = split(words, self._link, request=False)
-        if not fault and status and status not in _ANSWERS:
-            fault = no_answer_text(status)
+        divided = split(words, self._link, request=False)
+        fault = "" if not status or status in _ANSWERS else no_answer_text(status)
+        fault = fault if divided.fits else remarks.misfit_text(len(words), self._link, request=False)
         base = replace(base, kind="reply", faults=(*base.faults, *((fault,) if fault else ())))
-        part = part_of(part_words)
-        carried: tuple[Carried, ...] = (ProcessData("response", rest),)
+        part = part_of(divided.part)
+        carried: tuple[Carried, ...] = (ProcessData("response", divided.words),)
         if part is None:
             heard = replace(base, summary=f"{base.summary}: reply, process data")
         else:
             named = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
             heard = _about(base, f"reply, {named}", part, "response", directory)
-            if part.code in (_REFUSED, _NO_RIGHTS):
+            if part.code in (REFUSED, NO_RIGHTS):
                 heard = self._refusal(heard, part, None if asked is None else asked.task)
             carried = (self._element(part), *carried) if part.code else carried
         return Spoken(heard, carried, base.unit, answers=status != "no_answer")
@@ -150,20 +140,20 @@ class UssSpeech:
     def _element(self, part: Part) -> Element:
         """The element in an answer, with its value."""
         width = RESPONSE_WIDTHS.get(part.code, 0)
-        value = part.value(width, self._link) if width else None
-        refused, counts = part.code in (_REFUSED, _NO_RIGHTS), part.code == _SIZE
+        value = part.value(width, self._link)
+        refused, counts = part.code in (REFUSED, NO_RIGHTS), part.code == SIZE
         return Element(part.parameter, part.index, width, value, part.values, refused=refused, counts=counts)
 
     def _refusal(self, base: Heard, part: Part, task: int | None) -> Heard:
         """The result for an answer that refuses the request."""
         base = replace(base, kind="exception")
-        if part.code == _NO_RIGHTS or not part.values:
+        if part.code == NO_RIGHTS or not part.values:
             return base
         error = part.values[0]
         return replace(
             base,
             exception=error,
-            summary=f"{base.summary}: {remarks.error_text(self._device, error)}",
+            summary=f"{base.summary}: {remarks.titled_code(self._device.bus.exceptions, error, 'error')}",
             findings=tuple(remarks.error_findings(self._device, part, task)),
             notes=tuple(remarks.error_notes(part, self._link)),
         )
@@ -174,7 +164,7 @@ class UssSpeech:
         faults = base.faults
         if not low <= len(words) <= high:
             faults = (*faults, f"there are {low} to {high} words of process data, here are {len(words)}")
-        notes = () if direction else ("read as words from the master; --direction response reads those of the device",)
+        notes = () if direction else (remarks.FROM_MASTER,)
         heard = replace(base, kind=kind, summary=f"USS: {kind}, process data", faults=faults, notes=notes)
         return Spoken(heard, (ProcessData(direction or "request", words),))
 
@@ -198,7 +188,7 @@ def _about(base: Heard, said: str, part: Part, key: str, directory: Directory) -
 def _broadcast(base: Heard, words: tuple[int, ...]) -> Spoken:
     """The result for a broadcast: four words of masks, then process data."""
     heard = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
-    if len(words) < _MASKS:
-        fault = f"a broadcast starts with {_MASKS} words of masks, here are {len(words)}"
+    if len(words) < MASKS:
+        fault = f"a broadcast starts with {MASKS} words of masks, here are {len(words)}"
         return Spoken(replace(heard, faults=(*heard.faults, fault)))
-    return Spoken(heard, (Masks(words[:_MASKS]), ProcessData("request", words[_MASKS:])))
+    return Spoken(heard, (Masks(words[:MASKS]), ProcessData("request", words[MASKS:])))

@@ -5,7 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss.facts import FAMILY, of_bus
+from fieldscribe.families.uss.parts import (
+    DOUBLE_RESPONSES,
+    MASKS,
+    NO_RIGHTS,
+    REFUSED,
+    TASK_WIDTHS,
+    Link,
+    Part,
+    parameter_words,
+    part_of,
+    split,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,37 +26,22 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus
 
 START = 0x02
-VARIABLE = 127
-"""The setting of the parameter part whose length depends on the request."""
 LAST_PARAMETER = FAMILY.last_address
-READ_TASK = 1
-DOUBLE_RESPONSES = frozenset({2, 5})
-_REFUSED, _NO_RIGHTS = 7, 8
-_PAGE = 2000
-_PAGE_BITS = (15, 12, 13, 14)
-"""The bits of the index word that hold the page of the parameter number, from its lowest bit on."""
+LEAST_BYTES = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
-    """The settings of a link: the words of the parameter part and of process data.
+class Unwrapped:
+    """Bytes taken out of their telegram; `words` is None if they cannot be read.
 
-    `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
+    `flaws`: `short`, else `wrong_start`, `no_check` or else `wrong_length` and `wrong_check`, `odd` (a single last
+    byte); `no_words` for a part alone.
     """
 
-    pkw: int
-    pzd: int
-    single_first: bool = False
-
-    @property
-    def sent(self) -> int:
-        """How many words of the parameter part a master sends."""
-        return 4 if self.pkw == VARIABLE else self.pkw
-
-    @property
-    def single_last(self) -> bool:
-        """Whether a single value stands in the second value word."""
-        return self.pkw == 4 and not self.single_first
+    data: bytes
+    unit: int | None
+    words: tuple[int, ...] | None
+    flaws: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,17 +84,29 @@ def telegram(address: int, words: Sequence[int]) -> bytes:
     return body + bytes((check_byte(body),))
 
 
-def parameter_words(task: int, parameter: int, index: int) -> tuple[int, int]:
-    """The words that name a task and an element of a parameter: identification and index."""
-    page, number = divmod(parameter, _PAGE)
-    pages = sum((page >> bit & 1) << place for bit, place in enumerate(_PAGE_BITS))
-    return task << 12 | number, pages | index
+def unwrap(data: bytes) -> Unwrapped:
+    """The words of a whole telegram, with all that is wrong. Any bytes are safe."""
+    if len(data) < LEAST_BYTES:
+        return Unwrapped(data, None, None, ("short",))
+    flaws, body = ["wrong_start"] if data[0] != START else [], data[3:-1]
+    if data[1] == len(data) - 1 and len(data) % 2:
+        flaws, body = [*flaws, "no_check"], data[3:]
+    else:
+        flaws += ["wrong_length"] if data[1] + 2 != len(data) else []
+        flaws += ["wrong_check"] if check_byte(data) else []
+    return Unwrapped(data, data[2], words_in(body), (*flaws, *(("odd",) if len(body) % 2 else ())))
 
 
-def write_task(width: int, *, array: bool, keep: bool) -> int:
-    """The task that writes a value of this many words: into the RAM, with `keep` also into the EEPROM."""
-    tasks = {(1, False): (2, 14), (2, False): (3, 13), (1, True): (7, 12), (2, True): (8, 11)}
-    return tasks[width, array][keep]
+def bare_words(data: bytes) -> Unwrapped:
+    """The words of a part alone."""
+    whole = len(data) > 0 and len(data) % 2 == 0
+    return Unwrapped(data, None, words_in(data) if whole else None, () if whole else ("no_words",))
+
+
+def request_in(unit: int, part: Part, link: Link, words: tuple[int, ...]) -> Request:
+    """The request in a parameter part and process data."""
+    width = TASK_WIDTHS.get(part.code, 0)
+    return Request(unit, part.code, part.parameter, part.index, width, part.value(width, link) or 0, words)
 
 
 def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
@@ -143,7 +153,7 @@ def _refusal(bus: Bus, link: Link, request: Request) -> str:
 def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...]) -> tuple[str, bytes]:
     """A telegram to all units: four words of masks and the process data; (`bad_link`, b"") if these do not fit."""
     low, high = of_bus(bus).pzd
-    if bus.broadcast is None or len(mask) != 4 or len(words) != link.pzd or not low <= link.pzd <= high:
+    if bus.broadcast is None or len(mask) != MASKS or len(words) != link.pzd or not low <= link.pzd <= high:
         return "bad_link", b""
     if not all(0 <= word <= 0xFFFF for word in (*mask, *words)):
         return "bad_value", b""
@@ -157,35 +167,32 @@ def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
     error), `no_rights`, `wrong_response` (one that does not belong to the task), `wrong_length` (a double value in too
     few words).
     """
-    received = tuple(int.from_bytes(data[at : at + 2], "big") for at in range(3, len(data) - 1, 2))
-    pkw = len(received) - link.pzd
-    fault = _envelope_fault(link, request, data, pkw)
-    if fault is not None:
-        return Reply(fault)
-    words = received[pkw:]
-    if link.pkw == 0:
+    unwrapped = unwrap(data)
+    if data[:1] != bytes((START,)):
+        return Reply("wrong_start")
+    words = unwrapped.words or ()
+    if set(unwrapped.flaws) - {"wrong_check"} or not split(words, link, request=False).fits:
+        return Reply("wrong_length")
+    if unwrapped.flaws:
+        return Reply("wrong_check")
+    return answer_in(bus, link, request, words) if unwrapped.unit == request.unit else Reply("wrong_unit")
+
+
+def answer_in(bus: Bus, link: Link, request: Request, received: tuple[int, ...]) -> Reply:
+    """What `parse` says of the words of a telegram."""
+    divided = split(received, link, request=False)
+    if not divided.fits:
+        return Reply("wrong_length")
+    part, words = part_of(divided.part), divided.words
+    if part is None:
         return Reply("ok", words=words)
-    response = received[0] >> 12
     if request.task == 0:
-        return Reply("ok", response, words=words)
-    fault = _answer_fault(bus, request, received[:pkw])
+        return Reply("ok", part.code, words=words)
+    fault = _answer_fault(bus, request, divided.part)
     if fault is not None:
-        return Reply(fault, response, error=received[2]) if fault == "refused" else Reply(fault)
-    if response in DOUBLE_RESPONSES:
-        return Reply("ok", response, 2, received[2] << 16 | received[3], words=words)
-    return Reply("ok", response, 1, received[3 if link.single_last else 2], words=words)
-
-
-def _envelope_fault(link: Link, request: Request, data: bytes, pkw: int) -> str | None:
-    """What is wrong with the bytes as a telegram whose parameter part has `pkw` words."""
-    if not data or data[0] != START:
-        return "wrong_start"
-    whole = len(data) >= 4 and data[1] + 2 == len(data) and len(data) % 2 == 0
-    if not whole or (pkw < 3 if link.pkw == VARIABLE else pkw != link.pkw):
-        return "wrong_length"
-    if check_byte(data) != 0:
-        return "wrong_check"
-    return None if data[2] == request.unit else "wrong_unit"
+        return Reply(fault, part.code, error=part.values[0]) if fault == "refused" else Reply(fault)
+    width = 2 if part.code in DOUBLE_RESPONSES else 1
+    return Reply("ok", part.code, width, part.value(width, link) or 0, words=words)
 
 
 def _answer_fault(bus: Bus, request: Request, pkw: tuple[int, ...]) -> str | None:
@@ -195,8 +202,8 @@ def _answer_fault(bus: Bus, request: Request, pkw: tuple[int, ...]) -> str | Non
         return "no_answer"
     if (pkw[0] & 0x0FFF, pkw[1]) != parameter_words(0, request.parameter, request.index):
         return "wrong_parameter"
-    if response in (_REFUSED, _NO_RIGHTS):
-        return "refused" if response == _REFUSED else "no_rights"
+    if response in (REFUSED, NO_RIGHTS):
+        return "refused" if response == REFUSED else "no_rights"
     if not any(code.number == request.task and response in code.answers for code in bus.functions):
         return "wrong_response"
     return "wrong_length" if response in DOUBLE_RESPONSES and len(pkw) < 4 else None

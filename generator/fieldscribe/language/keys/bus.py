@@ -90,8 +90,8 @@ KEYS = (
         "broadcast",
         CODE,
         "Whether a function may be sent to all units at once; without the key 05h, 06h, 0Fh and 10h may.",
-        [False],
-        YES_NO,
+        ["no"],
+        *YES_NO,
     ),
     Key(
         "answers",

@@ -117,7 +117,7 @@ KEYS = (
         required=(places.DIGITS,),
         of=WHOLE_NUMBERS,
     ),
-    Key("open", FACTS, "Whether numbers without a name may be written too.", [True], YES_NO),
+    Key("open", FACTS, "Whether numbers without a name may be written too.", ["yes"], *YES_NO),
     Key(
         "special",
         (places.DEVICE, *_GROUPED, places.OF_TYPE),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.kinds import (
+    BOOLEAN,
     NOTHING,
     YES_NO,
     Items,
@@ -53,6 +54,16 @@ WHICH = (
         Text(200),
         NOTHING,
         own=True,
+    ),
+    Key(
+        "write_at",
+        (POINT, SET, VARIANT, MEMBER),
+        "The number on the wire for writing, if a point is read at `at` and written elsewhere; it is written and "
+        "counted as `at` is. ~ where a set, a variant or a member is written where it is read.",
+        ["2028h", 8232, "base + 106"],
+        Whole(),
+        Text(200),
+        NOTHING,
     ),
     Key(
         "members",
@@ -169,6 +180,7 @@ USING = (
         "Whether a written value survives power-off: no, yes (each write wears the memory), or as the caller chooses "
         "with each write (`choice`).",
         ["yes"],
+        BOOLEAN,
         one_of("no", "yes", "choice"),
         inherited=(GROUP, USE),
     ),
@@ -224,8 +236,8 @@ USING = (
         "reserved",
         _USED,
         "The maker keeps this address to itself.",
-        [True],
-        YES_NO,
+        ["yes"],
+        *YES_NO,
         inherited=(GROUP,),
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, YES_NO, Key, Place, Shape, Text, Whole, by, one_of
+from fieldscribe.kinds import NUMBER, YES_NO, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import (
     CASE,
@@ -29,7 +29,6 @@ _FLAG_PRINTED = Place(
     least=1,
 )
 _ONE_BIT = Whole(choices=(0, 1))
-_YES = (YES_NO, one_of("yes", "no"))
 _CITED = (
     *("code", "section", "address", "range", "scale", "bits", "flags", "enum", "resolution", "choices", "printed"),
     *("bytes", "number", "answers", "refusals"),
@@ -49,8 +48,8 @@ KEYS = (
     Key("when", CASE, "A point compared with a constant.", ["unit_mode == 0"], Text(200), required=True),
     Key("rule", CASE, "The rule that then holds.", ["raw = value * 100"], Text(500), required=True),
     Key("quantity", ENTRY, "A quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),
-    Key("no_value", SPECIAL_CODE, "The code says that there is no value.", ["yes"], *_YES),
-    Key("writable", SPECIAL_CODE, "The code may be written; without this it is only read.", ["yes"], *_YES),
+    Key("no_value", SPECIAL_CODE, "The code says that there is no value.", ["yes"], *YES_NO),
+    Key("writable", SPECIAL_CODE, "The code may be written; without this it is only read.", ["yes"], *YES_NO),
     *(Key(name, TYPES, OF_TYPE.shape) for name in WIRE_TYPES if name not in ("bit", "text")),
     Key("active", FLAG, "The value at which the name is true; 0 for an inverted bit.", [0], _ONE_BIT),
     Key(

@@ -30,7 +30,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     context = {"device": view, "bus": bus}
     yield f"c/{device.id}_{device.family}.h", folded(render(f"c/{device.family}.h.j2", context))
     suite = conformance_view(device, view, scope, frames.adapters(bus))
-    program = render("c/conformance.c.j2", {**context, "suite": suite})
+    program = render(f"c/{device.family}_conformance.c.j2", {**context, "suite": suite})
     yield f"c/conformance/{device.id}_conformance.c", folded(program)
 
 

@@ -163,6 +163,8 @@ def _text_or_digits_cases(point: Point, view: PointView) -> list[str]:
 def _place_cases(point: Point, view: PointView) -> list[str]:
     """The macros for its places and the constant bits of its word."""
     cases = []
+    if point.write_place is not None:
+        cases.append(f"WRITE_ADDRESS({view.macro})")
     if point.fixed is not None:
         cases.append(f"FIXED({view.macro})")
     if point.display is not None:

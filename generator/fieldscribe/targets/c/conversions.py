@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.layout import called, function
 from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
-    cast,
     float_order,
     raw_kind,
     raw_type,
@@ -68,13 +67,13 @@ class Writer:
             own = f"{self.name}_check"
             owner = self.scope.tables.setdefault(("check", *parameters, status), own)
             if owner != own:
-                status = f"{owner}(raw{self.scope.passed(self.point.limit_arguments)})"
+                status = called(owner, "raw", *self.scope.passed(self.point.limit_arguments))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
     def _checked(self, number: str) -> str:
         """The status of writing a raw number that was computed from a value, which never means a special code."""
-        status = f"{self.name}_check({number}{self.scope.passed(self.point.limit_arguments)})"
+        status = called(f"{self.name}_check", number, *self.scope.passed(self.point.limit_arguments))
         if self.special is None or not self.special.written:
             return status
         return f"({self.special.test}({number}) ? FIELDSCRIBE_SPECIAL : {status})"
@@ -93,7 +92,7 @@ class Writer:
         """Statements that store a whole number, with a check before where one is needed."""
         if not is_rechecked(self.point):
             return (f"return fieldscribe_store_{self.kind}({whole}, raw);",)
-        number = cast(self.type, "whole.number").replace("(whole.number)", "whole.number")
+        number = f"({self.type})whole.number"
         status = f"fieldscribe_both(whole.status, {self._checked(number)})"
         store = f"return fieldscribe_keep_{self.kind}({status}, {number}, raw);"
         return f"const fieldscribe_whole whole = {whole};", store
@@ -214,8 +213,7 @@ class Writer:
         """The call that gives the rule, in a function with these arguments."""
         name = rule_name(self.point, self.scope)
         self.scope.grouped = len(arguments) > 1
-        passed = self.scope.passed(self.point.scale_arguments)
-        return f"{name}({passed.removeprefix(', ')})"
+        return called(name, *self.scope.passed(self.point.scale_arguments))
 
     def _by_rule(self, tail: str, to: str, core: str, *, floating: bool = False) -> Function:
         point = self.point

@@ -54,9 +54,8 @@ def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
         yield f"{macro}_INDEX", unsigned(point.index)
     if point.telegram is not None:
         yield f"{macro}_TELEGRAM", f"{scope.upper}_TELEGRAM_{upper(point.telegram)}"
-    for place in point.places[1:]:
-        if place.addresses:
-            yield f"{macro}_{upper(place.purpose)}_ADDRESS", hexadecimal(min(place.addresses))
+    if point.write_place is not None:
+        yield f"{macro}_WRITE_ADDRESS", hexadecimal(min(point.write_place.addresses))
 
 
 def _raw_number(point: Point, macro: str) -> Iterator[Define]:

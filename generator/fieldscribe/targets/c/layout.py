@@ -30,6 +30,11 @@ def function(head: str, name: str, parameters: Sequence[str], *statements: str) 
     return "\n".join((signature, "{", *lines, "}"))
 
 
+def called(name: str, *arguments: str) -> str:
+    """A call."""
+    return f"{name}({', '.join(arguments)})"
+
+
 def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> list[str]:
     """The parts in as few lines as possible; every line but the last ends with the separator."""
     lines: list[str] = []

@@ -58,11 +58,9 @@ class HeaderScope:
         """The expression for the raw number of another point, in the function being written."""
         return f"with->{name}_raw" if self.grouped else f"{name}_raw"
 
-    def passed(self, names: tuple[str, ...]) -> str:
-        """The further arguments that pass these raw numbers on: `, lower_limit_raw`, or `, with`."""
-        if len(names) > 1:
-            return ", with"
-        return "".join(f", {self.raw(name)}" for name in names)
+    def passed(self, names: tuple[str, ...]) -> tuple[str, ...]:
+        """The arguments that pass these raw numbers on: `lower_limit_raw`, or `with` for several."""
+        return ("with",) if len(names) > 1 else tuple(map(self.raw, names))
 
 
 def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe import wording
+from fieldscribe.model import Named
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.targets.docs.points import GroupView, group_views, reference_heads
@@ -207,12 +208,12 @@ def _errata(device: Device) -> Table | None:
 
 def _where(erratum: Erratum) -> str:
     """What an erratum is about if it names no points: a frame, a function, or a place in words."""
-    kind, _, name = erratum.where.partition(":")
-    if kind == "frame" and name:
-        return f"frame {link('frame', name)}"
-    if kind == "function" and name.isdecimal():
-        return f"function {hex_text(int(name), 2)}"
-    return cell(erratum.where)
+    match erratum.where:
+        case Named("frame", str() as name):
+            return f"frame {link('frame', name)}"
+        case Named("function", int() as number):
+            return f"function {hex_text(number, 2)}"
+    return cell(str(erratum.where))
 
 
 def _missing(device: Device) -> Table | None:

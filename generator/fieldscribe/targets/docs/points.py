@@ -150,7 +150,8 @@ def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iter
         yield cell("steps: " + wording.steps_text(point))
     if point.display is not None:
         yield cell(wording.display_text(point))
-    yield from (cell(f"{place.purpose}: {place.space} {_words(place.addresses)}") for place in point.places[1:])
+    if point.write_place is not None:
+        yield cell(f"written at {wording.write_place_text(point)}")
     yield from map(cell, wording.width_texts(point))
     yield from _conditions(device, point, by_name)
     if point.note:
@@ -167,10 +168,6 @@ def _repeated(point: Point) -> Iterator[str]:
         yield f"set {point.set}"
     if point.telegram is not None:
         yield cell(f"telegram {point.telegram}")
-
-
-def _words(addresses: tuple[int, ...]) -> str:
-    return ", ".join(map(wording.address_text, addresses))
 
 
 def _names(point: Point) -> Iterator[str]:

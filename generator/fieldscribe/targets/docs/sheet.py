@@ -41,7 +41,7 @@ _FACTS = (
 
 
 def _identity(point: Point) -> tuple[str, ...]:
-    return _cell(point.code or ""), _cell(point.name), _cell(point.variant or ""), _cell(point.group)
+    return _cell(point.code or ""), _cell(point.name), _cell(str(point.variant or "")), _cell(point.group)
 
 
 def _place(point: Point) -> tuple[str, ...]:
@@ -50,7 +50,7 @@ def _place(point: Point) -> tuple[str, ...]:
     if not addresses:
         return _cell(point.space), "", "", "", "", *beside
     lowest = min(addresses)
-    others = "; ".join(f"{place.purpose}: {place.space} {_hexes(place.addresses)}" for place in point.places[1:])
+    others = "" if point.write_place is None else f"write: {point.space} {_hexes(point.write_place.addresses)}"
     words = _hexes(addresses) if len(addresses) > 1 else ""
     return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else "", *beside
 

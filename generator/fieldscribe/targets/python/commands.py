@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Command, Device, Place
-from fieldscribe.targets.python.forms import place
+from fieldscribe.targets.python.forms import place_of_command
 from fieldscribe.targets.python.identifiers import command_attributes
 from fieldscribe.targets.python.layout import Group, laid_out
 from fieldscribe.text import python_doc, python_string
@@ -13,6 +12,7 @@ from fieldscribe.text import python_doc, python_string
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from fieldscribe.model import Command, Device
     from fieldscribe.targets.python.scope import PackageScope
 
 
@@ -29,7 +29,7 @@ def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tu
     """Each command: its attribute, the runtime's class, the arguments and the docstring."""
     for command, name in command_attributes(device):
         scope.used.add("Command")
-        where = place("at", Place("write", command.space, (command.address,), command.function), scope)
+        where = place_of_command(command, scope)
         value = () if command.value is None else (f"value={command.value}",)
         yield name, "Command", (laid_out(where, 8), *value), (_command_doc(command),)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import pascal
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
+from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class DeviceClass:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """The device module: its imports, its classes, their variants, and further settings of the bus."""
+    """The device module: the lines of its imports, its classes, their variants, and further settings of the bus."""
 
     module: str
     imports: tuple[str, ...]
@@ -89,4 +90,4 @@ def device_view(device: Device, names: Identifiers) -> DeviceView:
     used = {blocking.device, awaiting.device}
     if axes:  # only then does the class have a constructor of its own
         used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
-    return DeviceView(family.module, tuple(sorted_imports(used)), classes, axes, family.settings)
+    return DeviceView(family.module, imported(family.module, sorted_imports(used)), classes, axes, family.settings)

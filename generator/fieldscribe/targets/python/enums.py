@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
-from fieldscribe.targets.python.layout import Node, call, laid_out
+from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
@@ -50,6 +50,11 @@ class EnumClass:
     members: tuple[Member, ...]
     readers: tuple[str, ...] = ()
     composer: Composer | None = None
+
+    @property
+    def docstring(self) -> tuple[str, ...]:
+        """The lines of the docstring."""
+        return docstring(self.doc)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.lowered import Operand
-    from fieldscribe.model import Bound, Linear, Place, Point, ScaleCase, Special
+    from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special
     from fieldscribe.targets.python.scope import PackageScope
 
 
@@ -224,21 +224,28 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
     )
 
 
-def place(keyword: str, where: Place, scope: PackageScope, point: Point | None = None) -> Node:
-    """A place as an argument, such as `at=holding(0x1028)`; `point` gives its telegram, or its index in an array."""
-    function = [] if where.function is None else [f"function=0x{where.function:02X}"]
-    index = [] if point is None or point.index is None else [f"index={point.index}"]
-    addresses = [f"0x{address:04X}" for address in where.addresses]
-    if where.space in NUMBERED:
-        scope.used.add(where.space)
-        numbers = [str(address) for address in where.addresses]
-        telegram = [] if point is None or point.telegram is None else [python_string(point.telegram)]
-        return call(f"{keyword}={where.space}", (*telegram, *numbers, *function, *index))
-    if (maker := _PLACES.get(where.space)) is not None:
-        scope.used.add(maker)
-        return call(f"{keyword}={maker}", (*addresses, *function, *index))
-    scope.used.add("Place")
-    return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function, *index))
+def place(keyword: str, point: Point, addresses: tuple[int, ...], scope: PackageScope) -> Node:
+    """A place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
+    index = () if point.index is None else (f"index={point.index}",)
+    if point.space not in NUMBERED:
+        return _place(keyword, point.space, addresses, index, scope)
+    scope.used.add(point.space)
+    telegram = () if point.telegram is None else (python_string(point.telegram),)
+    return call(f"{keyword}={point.space}", (*telegram, *map(str, addresses), *index))
+
+
+def place_of_command(command: Command, scope: PackageScope) -> Node:
+    """The place that a command writes to, with the function that it takes."""
+    return _place("at", command.space, (command.address,), (f"function=0x{command.function:02X}",), scope)
+
+
+def _place(keyword: str, space: str, addresses: tuple[int, ...], beside: tuple[str, ...], scope: PackageScope) -> Node:
+    shown = tuple(f"0x{address:04X}" for address in addresses)
+    maker = _PLACES.get(space)
+    scope.used.add(maker or "Place")
+    if maker is not None:
+        return call(f"{keyword}={maker}", (*shown, *beside))
+    return call(f"{keyword}=Place", (python_string(space), Group("(", shown), *beside))
 
 
 def number(value: Fraction, binary: bool = False) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 WIDTH = 88
 """The narrowest common line length, so that formatters with longer lines change nothing either."""
@@ -74,3 +74,17 @@ def flat(node: Node) -> str:
         return node
     comma = "," if len(node.items) == 1 and node.is_tuple else ""
     return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"
+
+
+def docstring(lines: Sequence[str]) -> tuple[str, ...]:
+    """The lines of a docstring inside a class."""
+    first, *others = lines
+    if not others:
+        return (f'    """{first}"""',)
+    return (f'    """{first}', *(f"    {line}" if line else "" for line in others), '    """')
+
+
+def imported(module: str, names: Sequence[str]) -> tuple[str, ...]:
+    """The lines of an import."""
+    line = f"from {module} import {', '.join(names)}"
+    return (line,) if len(line) <= WIDTH else (f"from {module} import (", *(f"    {name}," for name in names), ")")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
@@ -12,7 +12,7 @@ from fieldscribe.targets.python.existence import only_for, uncertain
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, docstring, laid_out
 from fieldscribe.targets.python.scope import PackageScope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
@@ -20,7 +20,7 @@ from fieldscribe.wording import codes_text, condition_text, range_text
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Point, Variant
 
 _DOC = WIDTH - 4 - 6  # less the indentation and two triple quotes
 _BODY = 8  # the indentation of an attribute's arguments
@@ -35,6 +35,11 @@ class PointView:
     arguments: tuple[str, ...]
     doc: tuple[str, ...]
     old_names: tuple[str, ...]
+
+    @property
+    def docstring(self) -> tuple[str, ...]:
+        """The lines of the docstring."""
+        return docstring(self.doc)
 
 
 @dataclass(slots=True)
@@ -71,16 +76,16 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
     errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
-    by_name: dict[str, list[Point]] = {}
+    by_name: dict[str, dict[Variant, Point]] = {}
     for point in device.points:
         group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
             continue
         group.points.append(_point(point, family, scope, errata))
         if point.variant is not None:
-            by_name.setdefault(point.name, []).append(point)
+            by_name.setdefault(point.name, {})[point.variant] = point
     for same in by_name.values():
-        groups[same[0].group].points.append(_by_variant(same, scope))
+        groups[next(iter(same.values())).group].points.append(_by_variant(same, scope))
     command_views = tuple(PointView(*command, ()) for command in commands(device, scope))
     documented = tuple(_documented(point, scope) for point in device.points if not point.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
@@ -101,10 +106,17 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
 def _documented(point: Point, scope: PackageScope) -> Group:
     """Why the point has no attribute, and the addresses of its words, if they can be reached."""
     scope.used.add("Documented")
-    where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
+    where = list(_at(point, scope)) if point.raw_only else []
     why = python_string(point.reason or "no reason given")
     code = [f"code={python_string(point.code)}"] if point.code else []
     return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
+
+
+def _at(point: Point, scope: PackageScope) -> Iterator[Node]:
+    """Where the point is read, and where else it is written."""
+    yield place("at", point, point.addresses, scope)
+    if point.write_place is not None:
+        yield place("write_at", point, point.write_place.addresses, scope)
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
@@ -137,8 +149,8 @@ def _arguments(point: Point, scope: PackageScope) -> list[Node]:
     if point.changes_with:
         arguments.append(Group("changes_with=(", tuple([python_string(name) for name in point.changes_with])))
     if point.variant is not None:
-        axis, _, value = point.variant.partition("=")
-        arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
+        axis_and_value = (python_string(point.variant.axis), python_string(point.variant.value))
+        arguments.append(Group("variant=(", axis_and_value))
         arguments.append(f"name={python_string(point.name)}")
     if choice := only_for(point, scope.variants):
         values = Group("(", tuple([python_string(value) for value in choice[1]]))
@@ -158,10 +170,7 @@ def _shown(point: Point) -> Iterator[str]:
 
 def _places(point: Point, scope: PackageScope) -> list[Node]:
     """The arguments for the places of the point, on the wire and in the manual."""
-    arguments: list[Node] = [place("at", point.places[0], scope, point)]
-    write_place = point.write_place
-    if write_place is not None and write_place is not point.places[0] and point.writable:
-        arguments.append(place("write_at", write_place, scope, point))
+    arguments: list[Node] = list(_at(point, scope))
     if point.bits is not None:
         arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
     arguments.append(f"group={python_string(point.group)}")
@@ -181,16 +190,16 @@ def _references(point: Point) -> Group:
     return Group("references={", tuple(pairs), "}")
 
 
-def _by_variant(points: list[Point], scope: PackageScope) -> PointView:
+def _by_variant(points: Mapping[Variant, Point], scope: PackageScope) -> PointView:
     scope.used.add("ByVariant")
-    axis = (points[0].variant or "").partition("=")[0]
-    chosen = [f"{python_string((point.variant or '').partition('=')[2])}: {attribute(point.item)}" for point in points]
-    old_names = tuple(dict.fromkeys(name for point in points for name in point.was))
+    variant, first = next(iter(points.items()))
+    chosen = [f"{python_string(variant.value)}: {attribute(point.item)}" for variant, point in points.items()]
+    old_names = tuple(dict.fromkeys(name for point in points.values() for name in point.was))
     if old_names:
         scope.used.add("renamed")
-    arguments = (python_string(axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
-    doc = _wrapped(python_doc(f"{points[0].title['en']}, as the device's {axis} has it."))
-    return PointView(attribute(points[0].name), "ByVariant", arguments, tuple(doc), old_names)
+    arguments = (python_string(variant.axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
+    doc = _wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it."))
+    return PointView(attribute(first.name), "ByVariant", arguments, tuple(doc), old_names)
 
 
 def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) -> tuple[str, ...]:

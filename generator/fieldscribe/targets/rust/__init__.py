@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = False
 
-_SOURCES = ("lib", "points", "enums", "flags", "with")
+_SOURCES = ("points", "enums", "flags", "with")
 _RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
 
 NEEDS_FAMILY = True
@@ -28,15 +28,16 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.rust.conformance import arms, conformance_tables
 
     scope = scope_of(device)
-    context = device_context(device, scope)
+    context = device_context(device, scope, render)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
+    yield f"{folder}/src/lib.rs", render(f"rust/{device.family}.rs.j2", context)
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope, device)
     suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/conformance/Cargo.toml", render("rust/conformance.toml.j2", context)
-    yield f"{folder}/conformance/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
+    yield f"{folder}/conformance/tests/conformance.rs", render(f"rust/{device.family}_conformance.rs.j2", suite)
 
 
 def runtime(_: Device) -> Iterator[tuple[str, str]]:

@@ -17,17 +17,15 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 _WRITES = {"coil": (5, 15), "holding": (6, 16)}
 _WIDTH = 112
 
 
 def read_lines(subject: CratePoint) -> tuple[str, ...]:
     """The facts of reading."""
-    count, factors, place = count_type(subject), subject.factors_type, subject.point.places[0]
+    count, factors = count_type(subject), subject.factors_type
     facts = [f"count {count};"] if count else []
     facts += [f"with {factors};"] if factors != "()" else []
-    facts += [f"function {place.function};"] if place.function not in (None, _READS.get(place.space)) else []
     return _block("read", [(fact,) for fact in facts])
 
 
@@ -36,7 +34,7 @@ def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
     facts += [f"with {subject.with_type};"] if subject.arguments else []
-    facts += ["closed true;"] if subject.closed else []
+    facts += ["closed true;"] if subject.shape.closed else []
     tail = () if subject.point.encodes_values else ("values none;",)
     allowed = _allowed(subject, scope)
     others = (*_place(subject.point, scope), *tail)
@@ -55,7 +53,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     """The facts about allowed numbers, unless the outer limits say it all."""
     point = subject.point
-    if subject.limits:
+    if point.limit_arguments:
         yield tuple(_limits(point, scope))
     elif subject.form == "float":
         yield from ((ranges,) for ranges in _float_ranges(point))
@@ -98,14 +96,7 @@ def _float_ranges(point: Point) -> Iterator[str]:
 
 def _place(point: Point, scope: CrateScope) -> Iterator[str]:
     """The function and the address for writing, unless they are the usual ones."""
-    first = point.places[0]
-    place = point.write_place or first
-    single, many = _WRITES.get(place.space, (0, 0))
+    single, many = _WRITES.get(point.space, (0, 0))
     usual = single if point.words == 1 else many
-    function = place.function if place.purpose == "write" else None
-    if function is None:
-        function = many if usual not in scope.functions and many in scope.functions else usual
-    if function != usual:
-        yield f"function {function};"
-    if place is not first and place.addresses:
-        yield f"at 0x{min(place.addresses):04X};"
+    if usual not in scope.functions and many in scope.functions:
+        yield f"function {many};"

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import re
-from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.example import example_lines, example_uses
+from fieldscribe.targets.rust.example import example_of, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import binding
-from fieldscribe.targets.rust.points import point_view
+from fieldscribe.targets.rust.layout import Item, binding, in_lines
+from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
-from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
+from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
 from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
+    from fieldscribe.render import Render
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CrateScope
 
@@ -41,37 +41,38 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     """A point that is reached raw only: its item, and the lines of its constant."""
     index = "None" if point.index is None else f"Some({point.index})"
     where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
-    left = f"pub const {upper(point.item)}: runtime::Documented"
-    return point.item, binding(4, left, f"runtime::Documented::new({where})")
+    item = Item(f"pub const {upper(point.item)}", "runtime::Documented")
+    return point.item, binding(4, item, f"runtime::Documented::new({where})")
 
 
-def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
+def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
-    points = tuple(point_view(subject, scope) for subject in scope.subjects)
-    words = tuple(flags_views(scope))
-    enums = tuple(enum_views(device, scope))
+    points, names_runtime = point_texts(scope, render)
+    enums, long_enums = enum_texts(device, scope, render)
+    first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
     structs = tuple(arguments_views(scope))
-    of_family, example = in_rust(device.family), example_lines(device, scope)
+    of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
         "points": points,
-        "table": wrap(" ".join(subject.name for subject in scope.subjects), 100, break_long_words=False),
+        "table": in_lines(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
         "codes": tuple(shared_views(scope)),
-        "long_enums": any(map(is_long, enums)),
-        "words": words,
+        "long_enums": long_enums,
+        "words": "".join(word_texts(scope, render)),
+        "first_word": first_word,
         "structs": structs,
-        "example": example,
+        "example": example.lines,
         "heard": heard,
-        "received": received,
-        "example_uses": example_uses(device.id, (*example, heard, *received), of_family.names),
+        "received": received.lines,
+        "example_uses": example_uses(device.id, example + received, of_family.names),
         "example_unit": device.bus.units[0],
         "uses_enums": bool(enums),
-        "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
-        "uses_flags": bool(words),
+        "uses_runtime": names_runtime,
+        "uses_flags": bool(first_word),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,

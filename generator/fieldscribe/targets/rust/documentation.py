@@ -15,7 +15,6 @@ from fieldscribe.wording import (
     codes_text,
     condition_text,
     display_text,
-    raw_range_text,
     resolution_text,
     scale_text,
     width_texts,
@@ -26,9 +25,11 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.targets.rust.identity import Words
 
 _WIDTH = 104
-_BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
+_BEGINS = re.compile(r"[`(\[\ufdd0-\ufdef]|[^\W\d]|\d+(?![\d.)])")
+"""What a line may begin with; also a blank, since all words of a point that are blanked may."""
 
 
 def sentence(name: str) -> str:
@@ -36,9 +37,9 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
+def point_doc(point: Point, words: Words, errata: Collection[str]) -> tuple[str, ...]:
     """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
-    paragraphs = [sentence(point.item), f"{', '.join(_facts(point))}."]
+    paragraphs = [words.sentence, f"{', '.join(_facts(point, words))}."]
     if point.specials:
         paragraphs.append(f"{codes_text(point, '`')}.")
     named = [f"`{name}`" for name in point.errata if name in errata]
@@ -46,6 +47,11 @@ def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
         paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
     lines = [line for paragraph in paragraphs for line in ("", *(f" {text}" for text in wrapped(paragraph)))]
     return tuple(lines[1:])
+
+
+def is_long(text: str) -> bool:
+    """Whether the text may take several lines."""
+    return len(text) > _WIDTH
 
 
 def wrapped(text: str) -> Iterator[str]:
@@ -70,38 +76,36 @@ def left_out(device: Device) -> tuple[str, ...]:
 
 
 def _whereabouts(point: Point) -> Iterator[str]:
-    addresses = point.places[0].addresses if point.places else ()
     if point.code:
         yield rust_code(point.code)
-    if addresses:
-        yield _place(point)
+    if point.addresses:
+        yield _place(point, address_text(min(point.addresses)), "" if point.index is None else str(point.index))
 
 
-def _place(point: Point) -> str:
+def _place(point: Point, address: str, index: str) -> str:
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
-    where = f"{space} {address_text(min(point.places[0].addresses))}"
-    where += "" if point.index is None else f" index {point.index}"
+    where = f"{space} {address}"
+    where += "" if point.write_place is None else f" (written at {address_text(min(point.write_place.addresses))})"
+    where += f" index {index}" if index else ""
     return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
 
-def _facts(point: Point) -> Iterator[str]:
-    where = _place(point)
-    yield f"{rust_code(point.code)} at {where}" if point.code else f"At {where}"
+def _facts(point: Point, words: Words) -> Iterator[str]:
+    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.index)
+    yield f"{words.code_shown} at {where}" if words.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:
         yield f"{point.text.characters} characters of {rust_code(point.text.encoding)}"
     elif point.form == "digits" and point.digits is not None:
         yield f"{point.digits.count} decimal digits"
-    elif point.form != "float":
-        span = raw_range_text(point)
-        if span:
-            yield f"raw {rust_code(span)}"
+    elif words.span:
+        yield f"raw {words.span}"
     yield from _resolution(point)
     if point.display is not None:
         yield display_text(point)
     yield access_text(point.access)
     if point.variant:
-        yield f"for {rust_code(point.variant)}"
+        yield f"for {rust_code(str(point.variant))}"
     if point.when:
         yield f"only when {rust_code(condition_text(point.when))}"
 

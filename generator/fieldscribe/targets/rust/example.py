@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.layout import filled
@@ -18,81 +19,106 @@ _VALUED = ("scaled", "ruled")
 _ALWAYS = ("points as p", "Client", "ClientError", "Transport", "PROFILE")
 
 
-def example_lines(device: Device, scope: CrateScope) -> Lines:
+@dataclass(frozen=True, slots=True)
+class Snippet:
+    """Lines of an example, and the items of the crate that they name beside those that every example names."""
+
+    lines: Lines = ()
+    names: frozenset[str] = frozenset()
+
+    def __add__(self, other: Snippet) -> Snippet:
+        return Snippet(self.lines + other.lines, self.names | other.names)
+
+
+def example_of(device: Device, scope: CrateScope) -> Snippet:
     """What a function that talks to the device does; nothing if no point is read by itself alone."""
     asked = [one for one in scope.subjects if one.point.telegram is None]
-    plain = [one for one in asked if one.point.readable and not one.factors and not one.point.specials]
-    if not plain:
-        return ()
-    read = next((one for one in plain if one.form == "scaled"), plain[0])
-    return (
-        f"let value = client.read::<p::{read.name}>()?;",
-        'println!("it is {value:?}");',
-        *_writes(asked),
-        *_special(asked),
-        *_blocks(device, asked),
-        *(f"client.command(&commands::{one.name.upper()})?;" for one in device.commands[:1]),
-    )
+    read = _first(one for one in _plain(asked) if one.form == "scaled") or _first(_plain(asked))
+    if read is None:
+        return Snippet()
+    first = Snippet((f"let value = client.read::<p::{read.name}>()?;", 'println!("it is {value:?}");'))
+    return first + _writes(asked) + _special(asked) + _blocks(device, asked) + _command(device)
 
 
-def example_uses(device: str, lines: Sequence[str], names: Sequence[str]) -> Lines:
-    """What the example imports: beside what each does the family's `names`, and what these lines name."""
-    text = " ".join(lines)
-    asked = {"blocks": "blocks::", "commands": "commands::", "with": "with::", "telegrams": "telegrams::"}
-    asked |= {"Reading": "Reading::", "Receiver": "client.receive::"}
-    named = (*_ALWAYS, *names, *(name for name, used in asked.items() if used in text))
-    return filled(f"use {device}::{{", ", ", sorted(named, key=lambda name: (name[0].isupper(), name)), "};")
+def example_uses(device: str, snippet: Snippet, names: Sequence[str]) -> Lines:
+    """What the example imports: what each does, the family's `names`, and what its lines name."""
+    named = sorted((*_ALWAYS, *names, *snippet.names), key=lambda name: (name[0].isupper(), name))
+    return filled(f"use {device}::{{", ", ", named, "};")
 
 
-def _writes(asked: list[CratePoint]) -> Iterator[str]:
+def _writes(asked: list[CratePoint]) -> Snippet:
     """A point that needs no other, and one that does."""
-    written = [
-        one
-        for one in asked
-        if one.point.writable and one.point.encodes_values and not one.point.bits and one.form in _VALUED
-    ]
-    plain = _first(one for one in written if not one.arguments and not one.point.specials)
+    snippet = Snippet()
+    plain = _first(one for one in asked if not one.arguments and _takes_a_value(one))
     if plain is not None:
-        yield f"client.write::<p::{plain.name}>({_inside(plain)})?;"
-    needy = _first(one for one in written if one.arguments and one.point.readable and not one.point.specials)
+        snippet += Snippet((f"client.write::<p::{plain.name}>({_inside(plain)})?;",))
+    needy = _first(one for one in asked if one.arguments and _takes_a_value(one) and one.point.readable)
     if needy is not None:
         fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
-        yield "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them."
-        yield f"let with = with::{needy.name} {{ {fields} }};"
-        yield f"client.write_with::<p::{needy.name}>(1.0, with)?;"
+        lines = (
+            "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.",
+            f"let with = with::{needy.name} {{ {fields} }};",
+            f"client.write_with::<p::{needy.name}>(1.0, with)?;",
+        )
+        snippet += Snippet(lines, frozenset(("with",)))
+    return snippet
+
+
+def _plain(asked: Iterable[CratePoint]) -> Iterator[CratePoint]:
+    """Points that are read by themselves alone."""
+    return (one for one in asked if one.point.readable and not one.factors and not one.point.specials)
+
+
+def _takes_a_value(one: CratePoint) -> bool:
+    point = one.point
+    encodes = point.writable and point.encodes_values and not point.bits and not point.specials
+    return encodes and one.form in _VALUED
 
 
 def _inside(subject: CratePoint) -> str:
     """A value in the middle of what the point takes."""
     low, high = subject.point.outer
-    rule = subject.rule
+    rule = subject.shape.rule
     if rule is None:
         return "1.0"
     return float_literal(float(round((((low + high) // 2) - rule.offset) / rule.ratio)))
 
 
-def _special(asked: list[CratePoint]) -> Iterator[str]:
+def _special(asked: list[CratePoint]) -> Snippet:
     """A point whose reading may be a special code."""
     coded = _first(one for one in asked if one.point.specials and one.point.readable and not one.factors)
-    if coded is not None:
-        yield f"match client.read::<p::{coded.name}>()? {{"
-        yield '    Reading::Value(value) => println!("it is {value:?}"),'
-        yield '    Reading::Special(code) => println!("no quantity: {code}"),'
-        yield "}"
+    if coded is None:
+        return Snippet()
+    lines = (
+        f"match client.read::<p::{coded.name}>()? {{",
+        '    Reading::Value(value) => println!("it is {value:?}"),',
+        '    Reading::Special(code) => println!("no quantity: {code}"),',
+        "}",
+    )
+    return Snippet(lines, frozenset(("Reading",)))
 
 
-def _blocks(device: Device, asked: list[CratePoint]) -> Iterator[str]:
+def _blocks(device: Device, asked: list[CratePoint]) -> Snippet:
     """The reads of a group, and a point that they bring."""
     for group, blocks in device.blocks.items():
         for one in asked:
             if one.point.readable and not one.factors and any(one.point.name in block.points for block in blocks):
-                yield f"for block in blocks::{group.upper()} {{"
-                yield "    let reply = client.read_block(block)?;"
-                yield f"    if block.brings::<p::{one.name}>() {{"
-                yield f'        println!("it is {{:?}}", reply.value::<p::{one.name}>()?);'
-                yield "    }"
-                yield "}"
-                return
+                lines = (
+                    f"for block in blocks::{group.upper()} {{",
+                    "    let reply = client.read_block(block)?;",
+                    f"    if block.brings::<p::{one.name}>() {{",
+                    f'        println!("it is {{:?}}", reply.value::<p::{one.name}>()?);',
+                    "    }",
+                    "}",
+                )
+                return Snippet(lines, frozenset(("blocks",)))
+    return Snippet()
+
+
+def _command(device: Device) -> Snippet:
+    """The first command of the device."""
+    lines = tuple(f"client.command(&commands::{command.name.upper()})?;" for command in device.commands[:1])
+    return Snippet(lines, frozenset(("commands",) if lines else ()))
 
 
 def _first(found: Iterable[CratePoint]) -> CratePoint | None:

@@ -7,37 +7,38 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import count_line
 from fieldscribe.arithmetic.words import fits
-from fieldscribe.targets.rust.literals import integer, type_name, type_range
+from fieldscribe.targets.rust.literals import integer, type_range
 from fieldscribe.targets.rust.rules import rule_lines
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear
+    from fieldscribe.targets.rust.identity import Words
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 """The count types of points whose raw number is the value, wider than the raw type; `i32` for all others."""
 
 
-def form_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
+def form_lines(subject: CratePoint, words: Words, scope: CrateScope) -> tuple[str, ...]:
     """The fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
-    if subject.form == "scaled" and subject.rule is None:
+    if subject.form == "scaled" and subject.shape.rule is None:
         return _ruled(subject, scope, kind)
     form, facts = _form(subject)
     kind += "_or_error" if form == "wide" else ""
-    return (f"=> {kind} {value_type(subject)} as {form}({facts});",)
+    return (f"=> {kind} {_value_type(subject, words)} as {form}({facts});",)
 
 
-def value_type(subject: CratePoint) -> str:
+def _value_type(subject: CratePoint, words: Words) -> str:
     """The type of a value that is no special code."""
     if subject.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
         return f"runtime::Text<{subject.point.text.characters}>"
-    if subject.enum is not None and subject.point.digits is not None:
-        return f"[enums::{type_name(subject.enum.name)}; {subject.point.digits.count}]"
-    if subject.enum is not None:
-        return f"enums::{type_name(subject.enum.name)}"
+    if words.enum and subject.point.digits is not None:
+        return f"[enums::{words.enum}; {subject.point.digits.count}]"
+    if words.enum:
+        return f"enums::{words.enum}"
     return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
 
 
@@ -50,22 +51,22 @@ def count_type(subject: CratePoint) -> str:
         return _COUNTS.get(subject.raw, "i32")
     if point.decimals is None:
         return ""
-    return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
+    return "i64" if subject.shape.rule is None else f"i{min(64, _width(subject.shape.rule, point.decimals, subject.raw))}"
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:
     """The form of a point whose scale, if any, depends on no other point, with the facts of the form."""
     point = subject.point
-    if subject.rule is not None:
-        numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
+    if subject.shape.rule is not None:
+        numbers = [subject.shape.rule.ratio, *([subject.shape.rule.offset] if subject.shape.rule.offset else ())]
         facts = ", ".join(f"{integer(number.numerator)}, {integer(number.denominator)}" for number in numbers)
-        wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
+        wide = point.decimals is not None and _width(subject.shape.rule, point.decimals, subject.raw) > 64
         return "wide" if wide else "scaled", facts
-    if subject.form == "digits" and subject.enum is not None:
-        numbers_of = sorted({entry.raw for entry in subject.enum.entries if 0 <= entry.raw <= 0xFFFF})
-        return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
-    if subject.enum is not None:
-        return "named", subject.carried
+    if subject.form == "digits" and subject.shape.enum is not None:
+        numbers_of = sorted({entry.raw for entry in subject.shape.enum.entries if 0 <= entry.raw <= 0xFFFF})
+        return "digits", f"{subject.shape.carried}, [{', '.join(map(integer, numbers_of))}]"
+    if subject.shape.enum is not None:
+        return "named", subject.shape.carried
     return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
 
 
@@ -76,7 +77,7 @@ def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]
     wide = "" if point.encodes_values else "; wide true"
     within = ""
     if point.most_raw is not None:
-        low = "0" if subject.raw.startswith("u") else integer(-point.most_raw)
+        low = integer(-point.most_raw) if point.info.signed else "0"
         within = f"; within [{low}..={integer(point.most_raw)}]"
     lines = rule_lines(point, scope.lowered)
     if len(lines) == 1:

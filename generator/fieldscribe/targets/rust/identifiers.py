@@ -64,7 +64,7 @@ def _of_enum(enum: Enum) -> Iterator[Names]:
 
 
 def _of_point(subject: CratePoint) -> Iterator[Names]:
-    point, owner = subject.point, Owner("point", subject.point.item)
+    point, owner = subject.point, Owner("point", subject.item)
     yield Names("Rust, module `points`", owner, (subject.name,))
     for old in point.was if point.variant is None else ():
         yield Names("Rust, module `points`", Owner("old name", old, owner), (type_name(old),))
@@ -80,7 +80,7 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
 
 def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
     """The constants of a point that the description names, and the constants of every point that they could hide."""
-    point, namespace = subject.point, f"Rust, the point `{subject.point.item}`"
+    point, namespace = subject.point, f"Rust, the point `{subject.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
         if name in CONSTANTS:
             yield Names(namespace, Owner("target", f"the constant `{upper(name)}` of every point"), (upper(name),))
@@ -112,7 +112,7 @@ def _code_names(special: Special) -> tuple[str, ...]:
 
 
 def _of_flags(subject: CratePoint, owner: Owner) -> Iterator[Names]:
-    space = f"Rust, the flags of `{subject.point.item}`"
+    space = f"Rust, the flags of `{subject.item}`"
     yield Names(space, Owner("target", "the constant `ALL_FALSE` of every word of flags"), ("ALL_FALSE",))
     for flag in subject.point.flags:
         named = Owner("flag", flag.name, owner)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
 _WIDTH = 100
 _ARRAY_WIDTH = 60
@@ -16,23 +16,33 @@ _FREE_WIDTH = 104
 Lines = tuple[str, ...]
 
 
-def binding(indent: int, left: str, right: str) -> Lines:
-    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if it is still too long."""
+class Item(NamedTuple):
+    """The left side of a binding: an item, and its type if it has one."""
+
+    name: str
+    type: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.type}" if self.type else self.name
+
+
+def binding(indent: int, item: Item, right: str) -> Lines:
+    """`item = right;`, broken behind the sign, or behind the colon before the type if it is still too long."""
+    left = str(item)
     line = f"{left} = {right};"
     if indent + len(line) <= _WIDTH:
         return (line,)
-    if indent + len(left) + 2 <= _WIDTH:
+    if indent + len(left) + 2 <= _WIDTH or not item.type:
         return f"{left} =", f"    {right};"
-    name, _, type_ = left.partition(": ")
-    return f"{name}:", f"    {type_} = {right};"
+    return f"{item.name}:", f"    {item.type} = {right};"
 
 
-def assignment(indent: int, left: str, lines: Lines) -> Lines:
-    """`left = lines;` for an expression of several lines; its first goes to a line of its own if it is too long."""
-    first = f"{left} = {lines[0]}"
+def assignment(indent: int, item: Item, lines: Lines) -> Lines:
+    """`item = lines;` for an expression of several lines; its first goes to a line of its own if it is too long."""
+    first = f"{item} = {lines[0]}"
     if indent + len(first) <= _WIDTH:
         return (first, *lines[1:-1], f"{lines[-1]};")
-    return (f"{left} =", *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]};")
+    return (f"{item} =", *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]};")
 
 
 def arm(indent: int, pattern: str, body: str) -> Lines:
@@ -49,10 +59,12 @@ def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
     return (f"{name}(", *(f"    {parameter}," for parameter in parameters), f") -> {result} {{")
 
 
-def array(items: list[str]) -> Lines:
-    """The contents of an array's brackets: one line, else a line for each item."""
-    joined = ", ".join(items)
-    return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
+def array(item: Item, elements: list[str]) -> Lines:
+    """`item = &[elements];`: one line, else a line for each element."""
+    joined = ", ".join(elements)
+    if len(joined) <= _ARRAY_WIDTH:
+        return (f"{item} = &[{joined}];",)
+    return (f"{item} = &[", *(f"    {element}," for element in elements), "];")
 
 
 def comparison(indent: int, left: str, right: str) -> Lines:
@@ -61,12 +73,12 @@ def comparison(indent: int, left: str, right: str) -> Lines:
     return (line,) if indent + len(line) <= _WIDTH else (left, f"    {right}")
 
 
-def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
-    """`left = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
+def calls(indent: int, item: Item, items: list[tuple[str, Lines]]) -> Lines:
+    """`item = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
     lines = called(indent, items)
     if len(lines) == 1:
-        return binding(indent, left, lines[0])
-    return f"{left} = {lines[0]}", *lines[1:-1], f"{lines[-1]};"
+        return binding(indent, item, lines[0])
+    return f"{item} = {lines[0]}", *lines[1:-1], f"{lines[-1]};"
 
 
 def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
@@ -110,6 +122,18 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
     return tuple(lines)
 
 
+def in_lines(names: Iterable[str]) -> list[str]:
+    """Names in as few lines as possible."""
+    lines, line = [], ""
+    for name in names:
+        if len(line) + len(name) >= _WIDTH and line:
+            lines.append(line)
+            line = name
+        else:
+            line = f"{line} {name}" if line else name
+    return [*lines, line] if line else lines
+
+
 def chained(steps: Sequence[str]) -> Lines:
     """A chain of fallible calls, on one line or with a line for each call."""
     line = "?".join(steps)
@@ -118,8 +142,8 @@ def chained(steps: Sequence[str]) -> Lines:
     return steps[0], *(f"    ?{step}" for step in steps[1:])
 
 
-def chain(left: str, start: str, steps: list[str]) -> Lines:
-    """`left = start.step().step();`: with one step on one line, with several on a line each."""
+def chain(item: Item, start: str, steps: list[str]) -> Lines:
+    """`item = start.step().step();`: with one step on one line, with several on a line each."""
     if len(steps) < 2:
-        return binding(0, left, "".join((start, *steps)))
-    return (f"{left} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")
+        return binding(0, item, "".join((start, *steps)))
+    return (f"{item} = {start}", *(f"    {step}" for step in steps[:-1]), f"    {steps[-1]};")

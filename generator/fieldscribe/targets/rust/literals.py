@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point
+    from fieldscribe.model import Shape
 
 RESERVED = frozenset(
     {"Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do"}
@@ -49,11 +49,11 @@ _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
 
 
-def raw_type(point: Point) -> str:
-    """The Rust type of a point's raw number."""
-    if point.text is not None:
-        return f"[u16; {point.words}]"
-    return "bool" if point.form == "bit" else RAW_TYPES[point.type]
+def raw_type(shape: Shape) -> str:
+    """The Rust type of the raw number of points of that shape."""
+    if shape.text is not None:
+        return f"[u16; {shape.words}]"
+    return "bool" if shape.form == "bit" else RAW_TYPES[shape.type]
 
 
 @lru_cache(maxsize=32)
@@ -86,7 +86,6 @@ def value_name(name: str) -> str:
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"
 
 
-@lru_cache(maxsize=65536)
 def integer(number: int) -> str:
     """A decimal literal: `4000`, `-70_000`."""
     return str(number) if -_UNGROUPED < number < _UNGROUPED else f"{number:_}"

@@ -1,18 +1,19 @@
-"""The view of one point: the facts for the runtime's macro."""
+"""The text of each point, as facts for the runtime's macro: laid out once for all points that are alike."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.patterns import Pattern
 from fieldscribe.targets.rust.access import read_lines, write_lines
 from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.layout import binding, filled
-from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
+from fieldscribe.targets.rust.identity import KnownLimits, blanked, is_alias, words_of
+from fieldscribe.targets.rust.layout import Item, binding
+from fieldscribe.targets.rust.literals import mask, type_name
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
 from fieldscribe.text import rust_string
@@ -21,56 +22,83 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
+    from fieldscribe.render import Render
+    from fieldscribe.targets.rust.identity import Words
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
+
+def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
+    """The texts of all points, and whether one of them names items of the runtime."""
+    known_limits, patterns = KnownLimits(), dict[object, Pattern]()
+    traits, texts, names_runtime = in_rust(scope.family).traits, [], False
+    for subject in scope.subjects:
+        limits = known_limits.of(subject)
+        words, layout = words_of(subject, limits)
+        own = tuple(traits(subject, scope))
+        key = (subject.kin, limits.form, layout, own)
+        pattern = patterns.get(key)
+        if pattern is None:
+            view = _view(subject, words, own, scope)
+            names_runtime |= view.names_runtime
+            pattern = patterns[key] = Pattern(render("rust/point.rs.j2", {"point": view}))
+        texts.append(pattern.filled(words))
+    return "".join(texts), names_runtime
 
 
-def point_view(subject: CratePoint, scope: CrateScope) -> PointView:
-    """All that the templates need of a point."""
-    point, code = subject.point, subject.point.code
+def _view(subject: CratePoint, words: Words, traits: tuple[str, ...], scope: CrateScope) -> PointView:
+    """All that the template needs of a point, with blanks for its words."""
+    point, shown = subject.point, blanked(words)
     return PointView(
-        doc=point_doc(point, scope.errata),
-        alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
-        name=subject.name,
-        facts=tuple(_facts(subject, scope)),
-        was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
+        doc=point_doc(point, shown, scope.errata),
+        alias=shown.code if is_alias(point.code or "", subject.name) else "",
+        name=shown.name,
+        facts=(*_facts(subject._replace(name=shown.name), shown, scope), *traits),
+        names_runtime=bool(traits) or _names_runtime(subject),
+        was=tuple(binding(0, Item(f"pub type {type_name(old)}"), shown.name) for old in point.was),
     )
 
 
-def _facts(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
+def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    names = ", ".join(rust_string(name) for name in (point.item, point.code) if name)
-    yield f"{subject.name}: {subject.raw} = {names};"
-    yield from _whereabouts(point)
-    yield from _references(point)
+    yield f"{words.name}: {subject.raw} = \"{words.item}\"{words.code and ', '}{words.code};"
+    yield from _whereabouts(point, words)
+    if words.references:
+        yield words.references
     if point.unit.symbol:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
-    yield from _outer_limits(subject)
-    yield from form_lines(subject, scope)
+    if words.low:
+        yield f"raw {words.low}..={words.high};"
+    yield from form_lines(subject, words, scope)
     yield from code_lines(subject)
     if point.readable:
         yield from read_lines(subject)
     if point.writable:
         yield from write_lines(subject, scope)
-    yield from in_rust(scope.family).traits(subject, scope)
 
 
-def _whereabouts(point: Point) -> Iterator[str]:
+def _names_runtime(subject: CratePoint) -> bool:
+    """Whether the facts name items of the runtime: the type of a text, the check of digits, or rules."""
+    point = subject.point
+    checked = point.digits is not None or bool(point.limit_arguments)
+    return point.text is not None or bool(subject.factors) or (point.writable and checked)
+
+
+def _whereabouts(point: Point, words: Words) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    addresses = point.places[0].addresses
-    yield f"at {space_variant(point.places[0].space)} 0x{min(addresses):04X};"
-    if len(addresses) > 1:
-        yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
+    yield f"at {space_variant(point.space)} {words.address};"
+    if words.addresses:
+        yield words.addresses
     if point.words != 1:
         yield f"words {point.words};"
-    if point.index is not None:
-        yield f"index {point.index};"
+    if point.write_place is not None:
+        yield f"write_at 0x{min(point.write_place.addresses):04X};"
+    if words.index:
+        yield f"index {words.index};"
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
@@ -78,20 +106,3 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
-
-
-def _outer_limits(subject: CratePoint) -> Iterator[str]:
-    """The fact about the outer limits, unless they are those of the type."""
-    ends, raw = subject.point.outer, subject.raw
-    if subject.form not in ("float", "text", "digits") and ends != type_range(raw):
-        yield f"raw {raw_literal(ends[0], raw)}..={raw_literal(ends[1], raw)};"
-
-
-def _references(point: Point) -> Iterator[str]:
-    """The manual's other numberings of the point."""
-    for key, number in point.references.items():
-        if isinstance(number, str):
-            type_, literal = "&'static str", rust_string(number)
-        else:
-            type_, literal = "u32" if 0 <= number < 1 << 32 else "i64", integer(number)
-        yield f"const {key.upper()}: {type_} = {literal};"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import Lines, binding, calls
+from fieldscribe.targets.rust.layout import Item, Lines, binding, calls
 from fieldscribe.targets.rust.literals import mask, raw_literal, type_name
 from fieldscribe.targets.rust.views import ConstantView
 from fieldscribe.text import rust_string
@@ -37,8 +37,8 @@ def shared_views(scope: CrateScope) -> Iterator[SharedView]:
         if subject.point.shared_codes:
             first.setdefault(subject.point.shared_codes, subject)
     for of, subject in first.items():
-        left = f"pub const CODES: &'static [runtime::Code<{subject.raw}>]"
-        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, left))
+        item = Item("pub const CODES", f"&'static [runtime::Code<{subject.raw}>]")
+        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, item))
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:
@@ -68,34 +68,33 @@ def _kind(special: Special) -> str:
 def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
     """A constant for each code; of a band, its first code and the last raw number."""
     for special in subject.point.specials:
-        left = f"pub const {special.name.upper()}: runtime::Special<{subject.raw}>"
+        item = Item(f"pub const {special.name.upper()}", f"runtime::Special<{subject.raw}>")
         call = f"{_kind(special)}({rust_string(special.name)}, {_literal(special.low, special, subject.raw)})"
-        lines = _constant(left, f"runtime::Special::{call}")
+        lines = _constant(item, f"runtime::Special::{call}")
         if special.low != special.high:
-            last = binding(
-                4, f"pub const {special.name.upper()}_LAST: {subject.raw}", _literal(special.high, special, subject.raw)
-            )
+            last_item = Item(f"pub const {special.name.upper()}_LAST", subject.raw)
+            last = binding(4, last_item, _literal(special.high, special, subject.raw))
             yield ConstantView(sentence(f"{special.name}, the first of a band"), lines)
             yield ConstantView(sentence(f"the last raw number of {special.name}"), last)
         else:
             yield ConstantView(sentence(special.name), lines)
 
 
-def _table(subject: CratePoint, left: str) -> Lines:
+def _table(subject: CratePoint, item: Item) -> Lines:
     items: list[tuple[str, Lines]] = []
     for special in subject.point.specials:
         name = f"Self::{special.name.upper()}"
         band = ("runtime::Code::band", (name, f"{name}_LAST"))
         items.append(("runtime::Code::one", (name,)) if special.low == special.high else band)
-    return calls(4, left, items)
+    return calls(4, item, items)
 
 
-def _constant(left: str, call: str) -> Lines:
+def _constant(item: Item, call: str) -> Lines:
     """The lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
-    lines = binding(4, left, call)
-    if all(4 + len(line) <= _WIDTH for line in (*lines, f"{left} =")):
+    lines = binding(4, item, call)
+    if all(4 + len(line) <= _WIDTH for line in (*lines, f"{item} =")):
         return lines
-    return "#[rustfmt::skip] // its name is longer than a line", f"{left} = {call};"
+    return "#[rustfmt::skip] // its name is longer than a line", f"{item} = {call};"
 
 
 def _literal(raw: int, special: Special, rust_type: str) -> str:

@@ -1,41 +1,71 @@
-"""What the modules of this target often need of a point, worked out once."""
+"""What the modules of this target often need of a point: what follows from its shape is worked out once a shape."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.lowered import lower
-from fieldscribe.names import pascal
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.lowered import Lowered
-    from fieldscribe.model import Device, Enum, Linear, Message, Point, Telegram
+    from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
 
 
-@dataclass(frozen=True, slots=True)
-class CratePoint:
-    """A generated point: its form, identifiers and needs; `rule` is its scale if that depends on no other point."""
+@dataclass(frozen=True, slots=True, eq=False)
+class CrateShape:
+    """What Rust knows of all points of a shape; `rule` is their scale if that depends on no other point.
 
-    point: Point
+    `enum` is that of their values or digits. `alike` is the number of all shapes that differ from this one only in the
+    names of an enum: code about points names the enum, never its entries.
+    """
+
     form: str
     raw: str
-    name: str
-    arguments: tuple[str, ...]
     factors: tuple[str, ...]
-    limits: tuple[str, ...]
     rule: Linear | None
     enum: Enum | None
     carried: str
     """The raw type of its enum, which is wider than its own if points of several types share the enum."""
+    alike: int
 
     @property
     def closed(self) -> bool:
         """Whether only the enum's own numbers may be written."""
         return self.enum is not None and self.enum.closed
+
+
+class CratePoint(NamedTuple):
+    """A generated point: its name in the description and in Rust, and what Rust knows of its shape.
+
+    `arguments` are the points whose raw numbers writing needs. `kin` is the number of all points that differ in nothing
+    but the words of their identity and limits.
+    """
+
+    point: Point
+    item: str
+    name: str
+    shape: CrateShape
+    arguments: tuple[str, ...]
+    kin: int
+
+    @property
+    def form(self) -> str:
+        """What a user sees, as the model says."""
+        return self.shape.form
+
+    @property
+    def raw(self) -> str:
+        """The type of its raw number."""
+        return self.shape.raw
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """The points whose raw numbers the scale needs."""
+        return self.shape.factors
 
     @property
     def with_type(self) -> str:
@@ -45,7 +75,7 @@ class CratePoint:
     @property
     def factors_name(self) -> str:
         """The name of the scale's struct if it differs from that for writing, else empty."""
-        return f"{pascal(self.point.item)}Factors"
+        return f"{self.name.rstrip('_')}Factors"
 
     @property
     def factors_struct(self) -> str:
@@ -60,14 +90,13 @@ class CratePoint:
 
 @dataclass(frozen=True, slots=True)
 class CrateScope:
-    """What the points of a device share: the lowered model, raw types, the raw types of enums by name, functions.
+    """What the points of a device share: the lowered model, the raw types of enums by name, functions.
 
     The telegrams are by name, with the messages that carry them. The errata are
     those that change a fact.
     """
 
     lowered: Lowered
-    raw_types: Mapping[str, str]
     enums: Mapping[str, str]
     functions: frozenset[int]
     subjects: tuple[CratePoint, ...]
@@ -78,46 +107,78 @@ class CrateScope:
 
 def scope_of(device: Device) -> CrateScope:
     """The scope of a device, with its generated points."""
-    lowered = lower(device)
-    enums: dict[str, str] = {}
-    for point in device.points:
-        enum = _enum(point)
-        if point.generated and enum is not None:
-            raw = "u16" if point.form == "digits" else raw_type(point)
-            known = enums.setdefault(enum.name, raw)
-            if known != raw:
-                enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
+    generated = [point for point in device.points if point.generated]
+    shapes = {id(point.shape): point.shape for point in generated}
+    enums = _enum_types(shapes.values())
     messages = {message.name: message for message in device.messages}
     return CrateScope(
-        lowered,
-        {name: raw_type(point) for name, point in lowered.points.items()},
+        lower(device),
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple(_subject(point, enums) for point in device.points if point.generated),
+        tuple(_subjects(generated, _shapes(shapes, enums))),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
         frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
 
 
-def _subject(point: Point, enums: Mapping[str, str]) -> CratePoint:
-    enum, raw = _enum(point), raw_type(point)
-    return CratePoint(
-        point,
-        point.form,
-        raw,
-        type_name(point.item),
-        point.arguments,
-        point.scale_arguments,
-        point.limit_arguments,
-        point.fixed_scale,
-        enum,
-        carried=enums[enum.name] if enum is not None else raw,
-    )
+def _subjects(points: Iterable[Point], shapes: Mapping[int, CrateShape]) -> Iterator[CratePoint]:
+    kins: dict[object, int] = {}
+    for point in points:
+        shape, item = shapes[id(point.shape)], point.item
+        name = type_name(item)
+        arguments = point.arguments if shape.factors or point.allowed.arguments else ()
+        kin = (
+            shape.alike,
+            arguments,
+            point.space,
+            point.unit.symbol,
+            point.bits,
+            point.steps,
+            point.telegram,
+            point.index is None,
+            tuple(point.place.references),
+            point.write_place and point.write_place.addresses,
+            point.variant,
+            point.when,
+            point.errata,
+            point.keeps,
+            point.was,
+            name if name.endswith("_") else None,
+        )
+        yield CratePoint(point, item, name, shape, arguments, kins.setdefault(kin, len(kins)))
 
 
-def _enum(point: Point) -> Enum | None:
-    """The enum of a point's values, or of its digits."""
-    if point.digits is not None and point.form == "digits":
-        return point.digits.enum
-    return point.enum if point.form == "enum" else None
+def _shapes(shapes: Mapping[int, Shape], enums: Mapping[str, str]) -> dict[int, CrateShape]:
+    """What Rust knows of shapes, by the same keys."""
+    numbers: dict[object, int] = {}
+    return {key: _shape(shape, enums, numbers) for key, shape in shapes.items()}
+
+
+def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
+    """The raw type that each enum carries: that of its points, or one that holds the numbers of all."""
+    enums: dict[str, str] = {}
+    for shape in shapes:
+        enum = _enum(shape)
+        if enum is not None:
+            raw = "u16" if shape.form == "digits" else raw_type(shape)
+            known = enums.setdefault(enum.name, raw)
+            if known != raw:
+                enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
+    return enums
+
+
+def _shape(shape: Shape, enums: Mapping[str, str], numbers: dict[object, int]) -> CrateShape:
+    enum, raw = _enum(shape), raw_type(shape)
+    carried = raw if enum is None else enums[enum.name]
+    named = shape.enum if shape.form == "enum" else None
+    unnamed = shape if named is None else (replace(shape, enum=None), named.closed)
+    alike = numbers.setdefault((unnamed, carried), len(numbers))
+    return CrateShape(shape.form, raw, shape.scale_arguments, shape.fixed_scale, enum, carried, alike)
+
+
+def _enum(shape: Shape) -> Enum | None:
+    """The enum of the values of points, or of their digits."""
+    if shape.digits is not None and shape.form == "digits":
+        return shape.digits.enum
+    return shape.enum if shape.form == "enum" else None

@@ -1,20 +1,22 @@
-"""The views of enums, of words of flags, and of the structs of raw numbers that points need."""
+"""Enums, words of flags, and the structs of raw numbers that points need."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import arm, binding, called, calls, comparison, fields_of, signature
-from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
+from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, fields_of, signature
+from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Device, Entry, Enum, Flag
-    from fieldscribe.targets.rust.subjects import CrateScope
+    from fieldscribe.render import Render
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _LONG = 90
 
@@ -22,14 +24,26 @@ UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
-def enum_views(device: Device, scope: CrateScope) -> Iterator[EnumView]:
-    """The enums that generated points use, in the device's order."""
+def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
+    """The enums that generated points use, in the device's order, and whether one of them has many names."""
+    patterns: dict[object, tuple[Pattern, bool]] = {}
+    texts, long = [], False
     for enum in device.enums:
-        if enum.name in scope.enums:
-            yield _enum(enum, scope.enums[enum.name])
+        raw = scope.enums.get(enum.name)
+        if raw is None:
+            continue
+        words = (type_name(enum.name), sentence(enum.name))
+        key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
+        known = patterns.get(key)
+        if known is None:
+            view = _enum(enum, raw, *blanks(words))
+            known = patterns[key] = Pattern(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
+        texts.append(known[0].filled(words))
+        long |= known[1]
+    return "".join(texts), long
 
 
-def is_long(enum: EnumView) -> bool:
+def _is_long(enum: EnumView) -> bool:
     """Whether a function with an arm for each name would be too long for clippy."""
     return (
         max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
@@ -69,30 +83,39 @@ def constant_name(flag: Flag) -> str:
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
-def flags_views(scope: CrateScope) -> Iterator[FlagsView]:
+def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """The words with named bits."""
+    patterns: dict[object, Pattern] = {}
     for subject in scope.subjects:
         if subject.form == "flags":
-            point, bits = subject.point, subject.raw.replace("i", "u")
-            flags = tuple(_flag(flag, bits) for flag in point.flags)
-            low = sum(1 << flag.low for flag in point.flags if flag.width == 1 and not flag.active)
-            yield FlagsView(
-                doc=sentence(point.item),
-                name=subject.name,
-                raw=subject.raw,
-                bits=bits,
-                false=mask(low, bits) if low else "0",
-                flags=flags,
-                shown=(
-                    *binding(4, "const NAME: &'static str", rust_string(subject.name)),
-                    *_table(point.flags, flags),
-                ),
-            )
+            words = (subject.name, sentence(subject.item))
+            key = (subject.kin, len(subject.name))
+            pattern = patterns.get(key)
+            if pattern is None:
+                view = _word(subject, *blanks(words))
+                pattern = patterns[key] = Pattern(render("rust/word.rs.j2", {"word": view}))
+            yield pattern.filled(words)
+
+
+def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
+    all_flags, width = subject.point.flags, subject.point.info.bits
+    bits, flags = f"u{width}", tuple(_flag(flag, width) for flag in all_flags)
+    low = sum(1 << flag.low for flag in all_flags if flag.width == 1 and not flag.active)
+    return FlagsView(
+        doc=doc,
+        name=name,
+        raw=subject.raw,
+        bits=bits,
+        false=mask(low, bits) if low else "0",
+        flags=flags,
+        shown=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
+    )
 
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
     """The constant that says how flags are shown, with the names of their numbers."""
-    left, names, shown = "const FLAGS: &'static [runtime::Flag]", list[str](), list[tuple[str, tuple[str, ...]]]()
+    item = Item("const FLAGS", "&'static [runtime::Flag]")
+    names, shown = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
         if view.values:
             names += _names(f"NAMES_{place}", flag)
@@ -101,49 +124,60 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
             made = "new" if view.active or not view.single else "active_low"
             shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
     if not names:
-        return calls(4, left, shown)
-    return f"{left} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+        return calls(4, item, shown)
+    return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
 
 
 def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
-    return calls(8, f"const {constant}: runtime::Names", rows)
+    return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
 def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
-    for subject in scope.subjects:
-        if not subject.arguments:
-            continue
-        item = subject.point.item
+    needy = [subject for subject in scope.subjects if subject.arguments]
+    links = _links(scope) if needy else {}
+    for subject in needy:
+        item = subject.item
         parted = bool(subject.factors) and subject.factors != subject.arguments
         part = subject.factors_name if parted else ""
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", ())
         literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: CrateScope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
-    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
+def _fields(
+    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
+) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple(
+        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
+        for name in names
+    )
 
 
-def _source(name: str, scope: CrateScope) -> str:
+def _source(name: str, links: Mapping[str, list[str]]) -> str:
     """The points whose raw number an argument is: several if variants of the device differ."""
-    types = [subject.name for subject in scope.subjects if name in (subject.point.item, subject.point.name)]
-    links = " or ".join(f"[`{type_}`](crate::points::{type_})" for type_ in types)
-    return f"The raw number of {links or f'`{name}`'}."
+    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
 
 
-def _enum(enum: Enum, raw: str) -> EnumView:
-    name = type_name(enum.name)
+def _links(scope: CrateScope) -> dict[str, list[str]]:
+    """Links to the points of each name and item."""
+    links: dict[str, list[str]] = {}
+    for subject in scope.subjects:
+        for name in {subject.item, subject.point.name}:
+            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
+    return links
+
+
+def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumView:
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
     unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
-    return EnumView(sentence(enum.name), name, raw, entries, unknown)
+    return EnumView(doc, name, raw, entries, unknown)
 
 
 def _entry(entry: Entry, enum: str) -> EntryView:
@@ -152,12 +186,12 @@ def _entry(entry: Entry, enum: str) -> EntryView:
     return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
 
 
-def _flag(flag: Flag, raw: str) -> FlagView:
-    ones = (1 << flag.width) - 1
+def _flag(flag: Flag, width: int) -> FlagView:
+    raw, ones = f"u{width}", (1 << flag.width) - 1
     bits = mask(ones << flag.low, raw)
     single = flag.width == 1
     constant = constant_name(flag)
-    full = ones << flag.low == (1 << int(raw[1:])) - 1
+    full = ones << flag.low == (1 << width) - 1
     masked = "self.0" if full else f"self.0 & Self::{constant}"
     number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
     placed = "number" if flag.low == 0 else f"(number << {flag.low})"
@@ -169,7 +203,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
         active=bool(flag.active),
         constant=constant,
-        constant_lines=binding(4, f"pub const {constant}: {raw}", bits),
+        constant_lines=binding(4, Item(f"pub const {constant}", raw), bits),
         getter=getter_name(flag.name),
         setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
         mask=bits,
@@ -182,7 +216,7 @@ def _flag(flag: Flag, raw: str) -> FlagView:
         values=tuple(
             (
                 sentence(value.name),
-                binding(4, f"pub const {flag.name.upper()}_{value.name.upper()}: {raw}", integer(value.raw)),
+                binding(4, Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw), integer(value.raw)),
             )
             for value in (() if single else flag.values)
         ),

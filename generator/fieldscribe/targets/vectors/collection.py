@@ -68,7 +68,7 @@ def collect(device: Device) -> Lines:
         lines.gather()
     for point in device.points:
         if point.raw_only and point.address is not None:
-            lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
+            lines.add("documented", point.item, point.space, point.address, point.words, point.index)
     if left_out := [point for point in device.points if not point.generated]:
         lines.add(
             "left_out", tuple(point.item for point in left_out), tuple(point.code or "none" for point in left_out)

@@ -12,7 +12,7 @@ from fieldscribe.targets.vectors.whole import with_fixed
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Code, Device, Place, Point
+    from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.vectors.lines import Lines
 
 Script = list[tuple[bytes, bytes]]
@@ -61,7 +61,7 @@ class Exchanges:
 
     def of(self, point: Point) -> None:
         """Add the exchanges of a point: read, write, and write permanently."""
-        if not point.places:
+        if not point.addresses:
             return
         settings = samples.settings(self.oracle, point)[0] if point.arguments else {}
         needs = self._needs(settings)
@@ -71,8 +71,7 @@ class Exchanges:
         self.lines.set("point", point.item)
         self.lines.set("with", settings)
         if point.readable:
-            place = point.places[0]
-            words = words_of(point, place, raw, received=True)
+            words = words_of(point, point.addresses, raw, received=True)
             self._add("read", point, raw, self.wire.reads(point, words), needs or [])
         if point.writable:
             for kind, keep in (("write", False), ("store", True)):
@@ -80,14 +79,13 @@ class Exchanges:
                     self._add(kind, point, number, self._writing(point, number, keep=keep), needs or [])
 
     def _writing(self, point: Point, raw: int, *, keep: bool) -> Script | None:
-        place = writing_place(point)
-        words = words_of(point, place, raw)
+        words = words_of(point, writing_addresses(point), raw)
         script = self.wire.writes(point, words, keep=keep)
         if script is None or point.bits is None:
             return script
         if not point.readable:
             return None
-        before = self.wire.reads(point, words_of(point, place, as_raw(point, ~raw), received=True))
+        before = self.wire.reads(point, words_of(point, point.addresses, as_raw(point, ~raw), received=True))
         return None if before is None else before + script
 
     def _needs(self, settings: dict[str, int]) -> Script | None:
@@ -95,9 +93,9 @@ class Exchanges:
         script: Script = []
         for name, raw in settings.items():
             other = self.points.get(name)
-            if other is None or not other.readable or not other.places or other.scale_arguments:
+            if other is None or not other.readable or not other.addresses or other.scale_arguments:
                 return None
-            read = self.wire.reads(other, words_of(other, other.places[0], raw))
+            read = self.wire.reads(other, words_of(other, other.addresses, raw))
             if read is None:
                 return None
             script += read
@@ -106,7 +104,7 @@ class Exchanges:
     def _add(self, kind: str, point: Point, raw: int, script: Script | None, needs: Script) -> None:
         if script is None:
             return
-        words = None if point.text is None else words_of(point, point.places[0], raw)
+        words = None if point.text is None else words_of(point, point.addresses, raw)
         number = raw if point.text is None else None
         self.lines.add(kind, script, "ok", number, words, needs)
         if (kind, point.space) in self.spoiled or point.bits is not None or needs or point.text is not None:
@@ -122,17 +120,17 @@ def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
         lines.add(kind, what, code.number, code.name)
 
 
-def writing_place(point: Point) -> Place:
-    """The place where a point is written."""
-    return next((place for place in point.places if place.purpose == "write"), point.places[0])
+def writing_addresses(point: Point) -> tuple[int, ...]:
+    """Where a point is written."""
+    return point.addresses if point.write_place is None else point.write_place.addresses
 
 
-def words_of(point: Point, place: Place, raw: int, *, received: bool = False) -> tuple[int, ...]:
+def words_of(point: Point, addresses: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
     """The words of a raw number as they travel, in ascending order of address.
 
     A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
     """
-    count = len(place.addresses) if point.text is not None else point.words
+    count = len(addresses) if point.text is not None else point.words
     if point.bits is not None:
         low, ones = point.bits[1], (1 << point.width) - 1
         word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
@@ -142,9 +140,9 @@ def words_of(point: Point, place: Place, raw: int, *, received: bool = False) ->
         return (word & ~point.fixed.mask | constant,)
     pattern = raw & (1 << 16 * count) - 1
     parts = [pattern >> 16 * (count - 1 - part) & 0xFFFF for part in range(count)]
-    if len(place.addresses) != count:
+    if len(addresses) != count:
         return tuple(parts)
-    return tuple(part for _, part in sorted(zip(place.addresses, parts, strict=True)))
+    return tuple(part for _, part in sorted(zip(addresses, parts, strict=True)))
 
 
 def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | None:

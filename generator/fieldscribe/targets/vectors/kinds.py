@@ -86,6 +86,7 @@ KINDS = table(
         "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
         "references:pairs?",
         "place": "addresses:ints index:int? telegram:word?",
+        "write_address": "only:c.rust address:int",
         "fixed": "mask:int bits:int",
         # whole exchanges with a point: requests, answers and result; also for writing permanently
         "read": _EXCHANGE,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.model import item_of
 from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
@@ -23,7 +24,7 @@ def address(lines: Lines, point: Point) -> None:
     low, high = outer_bounds(point) if point.form not in ("float", "text", "digits") else (None, None)
     lines.add(
         "address",
-        point.places[0].space,
+        point.space,
         point.address,
         point.words,
         None if point.code is None else line(point.code),
@@ -32,6 +33,8 @@ def address(lines: Lines, point: Point) -> None:
         point.decimals if point.form == "scaled" else None,
         {key: line(str(number)) for key, number in point.references.items()},
     )
+    if point.write_place is not None:
+        lines.add("write_address", min(point.write_place.addresses))
     if point.index is not None or point.telegram is not None or point.text is not None:
         lines.add("place", point.addresses, point.index, point.telegram)
     if point.unit.symbol:
@@ -42,8 +45,7 @@ def address(lines: Lines, point: Point) -> None:
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
     """Add the vector of what a point is beside its numbers: group, type, unit, default, variant, place for writing."""
-    other = next((place for place in point.places if place.purpose == "write"), None)
-    apart = other is not None and other is not point.places[0]
+    apart = point.write_place
     lines.add(
         "facts",
         point.group,
@@ -53,17 +55,17 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
         None if point.default is None else float(point.default),
         None if point.changes == "always" else point.changes,
         point.changes_with,
-        point.variant,
+        None if point.variant is None else str(point.variant),
         _only_for(point, variants),
-        other.space if other is not None and apart else None,
-        other.addresses if other is not None and apart else None,
+        None if apart is None else point.space,
+        None if apart is None else apart.addresses,
     )
 
 
 def aliases(lines: Lines, point: Point) -> None:
     """Add vectors of old names; variants keep their suffix."""
     for old in point.was:
-        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
+        lines.add("alias", item_of(old, point.variant), point.item)
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
@@ -87,14 +89,14 @@ def _possible_for(condition: Condition, axis: str, value: str) -> bool:
 def words(lines: Lines, point: Point) -> None:
     """Add vectors of the words of a point, in ascending order of the addresses."""
     if (
-        not point.places
+        not point.addresses
         or point.bits is not None
         or point.text is not None
         or (point.words < 2 and not point.info.signed)
     ):
         return
     count = point.words
-    addresses = point.places[0].addresses
+    addresses = point.addresses
     # words that share one address (a USS parameter) travel with the high word first
     order = sorted(range(count), key=addresses.__getitem__) if len(addresses) == count else list(range(count))
     for pattern in _wide_patterns(count) if count > 1 else _NARROW:

@@ -57,11 +57,14 @@ impl Reply<'_> {
     /// [`Error::WrongSpace`] if the function is neither the one that reads the point nor the one that writes a single
     /// item of its space, [`Error::NotBrought`] if the reply does not bring all of the point.
     pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error> {
-        let reads = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
-        if self.function != reads && self.function != write_function(P::SPACE, 1) {
+        let address = if self.function == read_function(P::SPACE) {
+            P::ADDRESS
+        } else if self.function == write_function(P::SPACE, 1) {
+            P::WRITE_ADDRESS
+        } else {
             return Err(Error::WrongSpace(Some(P::NAME)));
-        }
-        let offset = P::ADDRESS.checked_sub(self.address);
+        };
+        let offset = address.checked_sub(self.address);
         let places = offset.and_then(|offset| Some(offset..offset.checked_add(P::WORDS)?));
         let items = places.map(|places| places.map_while(|place| self.item(place)));
         let raw = items.and_then(|items| P::from_received(items).ok());

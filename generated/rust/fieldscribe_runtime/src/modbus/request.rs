@@ -51,8 +51,7 @@ impl Request<'static> {
     /// A request that reads a point.
     #[must_use]
     pub fn read<P: Readable>(unit: u8) -> Self {
-        let function = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
-        Self::new(unit, function, P::ADDRESS, P::WORDS)
+        Self::new(unit, read_function(P::SPACE), P::ADDRESS, P::WORDS)
     }
 
     /// A request that writes a point's raw number; [`Request::write_words`] writes texts of more than four words.

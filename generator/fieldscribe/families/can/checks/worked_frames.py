@@ -5,15 +5,24 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, from_words, hex_of, report_no_frame, report_no_request
+from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_sum
 from fieldscribe.families.can.facts import identifier_of
-from fieldscribe.families.can.frames import LENGTH, CanFrame, Parsed, checksum, parse
-from fieldscribe.resolve.subject import Printed, Subject
+from fieldscribe.families.can.frames import (
+    LENGTH,
+    CanFrame,
+    Parsed,
+    differences,
+    parse,
+    places,
+    telegram_words,
+    unit_of,
+)
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Message, Point
     from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.subject import Subject
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,20 +77,11 @@ def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]
     for message in subject.messages:
         fits = message.direction == frame.direction and (asked is None or message.answers == asked.message.name)
         if fits and number is not None:
-            unit = _unit(message, number, frame.printed, subject.bus.units[0])
-            result.append(_Heard(message, unit, parse(message, unit, CanFrame(number, frame.printed))))
+            read_frame = CanFrame(number, frame.printed)
+            unit = unit_of(message, read_frame)
+            unit = subject.bus.units[0] if unit is None else unit
+            result.append(_Heard(message, unit, parse(message, unit, read_frame)))
     return result
-
-
-def _unit(message: Message, number: int, data: bytes, otherwise: int) -> int:
-    """The unit that a message is to or from, where a byte of it says so."""
-    if message.adds_unit:
-        return number - message.identifier
-    unit = otherwise
-    for role, byte in zip(message.roles, data, strict=True):
-        if role.kind == "unit" and role.number == 0:
-            unit = byte
-    return unit
 
 
 def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
@@ -90,36 +90,23 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
     for heard in tried:
         if heard.parsed.status == "ok":
             return frame, heard
-    for heard in tried:
-        if heard.parsed.status != "wrong_check" or number is None:
-            continue
-        data = bytearray(frame.printed)
-        sums = [byte for byte, role in enumerate(heard.message.roles) if role.kind == "xor"]
-        for byte in sums:
-            data[byte] = checksum(data, heard.message.roles[byte].number)
-        printed, taken = (hex_of(bytes(data_bytes[byte] for byte in sums)) for data_bytes in (frame.printed, data))
-        message = f"the checksum {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(f"frame:{frame.name}", "xor", printed, taken, open_frame.raw.span("bytes"), message))
-        right = bytes(data)
-        parsed = parse(heard.message, heard.unit, CanFrame(number, right))
-        return replace(frame, corrected=right, valid=False), replace(heard, parsed=parsed)
-    return frame, None
+    wrong = next((heard for heard in tried if heard.parsed.status == "wrong_check"), None)
+    if wrong is None or number is None:
+        return frame, None
+    data = bytearray(frame.printed)
+    for byte in differences(wrong.message, wrong.unit, CanFrame(number, frame.printed)):
+        data[byte.place] = byte.due
+    sums = places(wrong.message, "xor")
+    here, right = (bytes(sum_of[place] for place in sums) for sum_of in (frame.printed, data))
+    report_wrong_sum(subject, open_frame, "xor", here, right)
+    parsed = parse(wrong.message, wrong.unit, CanFrame(number, bytes(data)))
+    return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)
 
 
 def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
     """Finds the raw numbers in a frame: the word of a parameter, or words of a telegram."""
-    roles = heard.message.roles
-    has_raw = any(role.kind == "raw" for role in roles)
-    words: dict[int, int] = {}
-    first = sum(
-        data * heard.message.words
-        for role, data in zip(roles, frame.corrected, strict=True)
-        if role.kind == "multiplexer"
-    )
-    for role, byte in zip(roles, frame.corrected, strict=True):
-        if role.kind == "word":
-            place = first + role.number // 2
-            words[place] = words.get(place, 0) | byte << (0 if role.number % 2 else 8)
+    raw = (heard.parsed.raw,) if places(heard.message, "raw") else (None,)
+    words = telegram_words(heard.message, CanFrame(0, frame.corrected))
     telegrams = {
         name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == heard.message.name
     }
@@ -127,7 +114,6 @@ def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
     def carries(point: Point) -> int | None:
         if point.telegram is not None:
             return from_words(point, tuple(map(words.get, point.addresses))) if point.telegram in telegrams else None
-        known = has_raw and point.addresses == (heard.parsed.address,)
-        return from_words(point, (heard.parsed.raw,)) if known else None
+        return from_words(point, raw) if point.addresses == (heard.parsed.address,) else None
 
     return carries

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 _BYTES = 8
+_IN_A_ROW = 12
 
 
 NAMED_CODES: tuple[str, ...] = ()
@@ -85,7 +86,8 @@ class GroupView:
     title: str
     array: str
     count_name: str
-    addresses: tuple[str, ...]
+    count: str
+    lines: list[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +115,7 @@ class BusView:
 def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated and point.places]
+    points = [point for point in device.points if point.generated and point.addresses]
     messages = {message.name: message for message in device.messages}
     cyclic = {
         telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
@@ -244,7 +246,10 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
         if addresses:
             name = f"{scope.prefix}_{group.name}_group"
             count = f"{scope.upper}_{upper(group.name)}_GROUP_COUNT"
-            yield GroupView(group.name, name, count, tuple(hexadecimal(address) for address in addresses))
+            numbers = list(map(hexadecimal, addresses))
+            rows = [", ".join(numbers[first : first + _IN_A_ROW]) for first in range(0, len(numbers), _IN_A_ROW)]
+            lines = [*(f"{row}," for row in rows[:-1]), rows[-1]]
+            yield GroupView(group.name, name, count, f"{len(addresses)}U", lines)
 
 
 def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[bool, bool]) -> FrameView | None:

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.conformance import item_row, row_of
+from fieldscribe.targets.rust.conformance import item_row
+from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import OfFamily, Table
+from fieldscribe.targets.rust.example import Snippet
+from fieldscribe.targets.rust.families import OfFamily, Table, row_text
 from fieldscribe.targets.rust.families.numbers import code_names, constants
-from fieldscribe.targets.rust.layout import array, assignment, binding
+from fieldscribe.targets.rust.layout import Item, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.text import rust_string
 
@@ -58,7 +60,10 @@ def context(device: Device) -> dict[str, object]:
         "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
         "dialogues": tuple(_request_and_answer_constants(device.messages)),
         "messages": tuple(map(_message, device.messages)),
-        "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
+        "message_names": array(
+            Item("pub const MESSAGES", "&[&Message]"),
+            [f"&messages::{message.name.upper()}" for message in device.messages],
+        ),
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
         "telegrams": tuple(
             _telegram(telegram, carriers[telegram.message])
@@ -119,7 +124,9 @@ def _message(message: Message) -> MessageView:
     adds_unit = "true" if message.adds_unit else "false"
     head = (f"    {field}," for field in (rust_string(message.name), mask(message.identifier, width), adds_unit))
     literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
-    return MessageView(sentence(message.name), assignment(4, f"pub const {message.name.upper()}: Message", literal))
+    return MessageView(
+        sentence(message.name), assignment(4, Item(f"pub const {message.name.upper()}", "Message"), literal)
+    )
 
 
 def _role(role: Role) -> str:
@@ -134,7 +141,7 @@ def _role(role: Role) -> str:
 
 def _telegram(telegram: Telegram, message: Message) -> TelegramView:
     slots = -(-telegram.words // message.words)
-    name = binding(8, "const NAME: &'static str", rust_string(telegram.name))
+    name = binding(8, Item("const NAME", "&'static str"), rust_string(telegram.name))
     return TelegramView(
         sentence(telegram.name), type_name(telegram.name), name, telegram.words, slots, message.name.upper()
     )
@@ -144,26 +151,28 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """The table of points that come in frames of a telegram."""
     heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
-        yield Table("can_telegram", "can_telegram", tuple(row_of(subject, ("(frames)",)) for subject in heard))
+        yield Table("can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in heard))
 
 
-def heard(scope: CrateScope) -> tuple[str, tuple[str, ...]]:
+def heard(scope: CrateScope) -> tuple[str, Snippet]:
     """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
-    come = {subject.point.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
+    come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
-        return "", ()
+        return "", Snippet()
     first = next((subject for subject in plain if subject.form == "scaled"), plain[0])
     lines = [f"let value = client.receive::<p::{first.name}>()?; // waits for its next frame"]
     lines.append('println!("it is {value:?}");')
+    names = ["Receiver", "telegrams"]
     needy = (subject for subject in come.values() if subject.factors and subject.point.telegram == first.point.telegram)
     for subject in (subject for subject in needy if all(name in come for name in subject.factors)):
         fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in subject.factors)
         lines += ["let heard = client.listener(); // what came so far"]
         lines += [f"let with = with::{subject.factors_struct} {{ {fields} }};"]
+        names.append("with")
         lines += [f'println!("it is {{:?}}", heard.value_with::<p::{subject.name}>(with)?);']
         break
-    return f"telegrams::{type_name(first.point.telegram or '')}", tuple(lines)
+    return f"telegrams::{type_name(first.point.telegram or '')}", Snippet(tuple(lines), frozenset(names))
 
 
 def tables_of_frames(device: Device) -> Iterator[Table]:

@@ -8,7 +8,7 @@ from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.families.can.frames import CanFrame, build, checksum, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.targets.vectors.bus import add_limits
-from fieldscribe.targets.vectors.exchanges import codes, writing_place
+from fieldscribe.targets.vectors.exchanges import codes
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
@@ -46,11 +46,11 @@ class CanWire:
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """A request and an answer for each word."""
-        return self._script(point.space, point.places[0].addresses, words, writes=False)
+        return self._script(point.space, point.addresses, words, writes=False)
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """A request and an answer for each word."""
-        return None if keep else self._script(point.space, writing_place(point).addresses, words, writes=True)
+        return None if keep else self._script(point.space, point.addresses, words, writes=True)
 
     def _script(self, space: str, addresses: tuple[int, ...], words: tuple[int, ...], *, writes: bool) -> Script | None:
         request, answer = self.asks[writes]
@@ -73,7 +73,7 @@ class CanWire:
         yield "timeout", [(sent, good[:3] + bytes((good[3] ^ 1,)) + good[4:])]
         if answer is not None and writes and any(role.kind == "raw" for role in answer.roles):
             word = parse(answer, self.unit, CanFrame(int.from_bytes(good[:4], "big"), good[4:])).raw
-            yield "echo_mismatch", [(sent, self._sent(answer, point.places[0].addresses[0], word ^ 0x0100))]
+            yield "echo_mismatch", [(sent, self._sent(answer, point.addresses[0], word ^ 0x0100))]
 
 
 def wires(device: Device) -> list[CanWire]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
+from fieldscribe.model import Named
 from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 def check(subject: Subject) -> None:
     """Findings for printed numbers of bytes that do not follow from the largest count, and for unreachable spaces."""
     bus = subject.scope.bus
+    _elsewhere(subject)
     if bus is None:
         return
     if subject.bus_is_whole:
@@ -34,7 +36,7 @@ def check(subject: Subject) -> None:
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
             span = raw["printed"].span("bytes")
-            subject.disagrees(Printed(f"function:{code.number}", "bytes", printed, right, span, message))
+            subject.disagrees(Printed(Named("function", code.number), "bytes", printed, right, span, message))
 
 
 def _reached(subject: Subject, bus: Map) -> None:
@@ -52,6 +54,16 @@ def _reached(subject: Subject, bus: Map) -> None:
                 message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
                 hint = "list the function under `functions`, or correct `access` or `space`"
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
+
+
+def _elsewhere(subject: Subject) -> None:
+    """Findings for points that are written at another address, in a space that no function writes."""
+    for resolved in subject.resolved:
+        functions = SPACES.get(resolved.point.space)
+        if resolved.point.write_place is not None and functions is not None and functions.write_many is None:
+            message = f"`{resolved.point.name}` cannot be written: no function writes `{resolved.point.space}`"
+            hint = "leave `write_at` out; what is written in another space is a point of its own"
+            subject.report.error("write-address", message, resolved.draft.span("write_at"), hint)
 
 
 def _at_once(subject: Subject) -> None:

@@ -28,7 +28,7 @@ from fieldscribe.text import c_comment
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Block, Command, Device, Place, Point
+    from fieldscribe.model import Block, Command, Device, Point
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
     from fieldscribe.targets.identifiers import Named
@@ -122,7 +122,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     frames = [
         _frame(point, views[point.item], numbers, layouts)
         for point in device.points
-        if point.generated and point.places
+        if point.generated and point.addresses
     ]
     return BusView(
         guard=f"{scope.upper}_MODBUS_H",
@@ -176,10 +176,8 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
 
 def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
     """The requests of a point; None if no function of the device reaches it or its word must be read before a write."""
-    place = point.places[0]
-    read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
-    target = point.write_place or place
-    write = _writing(point, target, functions) if point.writable else 0
+    read = _READS.get(point.space, 0) if point.readable else 0
+    write = _writing(point, functions) if point.writable else 0
     read = read if read in functions else 0
     if point.bits is not None and not read:
         write = 0
@@ -187,8 +185,8 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
         return None
     text = point.text is not None
     parts = [_text(point, view) if text else layouts.of(point, places_of(point))]
-    parts += [_place(read, place.addresses, point.words)] if read else []
-    parts += [_place(write, target.addresses or place.addresses, point.words)] if write else []
+    parts += [_place(read, point.addresses, point.words)] if read else []
+    parts += [_place(write, point.written.addresses, point.words)] if write else []
     access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     return FrameView(
@@ -213,13 +211,11 @@ def _text(point: Point, view: PointView) -> str:
     return f"{{{view.function}_addresses, {hexadecimal(min(point.addresses))}, {point.words}U}}"
 
 
-def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
-    """The function that writes a point: that of the manual, else the one for one item, else that for several."""
-    if place.function in (5, 6, 15, 16) and place is not point.places[0]:
-        return place.function
-    if place.space == "coil":
+def _writing(point: Point, functions: frozenset[int]) -> int:
+    """The function that writes a point: the one for one item, else that for several; 0 if the device has neither."""
+    if point.space == "coil":
         wanted = (5, 15)
-    elif place.space == "holding":
+    elif point.space == "holding":
         wanted = (6, 16) if point.words == 1 else (16, 16)
     else:
         return 0

@@ -9,8 +9,8 @@ from fieldscribe.families.modbus.functions import framings_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names
-from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import Lines, array, chain
+from fieldscribe.targets.rust.families.spaces import space_variant
+from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def context(device: Device) -> dict[str, object]:
     ]
     return {
         "example_link": f"Framing::{framings_of(bus)[0].capitalize()}, {bus.units[0]}",
-        "functions": array(functions),
+        "functions": array(Item("const FUNCTIONS", "&[Function]"), functions),
         "framings": ", ".join(f"Framing::{framing.capitalize()}" for framing in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
@@ -42,7 +42,10 @@ def context(device: Device) -> dict[str, object]:
         "exceptions": tuple(map(_exception, bus.exceptions)),
         "blocks": tuple(_blocks(device)),
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
-        "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
+        "groups": array(
+            Item("pub const BLOCKS", "&[(&str, &[Block])]"),
+            [f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks],
+        ),
         "commands": tuple(_commands(device)),
     }
 
@@ -61,7 +64,7 @@ def _profile(bus: Bus) -> Lines:
     profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
     pads = of_bus(bus).pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
     steps = [*([".padding_coils()"] if pads else []), *([".naming(exceptions::name)"] if bus.exceptions else [])]
-    return chain("pub static PROFILE: Profile", profile, steps)
+    return chain(Item("pub static PROFILE", "Profile"), profile, steps)
 
 
 def _most(code: Code) -> int:
@@ -70,15 +73,14 @@ def _most(code: Code) -> int:
     return min(own, _MOST.get(code.number, own))
 
 
-def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
-    """For each group: its constant, its name, and the lines of its array."""
+def _blocks(device: Device) -> Iterator[tuple[str, Lines]]:
+    """For each group: its name, and the lines of its constant."""
     for group, blocks in device.blocks.items():
         items = [
-            f"Block::new({space(block.space).replace('runtime::', '')}, "
-            f"{block.function}, 0x{block.address:04X}, {block.count})"
+            f"Block::new(Space::{space_variant(block.space)}, {block.function}, 0x{block.address:04X}, {block.count})"
             for block in blocks
         ]
-        yield group.upper(), group, array(items)
+        yield group, array(Item(f"pub const {group.upper()}", "&[Block]"), items)
 
 
 def _commands(device: Device) -> Iterator[tuple[str, str, str]]:

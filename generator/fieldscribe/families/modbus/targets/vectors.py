@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FRAMINGS, FUNCTIONS, Profile, profile_of
 from fieldscribe.families.modbus.replies import Reply, parse_reply
-from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
+from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
-from fieldscribe.targets.vectors.exchanges import codes, writing_place
+from fieldscribe.targets.vectors.exchanges import codes, writing_addresses
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -33,7 +34,6 @@ _ADDRESS = 0x0102
 
 
 _SPACES = {"coil": 0x01, "discrete": 0x02, "holding": 0x03, "input": 0x04}
-_WRITES = (0x05, 0x06, 0x0F, 0x10)
 
 
 class ModbusWire:
@@ -52,20 +52,15 @@ class ModbusWire:
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """One request for all words, which must be consecutive."""
-        place = point.places[0]
-        function = place.function if place.function in _READS else _SPACES[place.space]
-        return self.script(function, place.addresses, words)
+        return self.script(_SPACES[point.space], point.addresses, words)
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
-        """One request for all words, with the function of the manual, else with the one for this count."""
-        place = writing_place(point)
-        if keep or place.space not in ("coil", "holding"):
+        """One request for all words, with the function for this count."""
+        if keep or point.space not in ("coil", "holding"):
             return None
-        single, several = (0x05, 0x0F) if place.space == "coil" else (0x06, 0x10)
-        known = self.profile.most
-        usual = single if len(words) == 1 and single in known else several
-        function = place.function if place.function in _WRITES else usual
-        return self.script(function, place.addresses, words)
+        single, several = (0x05, 0x0F) if point.space == "coil" else (0x06, 0x10)
+        function = single if len(words) == 1 and single in self.profile.most else several
+        return self.script(function, writing_addresses(point), words)
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """One request for consecutive addresses and its answer; None where the device does not allow it."""
@@ -85,7 +80,7 @@ class ModbusWire:
         del point, writes
         [(sent, good)] = script
         request = parse_request(self.framing, sent)
-        if isinstance(request, str):
+        if isinstance(request, Flaw):
             return
         code = next((code.number for code in self.bus.exceptions), 2)
         pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
@@ -310,7 +305,7 @@ def printed(lines: Lines, device: Device) -> None:
     for example in device.frames:
         if example.direction == "request":
             request = parse_request(example.framing, example.corrected)
-            if isinstance(request, str):
+            if isinstance(request, Flaw):
                 continue
             requests[example.name] = request
             status, data = build(profile, example.framing, request)

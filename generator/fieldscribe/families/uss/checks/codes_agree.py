@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import FAMILY
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import Named
 from fieldscribe.resolve.bus import code_list
 from fieldscribe.resolve.subject import Printed
 
@@ -85,8 +86,8 @@ def _printed(subject: Subject, code: Code, raw: Map, about: str) -> None:
         codes = sorted(code_list(subject.scope, printed, key))
         if codes != taken:
             message = f"the {key} {_list(codes)} are printed for the {about} {code.number}, taken are {_list(taken)}"
-            disagreement = Printed(f"{about}:{code.number}", key, list(printed[key]), taken, printed.span(key), message)
-            subject.disagrees(disagreement)
+            named, span = Named(about, code.number), printed.span(key)
+            subject.disagrees(Printed(named, key, list(printed[key]), taken, span, message))
 
 
 def _list(numbers: list[int]) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.checks.reach import report_missing
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.families.uss.telegrams import READ_TASK, write_task
+from fieldscribe.families.uss.parts import READ_TASK, write_task
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -5,30 +5,37 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_error
+from fieldscribe.arithmetic.words import words_in
+from fieldscribe.checks.frames_agree import (
+    Seen,
+    from_words,
+    report_no_frame,
+    report_no_request,
+    report_refused,
+    report_wrong_error,
+    report_wrong_sum,
+)
 from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.uss.parts import MASKS, VARIABLE, Link, part_of
+from fieldscribe.families.uss.remarks import words_printed
 from fieldscribe.families.uss.telegrams import (
-    VARIABLE,
-    Link,
+    LEAST_BYTES,
     Request,
+    answer_in,
     broadcast,
     build,
     check_byte,
     parse,
-    telegram,
+    request_in,
 )
-from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Point
     from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.subject import Subject
 
-_SINGLE_TASKS = frozenset({2, 7, 12, 14})
-_DOUBLE_TASKS = frozenset({3, 8, 11, 13})
-_MASKS = 4
 _SHORT = 3
-_PAGE_BITS = (15, 12, 13, 14)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,40 +53,27 @@ def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen
         return _broadcast(subject, open_frame)
     if frame.framing == "uss":
         frame = _checked(subject, open_frame)
-        if len(frame.corrected) < 4 or len(frame.corrected) % 2:
+        if len(frame.corrected) < LEAST_BYTES or len(frame.corrected) % 2:
             return report_no_frame(subject, open_frame, "this is no telegram: STX, LGE, ADR, words and BCC")
-        return _telegram(subject, replace(open_frame, frame=frame), _words(frame.corrected[3:-1]), seen)
+        return _telegram(subject, replace(open_frame, frame=frame), words_in(frame.corrected[3:-1]), seen)
     if len(frame.printed) % 2:
         return report_no_frame(subject, open_frame, "the part is made of words")
-    words = _words(frame.printed)
+    words = words_in(frame.printed)
     if frame.framing == "pzd":
         return _process_data(subject, open_frame, words)
     return _telegram(subject, open_frame, words, seen)
 
 
-def _words(data: bytes) -> tuple[int, ...]:
-    return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2))
-
-
 def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
     """The frame with its length byte and its check byte corrected."""
-    frame, span = open_frame.frame, open_frame.raw.span("bytes")
-    data = bytearray(frame.printed)
-    if len(data) < 4:
+    frame = open_frame.frame
+    if len(frame.printed) < LEAST_BYTES:
         return frame
-    about = f"frame:{frame.name}"
-    if data[1] + 2 != len(data):
-        printed, taken = f"{data[1]:02X}", f"{len(data) - 2 & 0xFF:02X}"
-        message = f"the LGE {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(about, "lge", printed, taken, span, message))
-        data[1] = len(data) - 2 & 0xFF
-    right = check_byte(bytes(data[:-1]))
-    if data[-1] != right:
-        printed, taken = f"{data[-1]:02X}", f"{right:02X}"
-        message = f"the BCC {printed} is printed, the bytes give {taken}"
-        subject.disagrees(Printed(about, "bcc", printed, taken, span, message))
-        data[-1] = right
-    return replace(frame, corrected=bytes(data), valid=bytes(data) == frame.printed)
+    body = frame.printed[:1] + bytes((len(frame.printed) - 2 & 0xFF,)) + frame.printed[2:-1]
+    right = body + bytes((check_byte(body),))
+    report_wrong_sum(subject, open_frame, "lge", frame.printed[1:2], right[1:2])
+    report_wrong_sum(subject, open_frame, "bcc", frame.printed[-1:], right[-1:])
+    return replace(frame, corrected=right, valid=right == frame.printed)
 
 
 def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], seen: dict[str, Seen]) -> Seen:
@@ -92,12 +86,12 @@ def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], s
     if asked is None or not isinstance(asked.request, _Asked):
         return Seen(replace(frame, valid=False))
     link, request = asked.request.link, asked.request.request
-    data = frame.corrected if frame.framing == "uss" else telegram(request.unit, words)
-    reply = parse(subject.bus, link, request, data)
+    if frame.framing == "uss":
+        reply = parse(subject.bus, link, request, frame.corrected)
+    else:
+        reply = answer_in(subject.bus, link, request, words)
     if reply.status not in ("ok", "refused", "no_rights"):
-        return report_no_frame(
-            subject, open_frame, f"this does not answer `{frame.answers}`: {reply.status.replace('_', ' ')}"
-        )
+        return report_refused(subject, open_frame, reply.status)
     report_wrong_error(subject, open_frame, reply.error if reply.status == "refused" else None)
     known = {code.number: code for code in subject.bus.exceptions}
     if reply.status == "refused" and known:
@@ -119,15 +113,14 @@ def _request(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) ->
         return report_no_frame(subject, open_frame, f"the parameter part has {sent} words, {len(words)} are printed")
     part, rest = words[:sent], words[sent:]
     link = Link(setting, len(rest))
-    request = _asked(part, link, unit, rest) if part else Request(unit, 0, words=rest)
+    named = part_of(part)
+    request = Request(unit, 0, words=rest) if named is None else request_in(unit, named, link, rest)
     status, data = build(subject.bus, link, request)
     if status != "ok":
-        return report_no_frame(subject, open_frame, f"this device takes no such request: {status.replace('_', ' ')}")
-    built = _words(data[3:-1])[: len(words)] if short else _words(data[3:-1])
+        return report_refused(subject, open_frame, status)
+    built = words_in(data[3:-1])[: len(words)] if short else words_in(data[3:-1])
     if built != words:
-        return report_no_frame(
-            subject, open_frame, f"this request would be {' '.join(f'{word:04X}' for word in built)}"
-        )
+        return report_no_frame(subject, open_frame, f"this request would be {words_printed(built)}")
     value = (request.width, request.value) if request.width else None
     return Seen(frame, _Asked(link, request), _carries(subject, request, value, rest, "request"))
 
@@ -136,22 +129,6 @@ def _setting(frame: Frame) -> int:
     """The length of the parameter part that the link is set to."""
     setting = of_frame(frame).pkw
     return VARIABLE if setting is None else setting
-
-
-def _asked(part: tuple[int, ...], link: Link, unit: int, rest: tuple[int, ...]) -> Request:
-    """The request in the words of a parameter part."""
-    identification, place = part[:2]
-    values = (*part[2:], 0, 0)
-    task = identification >> 12
-    page = sum((place >> bit & 1) << weight for weight, bit in enumerate(_PAGE_BITS))
-    parameter = (identification & 0x07FF) + 2000 * page
-    width = 1 if task in _SINGLE_TASKS else 2 if task in _DOUBLE_TASKS else 0
-    value = 0
-    if width == 2:
-        value = values[0] << 16 | values[1]
-    elif width == 1:
-        value = values[1] if link.single_last else values[0]
-    return Request(unit, task, parameter, place & 0xFF, width, value, rest)
 
 
 def _process_data(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) -> Seen:
@@ -163,14 +140,14 @@ def _process_data(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...
 
 def _broadcast(subject: Subject, open_frame: OpenFrame) -> Seen:
     """Read a broadcast: four words of masks, then the process data."""
-    words = _words(open_frame.frame.printed)
-    if len(open_frame.frame.printed) % 2 or len(words) < _MASKS:
+    words = words_in(open_frame.frame.printed)
+    if len(open_frame.frame.printed) % 2 or len(words) < MASKS:
         return report_no_frame(subject, open_frame, "a broadcast starts with four words of masks")
-    link = Link(_MASKS, len(words) - _MASKS)
-    status, _ = broadcast(subject.bus, link, words[:_MASKS], words[_MASKS:])
+    link = Link(MASKS, len(words) - MASKS)
+    status, _ = broadcast(subject.bus, link, words[:MASKS], words[MASKS:])
     if status != "ok":
         return report_no_frame(subject, open_frame, f"this device takes no such broadcast: {status.replace('_', ' ')}")
-    return Seen(open_frame.frame, None, _carries(subject, None, None, words[_MASKS:], "request"))
+    return Seen(open_frame.frame, None, _carries(subject, None, None, words[MASKS:], "request"))
 
 
 def _carries(

@@ -105,7 +105,7 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
     """The view of `<device>_uss.h`."""
     bus = device.bus
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated and point.places and point.text is None]
+    points = [point for point in device.points if point.generated and point.addresses and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
     layouts = Layouts(scope)
     frames = [

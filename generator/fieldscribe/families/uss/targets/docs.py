@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.families.uss.telegrams import VARIABLE
+from fieldscribe.families.uss.parts import VARIABLE
 from fieldscribe.targets.docs.bus import span
 from fieldscribe.targets.docs.cells import cell
 from fieldscribe.wording.exact import hex_text

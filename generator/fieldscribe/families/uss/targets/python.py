@@ -12,7 +12,7 @@ from fieldscribe.text import python_string
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Point, Variant
     from fieldscribe.targets.python.scope import PackageScope
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
@@ -37,18 +37,17 @@ def _profile(device: Device, scope: PackageScope) -> Node:
         arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
     if fewer := _variant_pzd(device):
         pairs = [
-            _numbers(f"({python_string(axis)}, {python_string(value)}): (", limits)
-            for (axis, value), limits in fewer.items()
+            _numbers(f"({python_string(variant.axis)}, {python_string(variant.value)}): (", limits)
+            for variant, limits in fewer.items()
         ]
         arguments.append(Group("variant_pzd={", tuple(pairs), "}"))
     return call("Profile", arguments)
 
 
-def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
+def _variant_pzd(device: Device) -> Mapping[Variant, tuple[int, int]]:
     """The process data lengths of variants that take fewer words than the whole product."""
     low, high = of_bus(device.bus).pzd
-    most_of = {tuple(variant.split("=", 1)): most for variant, most in of_bus(device.bus).variant_pzd if most < high}
-    return {(axis, value): (low, most) for (axis, value), most in most_of.items()}
+    return {variant: (low, most) for variant, most in of_bus(device.bus).variant_pzd if most < high}
 
 
 def _numbers(head: str, numbers: Iterable[int]) -> Group:

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.rust.conformance import change_of, of_all, of_scale
+from fieldscribe.targets.rust.conformance_rows import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names, constants
-from fieldscribe.targets.rust.layout import array, binding
+from fieldscribe.targets.rust.layout import Item, array, binding
 from fieldscribe.targets.rust.literals import type_name
 
 if TYPE_CHECKING:
@@ -27,10 +27,16 @@ def context(device: Device) -> dict[str, object]:
         "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
-        "profile": binding(0, "pub static PROFILE: Profile", _profile(bus)),
+        "profile": binding(0, Item("pub static PROFILE", "Profile"), _profile(bus)),
         "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "tasks": array([f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions]),
-        "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
+        "tasks": array(
+            Item("const TASKS", "&[Task]"),
+            [f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions],
+        ),
+        "fixed": array(
+            Item("const FIXED", "&[FixedBits]"),
+            [f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)],
+        ),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
             ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),

@@ -6,21 +6,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus, of_frame
-from fieldscribe.families.uss.telegrams import (
-    DOUBLE_RESPONSES,
-    LAST_PARAMETER,
-    START,
-    VARIABLE,
-    Link,
-    Request,
-    broadcast,
-    build,
-    parameter_words,
-    parse,
-    telegram,
-)
+from fieldscribe.families.uss.parts import DOUBLE_RESPONSES, VARIABLE, Link, parameter_words
+from fieldscribe.families.uss.telegrams import LAST_PARAMETER, START, Request, broadcast, build, parse, telegram
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
-from fieldscribe.targets.vectors.exchanges import codes, writing_place
+from fieldscribe.targets.vectors.exchanges import codes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -104,9 +93,8 @@ class UssWire:
         for word in words:
             number = number << 16 | word
         quiet = (0,) * self.link.pzd
-        place = point.places[0] if asks else writing_place(point)
         carried = (0, 0) if asks else (len(words), number)
-        request = Request(self.unit, task, place.addresses[0], point.index or 0, *carried, quiet)
+        request = Request(self.unit, task, point.addresses[0], point.index or 0, *carried, quiet)
         status, data = build(self.bus, self.link, request)
         answers = self.tasks.get(task, ())
         double = [answer for answer in answers if (answer in DOUBLE_RESPONSES) == (len(words) == 2)]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.targets.rust.example import Snippet
 from fieldscribe.targets.rust.layout import filled
 
 if TYPE_CHECKING:
@@ -34,13 +35,19 @@ class Table:
 
     name: str
     run: str
-    rows: tuple[Tokens, ...]
+    rows: tuple[str, ...]
     kind: str = ""
 
     @property
-    def lines(self) -> tuple[Tokens, ...]:
-        """The rows in lines."""
-        return tuple(filled("", " ", row, ";") for row in self.rows)
+    def text(self) -> str:
+        """The rows, each with its semicolon."""
+        return "".join([f"{row};\n" for row in self.rows])
+
+
+def row_text(row: Tokens) -> str:
+    """A row in as few lines as possible, without its semicolon."""
+    lines = filled("", " ", row, ";")
+    return "    " + "\n    ".join(lines)[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:
@@ -48,9 +55,9 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
-def no_telegram(_: CrateScope) -> tuple[str, Tokens]:
+def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
     """For families whose devices send nothing unasked."""
-    return "", ()
+    return "", Snippet()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +79,7 @@ class OfFamily:
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
     names: tuple[str, ...] = ()
-    heard: Callable[[CrateScope], tuple[str, Tokens]] = no_telegram
+    heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 
 def in_rust(name: str) -> OfFamily:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import arm, binding
+from fieldscribe.targets.rust.layout import Item, arm, binding
 from fieldscribe.targets.rust.literals import integer
 from fieldscribe.text import rust_string
 
@@ -23,7 +23,7 @@ def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Consta
     return tuple(
         (
             f"{sentence(code.name).rstrip('.')}: {what} {code.number}." if what else sentence(code.name),
-            binding(4, f"pub const {code.name.upper()}: {type_}", integer(code.number)),
+            binding(4, Item(f"pub const {code.name.upper()}", type_), integer(code.number)),
         )
         for code in codes
     )

@@ -795,6 +795,11 @@ pub fn place<P: Point>(vector: &Vector) -> Outcome {
     same(vector.said("telegram").as_deref(), P::TELEGRAM)
 }
 
+/// Where a point is written, if that is not where it is read.
+pub fn write_address<P: Point>(vector: &Vector) -> Outcome {
+    same(vector.raw("address"), P::WRITE_ADDRESS)
+}
+
 /// The symbol of a point's unit.
 pub fn symbol<P: Point>(vector: &Vector) -> Outcome {
     same(vector.text("symbol").as_str(), P::UNIT)

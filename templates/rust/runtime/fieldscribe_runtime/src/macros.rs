@@ -6,9 +6,10 @@
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
 /// - its attributes, its type and the type of its raw number, its name in the description \[and its code\];
-/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[index 1]`,
-///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the
-///   bits of the word that are always the same, and what they are;
+/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[write_at 0x2028]`: where
+///   it is written, if that is elsewhere, `[index 1]`, `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask,
+///   `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the bits of the word that are always the same, and what they
+///   are;
 /// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
 /// - `[unit "Hz"]`, `[decimals 1]` of counts, `[display 2]`: with how many decimals people see the value,
 ///   `[raw 30..=4000]`: the least and the greatest raw number;
@@ -16,7 +17,7 @@
 ///   [form](crate::form) with its own facts;
 /// - `[codes ...]`: the special codes, or where they are;
 /// - `[read { ... }]` and `[write { ... }]`: the type of counts, what is needed from other points, what may be written,
-///   and the function and address if they are not the usual ones;
+///   and the function if it is not the usual one;
 /// - `[impl ... { ... }]`: what else it can do on its bus.
 ///
 /// ```
@@ -50,6 +51,7 @@ macro_rules! point {
         at $space:ident $(($other:literal))? $address:literal;
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
+        $(write_at $write_address:literal;)?
         $(index $index:literal;)?
         $(telegram $telegram:literal;)?
         $(bits $shift:literal $mask:literal $extract:ident;)?
@@ -78,6 +80,7 @@ macro_rules! point {
             const ADDRESS: u16 = $address;
             $(const ADDRESSES: &'static [u16] = &$addresses;)?
             $(const WORDS: u16 = $words;)?
+            $(const WRITE_ADDRESS: u16 = $write_address;)?
             $(const INDEX: Option<u8> = Some($index);)?
             $(const TELEGRAM: Option<&'static str> = Some($telegram);)?
             $(const FIXED_MASK: u32 = $fixed_mask; const FIXED_BITS: u32 = $fixed_bits;)?
@@ -262,12 +265,10 @@ macro_rules! point {
     (@read $name:ident $raw:ty, $kind:ident $form:ident {
         $(count $count:ty;)?
         $(with $factors:ty;)?
-        $(function $function:literal;)?
     }) => {
         impl $crate::Readable for $name {
             type Factors = $crate::point!(@first $($factors,)? (),);
             type Output<V> = $crate::point!(@output $kind V);
-            $(const READ_FUNCTION: Option<u8> = Some($function);)?
 
             #[inline]
             fn decode_with(raw: $raw, with: Self::Factors) -> Self::Output<Self::Value> {
@@ -296,13 +297,11 @@ macro_rules! point {
         $(limits |$others:ident| $limits:tt;)?
         $(check $check:path;)?
         $(function $function:literal;)?
-        $(at $address:literal;)?
         $(values $values:tt;)?
     }) => {
         impl $crate::Writable for $name {
             type With = $crate::point!(@first $($with,)? (),);
             $(const WRITE_FUNCTION: Option<u8> = Some($function);)?
-            $(const WRITE_ADDRESS: u16 = $address;)?
             $(const IS_CLOSED: bool = $closed;)?
             $(const IS_CONTIGUOUS: bool = $crate::point!(@no $allowed);)?
             $(const IS_CONTIGUOUS: bool = $crate::point!(@no $limits);)?

@@ -84,6 +84,8 @@ pub trait Point {
     const ADDRESS: u16;
     /// The addresses of all words in reading order: the high part or the first characters first.
     const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
+    /// The (lowest) address where the point is written, which mostly is where it is read.
+    const WRITE_ADDRESS: u16 = Self::ADDRESS;
     /// The index beside the address, if the point is an element of an array.
     const INDEX: Option<u8> = None;
     /// The telegram whose words the addresses count, if the point is in one.
@@ -302,8 +304,6 @@ pub trait Readable: Point {
     type Factors: Copy + Send;
     /// `V` where decoding cannot fail, else `Result<V, Error>`.
     type Output<V>: Decoded<V>;
-    /// The function that reads the point, where it is not the usual one of its space.
-    const READ_FUNCTION: Option<u8> = None;
 
     /// The value of a raw number, whatever the device may send.
     fn decode_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Value>;
@@ -327,8 +327,6 @@ pub trait Writable: Point {
     type With: Copy + Send;
     /// The function that writes the point, where it is not the usual one of its space.
     const WRITE_FUNCTION: Option<u8> = None;
-    /// The address that takes the point.
-    const WRITE_ADDRESS: u16 = Self::ADDRESS;
     /// Whether the numbers that have names, or the digits that a word may have, are all that is taken.
     const IS_CLOSED: bool = false;
     /// Whether every number from [`Point::RAW_MIN`] to [`Point::RAW_MAX`] may be written.

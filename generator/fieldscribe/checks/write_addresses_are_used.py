@@ -1,0 +1,49 @@
+"""A write address is the point's own, beside one where it is read, in a family that can write elsewhere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.subject import Subject
+
+_LEAVE_OUT = "leave `write_at` out"
+
+
+def check(subject: Subject) -> None:
+    """Findings for write addresses that no request would use, or that say nothing."""
+    for resolved in subject.resolved:
+        draft = resolved.draft
+        if draft.get("write_at") is None or draft.failed & {"at", "write_at", "space"}:
+            continue
+        wrong = next(_wrong(subject, resolved), None)
+        if wrong is not None:
+            message, hint = wrong
+            subject.report.error("write-address", f"`{draft.name}` {message}", draft.span("write_at"), hint)
+
+
+def _wrong(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str]]:
+    """What is wrong with a write address, the most telling first."""
+    point, family = resolved.point, subject.scope.family
+    if not family.writes_elsewhere:
+        yield f"is written where it is read: {family.name} devices know no other place", _LEAVE_OUT
+    if point.access != "none" and not point.writable:
+        yield "is only read", f"{_LEAVE_OUT}, or correct `access`"
+    if point.access == "w":
+        yield "is only written, and `at` says where", f"give the write address as `at`, and {_LEAVE_OUT}"
+    if not point.addresses and resolved.draft.layer("at") is not None and resolved.draft.get("at") is None:
+        yield (
+            "is written at an address, and read at none",
+            "what is only written has `access: w`, and its address at `at`",
+        )
+    if point.write_place is None:
+        return
+    if point.write_place.addresses == point.addresses:
+        yield "is written where it is read", _LEAVE_OUT
+    if len({mine - other for mine, other in zip(point.addresses, point.write_place.addresses, strict=True)}) > 1:
+        yield "is written in another order than it is read", "write the words in the order of `at`"
+    if set(point.addresses) & set(point.write_place.addresses):
+        yield "is read and written at overlapping addresses", "correct `at`, `write_at` or the type"

@@ -1,0 +1,214 @@
+"""The rows of one point in the tables of the conformance program."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.targets.rust.families import in_rust
+from fieldscribe.targets.rust.literals import value_name
+from fieldscribe.targets.rust.words import getter_name
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Point
+    from fieldscribe.targets.rust.families import Needs, Tokens, Way
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+
+_ALONE = ("(alone)",)
+
+
+class Spot(NamedTuple):
+    """Where a row belongs: its table, the part of the table, and for exchanges the runner's function and the kind."""
+
+    table: str
+    part: int = 0
+    run: str = ""
+    kind: str = ""
+
+
+Row = tuple[Spot, "Tokens"]
+
+
+def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
+    """All rows of a point; `enum` is the type of its enum."""
+    point = subject.point
+    yield from _CONVERSIONS.get(subject.form, _whole)(subject)
+    if enum:
+        name = Spot("name", part=1 if subject.form == "digits" else 0)
+        yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.shape.carried)))
+    for table, holds in (
+        ("special", point.specials),
+        ("special_name", point.specials),
+        ("bits", point.bits),
+        ("words", _has_words(point)),
+        ("symbol", point.unit.symbol),
+        ("place", _has_place(point)),
+        ("write_address", point.write_place is not None),
+        ("fixed", point.fixed),
+        ("display", point.display is not None),
+    ):
+        if holds:
+            yield Spot(table), row_of(subject, _ALONE)
+    yield Spot("address"), row_of(subject, _references(point))
+    if point.display is not None:
+        yield Spot("told"), _read(subject)
+    if point.addresses:
+        yield from _exchanges(subject, scope)
+
+
+def _scaled(subject: CratePoint) -> Iterator[Row]:
+    point = subject.point
+    if point.readable:
+        yield Spot("decode"), _read(subject)
+    if point.readable and point.decimals is not None:
+        yield Spot("decode_count"), _read(subject)
+    if point.writable:
+        yield Spot("check"), _written(subject)
+    if point.writable and point.encodes_values:
+        yield Spot("encode"), _written(subject)
+    if point.writable and point.decimals is not None:
+        yield Spot("encode_count"), _written(subject)
+
+
+def _whole(subject: CratePoint) -> Iterator[Row]:
+    """The raw number is the value, or says it by name."""
+    point = subject.point
+    mixed = subject.shape.carried != subject.raw
+    how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
+    if point.readable:
+        yield Spot(f"decode_{how}"), _read(subject)
+    if point.writable:
+        yield Spot(f"encode_{how}"), _written(subject)
+        yield Spot("check", part), _written(subject)
+    yield from _flags(subject)
+
+
+def _float(subject: CratePoint) -> Iterator[Row]:
+    if subject.point.readable:
+        yield Spot("decode", 1), _read(subject)
+    if subject.point.writable:
+        yield Spot("encode", 1), _written(subject)
+        yield Spot("check", 4), _written(subject)
+
+
+def _digits(subject: CratePoint) -> Iterator[Row]:
+    point, digits = subject.point, subject.point.digits
+    coded = "_coded" if point.specials else ""
+    how = bracketed(("digits", str(digits.count if digits is not None else 0), subject.shape.carried))
+    if point.readable:
+        yield Spot(f"digits{coded}"), row_of(subject, how)
+    if point.writable:
+        yield Spot(f"digits_encode{coded}"), row_of(subject, how)
+        yield Spot("check", 5), _written(subject)
+
+
+def _text(subject: CratePoint) -> Iterator[Row]:
+    point, text = subject.point, subject.point.text
+    how = bracketed(("sizes", str(text.characters if text is not None else 0), str(point.words)))
+    if point.readable:
+        yield Spot("text_decode"), row_of(subject, how)
+    if point.writable:
+        yield Spot("text_encode"), row_of(subject, how)
+
+
+_CONVERSIONS = {"scaled": _scaled, "float": _float, "digits": _digits, "text": _text}
+"""What is decoded, encoded and checked, by form; all other forms are their raw number."""
+
+
+def _flags(subject: CratePoint) -> Iterator[Row]:
+    item = subject.item
+    for flag in subject.point.flags:
+        if subject.form == "flags":
+            calls = bracketed(("flag", subject.raw, getter_name(flag.name), f"with_{flag.name}"))
+            yield Spot("flag"), (_quoted(f"{item} {flag.name}"), subject.name, *calls)
+        for entry in flag.values if flag.width > 1 else ():
+            value = bracketed(("value", f"{flag.name.upper()}_{entry.name.upper()}"))
+            yield Spot("flag_name"), (_quoted(f"{item} {flag.name} {entry.name}"), subject.name, *value)
+
+
+def _exchanges(subject: CratePoint, scope: CrateScope) -> Iterator[Row]:
+    """A row for each way in which the point is read or written."""
+    for kind, run, needs in _ways(subject, scope):
+        arguments = [token for pair in needs for token in bracketed(_arguments(*pair))]
+        yield Spot(f"{kind}_by_{run}", 0, run, kind), row_of(subject, bracketed(("wire", *arguments)))
+
+
+def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
+    """The ways to read and write a point: by requests if it has an address, and further ones of its family."""
+    point = subject.point
+    text = "_text" if subject.form == "text" else ""
+    if point.telegram is None and point.readable:
+        yield "read", f"read{text}", ()
+    if point.telegram is None and point.writable:
+        yield "write", *change_of(subject, "write", "update")
+    yield from in_rust(scope.family).ways(subject, scope)
+
+
+def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
+    """The function that writes a point, and the structs that it needs."""
+    point = subject.point
+    if point.bits:
+        return update, ()
+    if not (point.readable and point.encodes_values):
+        return f"{change}_only", ()
+    text = subject.form == "text"
+    return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
+
+
+def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
+    """The struct of the raw numbers that the scale needs, with its fields."""
+    return subject.factors_struct, subject.factors
+
+
+def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
+    """The struct of all raw numbers that writing needs, with its fields."""
+    return subject.name, subject.arguments
+
+
+def row_of(subject: CratePoint, how: Tokens) -> Tokens:
+    """The row of a point: its name in the vectors, its path in the crate, and further tokens."""
+    return _quoted(subject.item), subject.name, *how
+
+
+def bracketed(tokens: Tokens) -> Tokens:
+    """Tokens in parentheses."""
+    if not tokens:
+        return ("()",)
+    first, *others = tokens
+    return (f"({first})",) if not others else (f"({first}", *others[:-1], f"{others[-1]})")
+
+
+def _quoted(names: str) -> str:
+    """Names need no encoder, since they are identifiers, and blanks would not pass through it."""
+    return f'"{names}"'
+
+
+def _read(subject: CratePoint) -> Tokens:
+    return row_of(subject, bracketed(_arguments(*of_scale(subject))))
+
+
+def _written(subject: CratePoint) -> Tokens:
+    return row_of(subject, bracketed(_arguments(*of_all(subject))))
+
+
+def _arguments(struct: str, names: Tokens) -> Tokens:
+    if not names:
+        return ()
+    return f"{struct}:", *(token for name in names for token in (value_name(name), rust_string(name)))
+
+
+def _has_place(point: Point) -> bool:
+    """Whether a single address does not say where the point is: a text, an index or a telegram."""
+    return point.text is not None or point.index is not None or point.telegram is not None
+
+
+def _has_words(point: Point) -> bool:
+    """Whether the words of the point differ from its raw number."""
+    return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
+
+
+def _references(point: Point) -> Tokens:
+    keys = (token for key in point.references for token in (key.upper(), rust_string(key)))
+    return bracketed(("at" if point.text is None else "text", *keys))

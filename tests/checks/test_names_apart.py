@@ -1,0 +1,69 @@
+"""The cheap proof that identifiers differ: points of one kind have the same names around their own, and no more."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.checks.names_apart import Kinds
+from fieldscribe.targets import knows, target
+from support.described import made, shipped
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Point
+
+LANGUAGES = ("c", "python", "rust")
+SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
+MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
+
+
+class _OfOneKind(Kinds):
+    """Kinds that forget what the points are."""
+
+    def kind(self, point: Point) -> object:
+        return super().kind(point)[1:]  # type: ignore[index]  # a tuple, of which the shape is first
+
+
+def strangers(device: Device, kinds: Kinds, language: str) -> Iterator[str]:
+    """The identifiers of points that the first point of their kind does not have, with another name in them."""
+    identifiers = target(language).identifiers
+    sample = {(space, name) for space, _, names in identifiers(kinds.sample) for name in map(plain, names)}
+    first: dict[object, str] = {}
+    stands_for = {point.item: first.setdefault(kinds.kind(point), point.item) for point in device.points}
+    for space, owner, names in identifiers(device):
+        whole = owner
+        while whole.of is not None:
+            whole = whole.of
+        item = whole.name
+        if plain(item) not in kinds.items or whole.kind not in ("point", "enum"):
+            continue
+        other = stands_for[item]
+        for name in map(plain, names):
+            if (space.replace(f"`{item}`", f"`{other}`"), name.replace(plain(item), plain(other), 1)) not in sample:
+                yield name
+
+
+def plain(name: str) -> str:
+    return name.replace("_", "").lower()
+
+
+def devices() -> list[Device]:
+    return [*map(shipped, SHIPPED), *map(made, MADE)]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_points_of_a_kind_have_the_same_names(language: str) -> None:
+    for device in devices():
+        if knows(language, device):
+            assert list(strangers(device, Kinds(device), language)) == []
+
+
+def test_a_kind_that_forgets_the_shape_is_noticed() -> None:
+    assert any(list(strangers(device, _OfOneKind(device), "c")) for device in devices())
+
+
+def test_large_devices_are_proven() -> None:
+    for device in (shipped("hitachi_l200"), shipped("woodward_mpu2s")):
+        assert all(Kinds(device).proves(target(language).identifiers) for language in LANGUAGES)
