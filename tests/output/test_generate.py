@@ -127,8 +127,10 @@ def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
     place.parent.mkdir(parents=True)
     place.write_text("precious")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1
-    assert "made/docs/hitachi_l200.csv" in (said := capsys.readouterr().err)
-    assert "--force" in said
+    said = capsys.readouterr().err
+    assert "error[foreign-file]: a file is in the way: " in said
+    assert " --> made/docs/hitachi_l200.csv:1:1\n" in said
+    assert "hint: move it away, or replace it with `--force`; nothing of hitachi_l200 was written\n" in said
     assert place.read_text() == "precious"
     assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
     assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0

@@ -47,6 +47,22 @@ def nobody() -> None:
     raise AssertionError("nobody else has the lock")
 
 
+def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """But not at once: most runs are over before anybody has read that."""
+    told: list[float] = []
+    hours = iter(at / 4 for at in range(1000))
+    monkeypatch.setattr(lock.time, "monotonic", lambda: next(hours))
+    monkeypatch.setattr(lock.time, "sleep", lambda _: None)
+    monkeypatch.setattr(lock, "_tried", lambda _: None)
+    with (
+        pytest.raises(TimeoutError, match="for 60 seconds"),
+        only_run(tmp_path, lambda: told.append(next(hours)), 60.0),
+    ):
+        raise AssertionError("locked")
+    assert len(told) == 1
+    assert 0.5 < told[0] <= 1.25
+
+
 def test_a_second_run_waits_says_so_and_gives_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lock, "_TELL_AFTER", 0.0)
     process, told = holder(tmp_path), []
