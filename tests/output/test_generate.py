@@ -216,6 +216,20 @@ def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path,
     assert main(["check"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("put", "said"), [("link", "it is a link that leads nowhere"), ("nothing", "there is no file")]
+)
+def test_a_part_that_is_not_there_is_told_from_a_link_that_leads_nowhere(
+    project: Path, put: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place.unlink()
+    if put == "link":
+        place.symlink_to("nowhere.yaml")
+    assert main(["check"]) == 1
+    assert said in capsys.readouterr().out
+
+
 def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:
     farm = tmp_path / "farm/hitachi_l200"
     farm.mkdir(parents=True)

@@ -68,7 +68,7 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
         numerator=numerator,
         counts=counts,
         beyond=_countable(to_raw, raws),
-        fits_float=_fits_float(rule, low, high) and max(to_value.divisor, numerator) <= EXACT_FLOAT,
+        fits_float=max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator) <= EXACT_FLOAT,
     )
 
 
@@ -106,9 +106,3 @@ def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
     first = -(-below // (2 * p)) if low > 0 else below // (2 * p) + 1
     last = above // (2 * p) if high < 0 else -(-above // (2 * p)) - 1
     return first, last
-
-
-def _fits_float(rule: Linear, low: int, high: int) -> bool:
-    """Whether binary32 holds the constants of encoding, and the raw numbers next to the limits."""
-    largest = max(abs(low), abs(high)) + 1
-    return max(abs(rule.ratio.numerator), rule.ratio.denominator, largest) <= EXACT_FLOAT
