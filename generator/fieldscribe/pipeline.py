@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.reading import shown_path
@@ -19,6 +19,13 @@ if TYPE_CHECKING:
     from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"
+
+
+class Models(NamedTuple):
+    """A whole device, and the same as code may know it."""
+
+    whole: Device
+    plain: Device
 
 
 class TargetError(Exception):
@@ -67,8 +74,14 @@ def _may_exist(path: Path) -> bool:
     return True
 
 
-def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
-    """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong.
+def load_device(device_file: Path, report: Report) -> Device | None:
+    """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
+    models = load_models(device_file, report)
+    return None if models is None else models.whole
+
+
+def load_models(device_file: Path, report: Report, inputs: Inputs | None = None) -> Models | None:
+    """As `load_device`, with the same device as code may know it.
 
     `inputs` remembers the files that were read, each with a checksum.
     """
@@ -78,7 +91,7 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if subject is None else subject.models[0]
+    return None if subject is None else Models(*subject.models)
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
@@ -100,15 +113,14 @@ def load_subject(device_file: Path, report: Report) -> Subject | None:
     return None if files is None else _checked(files, report)
 
 
-def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, str]]:
+def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:
     """All files of a device: target, path relative to the output folder, and text; the runtime of each target last.
 
-    Raises TargetError for whatever fails inside a target.
+    `plain` is the device as code may know it, if it is at hand. Raises TargetError for whatever fails inside a target.
     """
     from fieldscribe.plain import for_code
     from fieldscribe.targets import target
 
-    plain: Device | None = None
     for name in targets:
         try:
             loaded = target(name)

@@ -9,6 +9,7 @@ import hashlib
 from dataclasses import fields, replace
 from functools import lru_cache
 from operator import attrgetter
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import (
     Code,
@@ -27,6 +28,9 @@ from fieldscribe.model import (
     Titles,
 )
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 _NOWHERE = Source("", None, None, None)
 
 
@@ -39,26 +43,16 @@ _identity = attrgetter(
 )
 
 
-class _Written(tuple[Point, ...]):
-    """Points as a text that differs wherever a field of one does."""
-
-    __slots__ = ()
-
-    def __repr__(self) -> str:
-        texts: dict[tuple[int, ...], str] = {}
-        written = []
-        for point in self:
-            shared = _common(point)
-            key = tuple(map(id, shared))
-            text = texts.get(key)
-            if text is None:
-                text = texts[key] = repr(shared)
-            written.append(f"{_identity(point)!r}{text}")
-        return ", ".join(written)
+_kept: list[tuple[Device, Device]] = []
+"""The device that got its digest last, with what code may know of it: that is what its targets ask for next."""
 
 
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
+    return _kept[0][1] if _kept and _kept[0][0] is device else _for_code(device)
+
+
+def _for_code(device: Device) -> Device:
     enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
@@ -101,12 +95,26 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
-    plain = replace(for_code(device), digest="")
-    shown = [(point.item, point.display) for point in plain.points if point.display is not None]
-    text = f"{replace(plain, points=_Written(plain.points))!r}"
-    text += f"{shown or ''}"  # appended only if there is some, so that other digests stay
-    checksum = hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-    return replace(device, digest=checksum), replace(plain, digest=checksum)
+    plain = replace(_for_code(device), digest="")
+    checksum = hashlib.sha256()
+    for text in _texts(plain):
+        checksum.update(text.encode("utf-8", "surrogatepass"))
+    digest = checksum.hexdigest()
+    _kept[:] = [(replace(device, digest=digest), replace(plain, digest=digest))]
+    return _kept[0]
+
+
+def _texts(plain: Device) -> Iterator[str]:
+    """Texts that differ wherever a fact of the device does: all but the points, then each point."""
+    yield repr(replace(plain, points=()))
+    texts: dict[tuple[int, ...], str] = {}
+    for point in plain.points:
+        shared = _common(point)
+        key = tuple(map(id, shared))
+        text = texts.get(key)
+        if text is None:
+            text = texts[key] = repr(shared)
+        yield f"{_identity(point)!r}{text}"
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:

@@ -11,6 +11,10 @@ import unicodedata
 from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
+_FOLDED = re.compile(r"(?:[!-~]+(?: [!-~]+)*)?")
+"""Most texts: nothing in them is folded or dropped."""
+_UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
+"""A line that is its own text between double quotes, in most languages."""
 _BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
 """What most codes and names are made of, and no language escapes."""
 _SPACES = re.compile(r"\s+")
@@ -24,9 +28,10 @@ _TYPEWRITER = str.maketrans(
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
-@lru_cache(maxsize=65536)
 def line(text: str) -> str:
     """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
+    if _FOLDED.fullmatch(text):
+        return text
     if not _PLAIN.fullmatch(text):
         spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)
         text = "".join(char for char in spaced if unicodedata.category(char) not in _DROPPED_CATEGORIES)
@@ -51,9 +56,10 @@ def c_string(text: str) -> str:
     return '"' + "".join(escaped) + '"'
 
 
-@lru_cache(maxsize=65536)
 def python_string(text: str) -> str:
     """A Python string literal as formatters write it: double quotes, unless single ones need fewer escapes."""
+    if _UNQUOTED.fullmatch(text):
+        return f'"{text}"'
     cleaned = line(text)
     quote = "'" if cleaned.count('"') > cleaned.count("'") else '"'
     escaped = []
@@ -67,9 +73,10 @@ def python_string(text: str) -> str:
     return quote + "".join(escaped) + quote
 
 
-@lru_cache(maxsize=65536)
 def python_doc(text: str) -> str:
     """Text for inside a triple-quoted docstring or a `#` comment."""
+    if _UNQUOTED.fullmatch(text):
+        return text
     return line(text).replace("\\", "\\\\").replace('"', "'")
 
 

@@ -20,10 +20,10 @@ MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
 
 
 class _OfOneKind(Kinds):
-    """Kinds that forget what the points are."""
+    """Kinds that forget what points share."""
 
     def kind(self, point: Point) -> object:
-        return super().kind(point)[1:]  # type: ignore[index]  # a tuple, of which the shape is first
+        return super().kind(point)[2:]  # type: ignore[index]  # a tuple, of which shape and terms are first
 
 
 def strangers(device: Device, kinds: Kinds, language: str) -> Iterator[str]:
@@ -60,7 +60,7 @@ def test_points_of_a_kind_have_the_same_names(language: str) -> None:
             assert list(strangers(device, Kinds(device), language)) == []
 
 
-def test_a_kind_that_forgets_the_shape_is_noticed() -> None:
+def test_a_kind_that_forgets_shape_and_terms_is_noticed() -> None:
     assert any(list(strangers(device, _OfOneKind(device), "c")) for device in devices())
 
 

@@ -100,7 +100,7 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
 
     assert main(["generate", "--target", "docs", "--out", "right"]) == 0
     place = project / "descriptions/hitachi_l200/device.yaml"
-    text, before, load = place.read_bytes(), place.stat(), pipeline.load_device
+    text, before, load = place.read_bytes(), place.stat(), pipeline.load_models
 
     def meddling(*arguments: Any) -> Any:
         place.write_bytes(text.replace(b"version: 1.0.0", b"version: 6.6.6"))
@@ -110,9 +110,9 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
             place.write_bytes(text)
             os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
 
-    monkeypatch.setattr(pipeline, "load_device", meddling)
+    monkeypatch.setattr(pipeline, "load_models", meddling)
     assert main(["generate", "--target", "docs"]) == 0
-    monkeypatch.setattr(pipeline, "load_device", load)
+    monkeypatch.setattr(pipeline, "load_models", load)
     made = project / "generated/docs/hitachi_l200.md"
     assert b"6.6.6" in made.read_bytes()
     assert main(["generate", "--target", "docs", "--check"]) == 1
@@ -167,14 +167,14 @@ def test_a_compiler_that_fails_on_one_device_writes_the_others(
     from fieldscribe import pipeline
 
     shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/a_broken_one")
-    load = pipeline.load_device
+    load = pipeline.load_models
 
     def failing(device_file: Path, *rest: Any) -> Any:
         if "broken" in str(device_file):
             raise KeyError("x")
         return load(device_file, *rest)
 
-    monkeypatch.setattr(pipeline, "load_device", failing)
+    monkeypatch.setattr(pipeline, "load_models", failing)
     assert main(["generate", "--target", "docs"]) == 1
     assert "docs/hitachi_l200.md" in files(project / "generated")
     assert "internal error in the compiler: KeyError: 'x'" in capsys.readouterr().err

@@ -41,13 +41,13 @@ def compiled(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The devices that are compiled."""
     from fieldscribe import pipeline
 
-    load, seen = pipeline.load_device, []
+    load, seen = pipeline.load_models, []
 
     def counted(*arguments: object) -> object:
         seen.append(str(arguments[0]))
         return load(*arguments)  # type: ignore[arg-type]  # whatever it was called with
 
-    monkeypatch.setattr(pipeline, "load_device", counted)
+    monkeypatch.setattr(pipeline, "load_models", counted)
     return seen
 
 

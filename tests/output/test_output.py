@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.output.manifests import Manifests, read_manifest
 from fieldscribe.output.plan import Plan, changed_since, plan_of
+from fieldscribe.output.spool import kept
 from fieldscribe.output.writing import carry_out
 from support.strange_files import KINDS, put
 
@@ -28,7 +29,8 @@ def written(out: Path) -> dict[str, bytes]:
 
 
 def planned(out: Path, device: str, files: dict[str, dict[str, bytes]], *, force: bool = False) -> Plan:
-    return plan_of(out, Manifests(out), device, files, force=force)
+    held = {target: {path: kept(data) for path, data in named.items()} for target, named in files.items()}
+    return plan_of(out, Manifests(out), device, held, force=force)
 
 
 def generate(out: Path, device: str, files: dict[str, dict[str, bytes]]) -> Plan:
@@ -100,7 +102,7 @@ def test_a_runtime_that_two_devices_share_may_be_changed_by_either(tmp_path: Pat
     for device in ("drive", "pump"):
         generate(tmp_path, device, {"c": {"c/runtime.h": b"old\n"}})
     generate(tmp_path, "drive", {"c": {"c/runtime.h": b"new\n"}})
-    assert generate(tmp_path, "pump", {"c": {"c/runtime.h": b"newer\n"}}).write["c/runtime.h"] == b"newer\n"
+    assert generate(tmp_path, "pump", {"c": {"c/runtime.h": b"newer\n"}}).write["c/runtime.h"].read() == b"newer\n"
     assert generate(tmp_path, "drive", {"c": {"c/runtime.h": b"newest\n"}}).remove == []
 
 

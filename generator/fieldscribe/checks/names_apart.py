@@ -34,7 +34,8 @@ class Kinds:
 
     def __init__(self, device: Device) -> None:
         needed = _needed(device)
-        self._limits: dict[int, object] = {id(point.allowed): _form(point.allowed) for point in device.points}
+        limits = {id(point.allowed): point.allowed for point in device.points}
+        self._limits = {key: _form(allowed) for key, allowed in limits.items()}
         first: dict[object, Point] = {}
         kept: list[Point] = []
         items: list[str] = []
@@ -71,19 +72,13 @@ class Kinds:
         """All that decides which identifiers a point has, but for its name."""
         return (
             _form_of_shape(point),
+            id(point.terms),
             self._limits[id(point.allowed)],
-            point.group,
-            point.space,
             _form_of_place(point.place),
-            _form_of_place(point.write_place) if point.write_place is not None else None,
-            point.bits,
+            None if point.write_place is None else _form_of_place(point.write_place),
             point.set,
-            point.generated,
-            point.reserved,
-            point.untyped,
             point.default is None,
             point.default_raw is None,
-            len(point.steps),
         )
 
 
@@ -136,7 +131,8 @@ def _needed(device: Device) -> set[str]:
 
 def _is_special(point: Point) -> bool:
     """Whether more than its shape and name decides about the identifiers of a point."""
-    return bool(point.variant or point.was or point.when or point.telegram or point.changes_with or point.index)
+    terms = point.terms
+    return bool(point.variant or point.was or point.index or terms.when or terms.telegram or terms.changes_with)
 
 
 def _form_of_shape(point: Point) -> object:
@@ -149,8 +145,8 @@ def _form_of_shape(point: Point) -> object:
 
 def _form_of_place(place: Place) -> object:
     """A place without its numbers."""
-    first = min(place.addresses, default=0)
-    return tuple(place.references), tuple([address - first for address in place.addresses])
+    addresses = place.addresses
+    return tuple(place.references), len(addresses) > 1 and tuple([address - addresses[0] for address in addresses])
 
 
 def _form(allowed: Allowed) -> object:

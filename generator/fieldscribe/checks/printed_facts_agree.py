@@ -84,7 +84,7 @@ def _is_number(value: object, number: int | str | None) -> bool:
     if isinstance(value, int):
         return value == number
     if isinstance(value, Seq):
-        return all(_is_number(item, number) for item in value)
+        return False not in [_is_number(item, number) for item in value]
     digits = (
         value[:-1]
         if isinstance(value, str) and value[-1:] in ("h", "H") and value.isalnum() and value.isascii()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -42,7 +42,7 @@ class Shape:
     fixed: Fixed | None = None
     encodes_values: bool = True
     most_raw: int | None = None
-    display: int | None = field(default=None, repr=False)
+    display: int | None = None
 
     def __hash__(self) -> int:
         """A hash of the facts that usually differ, because titles have no hash; equality compares all."""

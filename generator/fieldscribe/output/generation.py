@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.output.memory import Memory
     from fieldscribe.output.plan import Made, Plan
+    from fieldscribe.pipeline import Models
 
 
 @dataclass(slots=True)
@@ -30,23 +31,23 @@ class Generation:
     report: Report
     debug: Callable[[BaseException], None]
     """Called with each internal error."""
-    devices: dict[str, tuple[Path, Device]] = field(default_factory=dict)
+    devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
         """Load the devices without errors; two descriptions of the same device are an error."""
-        from fieldscribe.pipeline import is_new, load_device
+        from fieldscribe.pipeline import is_new, load_models
 
         known: dict[str, Path] = {}
         for device_file in device_files:
             try:
-                device = load_device(device_file, self.report, self.inputs)
+                models = load_models(device_file, self.report, self.inputs)
             except Exception as error:  # a bug with one device must not stop the others
                 self._report_bug(device_file, "the compiler", error)
                 continue
-            if device is not None and is_new(device, device_file, known, self.report):
-                self.devices[device.id] = device_file, device
+            if models is not None and is_new(models.whole, device_file, known, self.report):
+                self.devices[models.whole.id] = device_file, models
 
     def list_outputs(self) -> None:
         """Note all outputs, without a look at the folder."""
@@ -98,22 +99,25 @@ class Generation:
 
     def _made(self) -> Iterator[tuple[Device, Made]]:
         """Each device with all its files; a device with a failing target is left out and gets a finding."""
+        from fieldscribe.output.spool import Spool
         from fieldscribe.pipeline import TargetError, outputs
         from fieldscribe.targets import knows
 
-        for device_file, device in self.devices.values():
+        for device_file, models in self.devices.values():
+            device = models.whole
             if unknown := [target for target in self.targets if not knows(target, device)]:
                 self._report_unknown(device_file, device, unknown)
                 continue
             files: Made = {target: {} for target in self.targets}
-            try:
-                for target, path, text in outputs(device, self.targets):
-                    files[target][path] = text.encode()
-            except (TargetError, UnicodeEncodeError) as error:
-                where = f"target {error}" if isinstance(error, TargetError) else "a text"
-                self._report_bug(device_file, where, error.__cause__ or error)
-                continue
-            yield device, files
+            with Spool() as spool:
+                try:
+                    for target, path, text in outputs(device, self.targets, models.plain):
+                        files[target][path] = spool.keep(text.encode())
+                except (TargetError, UnicodeEncodeError) as error:
+                    where = f"target {error}" if isinstance(error, TargetError) else "a text"
+                    self._report_bug(device_file, where, error.__cause__ or error)
+                    continue
+                yield device, files
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):

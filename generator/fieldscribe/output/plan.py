@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
-from hashlib import sha256
 from typing import TYPE_CHECKING
 
 from fieldscribe.output.manifests import made_of, manifest_path, manifest_text
+from fieldscribe.output.spool import Kept, kept
 from fieldscribe.reading import kind_of, read_regular, state_of
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.output.manifests import Manifests, Targets
     from fieldscribe.reading import State
 
-Made = dict[str, dict[str, bytes]]
+Made = dict[str, dict[str, Kept]]
 """The files of each target: path relative to the output folder, and contents."""
 
 _MOST_BYTES = 512 << 20
@@ -37,7 +37,7 @@ class Plan:
     """The device's files as the manifest will record them."""
     pending: bytes
     """The manifest that stands while the files are written."""
-    write: dict[str, bytes] = field(default_factory=dict)
+    write: dict[str, Kept] = field(default_factory=dict)
     remove: list[str] = field(default_factory=list)
     unchanged: dict[str, State] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
@@ -49,8 +49,12 @@ class Plan:
     def digests(self) -> dict[str, str]:
         """The checksums of all files, with the manifest's, by path."""
         digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
-        text = manifest_text(self.device, self.targets)
-        return {**digest_of_path, manifest_path(self.device): sha256(text.encode()).hexdigest()}
+        return {**digest_of_path, manifest_path(self.device): kept(self.manifest).digest}
+
+    @property
+    def manifest(self) -> bytes:
+        """The manifest as it will stand."""
+        return manifest_text(self.device, self.targets).encode()
 
     @property
     def stale(self) -> list[str]:
@@ -62,16 +66,16 @@ def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made
     """What writing these targets of a device would change; `force` allows to replace foreign files."""
     before = manifests.of(device)
     now: Targets = {
-        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()}
+        target: {path: (contents.digest,) for path, contents in files.items()}
         for target, files in files_of_targets.items()
     }
     plan = Plan(device, {**before, **now}, manifest_text(device, _both(before, now)).encode())
     planner = _Planner(out, manifests, plan, force)
     for files in files_of_targets.values():
-        for path, data in files.items():
-            planner.add(path, data)
+        for path, contents in files.items():
+            planner.add(path, contents)
     planner.add_left_over(files_of_targets)
-    planner.add(manifest_path(device), manifest_text(device, plan.targets).encode())
+    planner.add(manifest_path(device), kept(plan.manifest))
     return plan
 
 
@@ -98,11 +102,11 @@ class _Planner:
         self._plan = plan
         self._force = force
 
-    def add(self, path: str, data: bytes) -> None:
+    def add(self, path: str, contents: Kept) -> None:
         """Plan a file that should be there."""
         try:
             place = inside(self._out, path)
-            state = _same(place, data)
+            state = _same(place, contents)
             reason = None if state else self._in_the_way(path, place)
         except UnsafePathError as error:
             self._plan.refused[path] = str(error)
@@ -113,7 +117,7 @@ class _Planner:
         if state:
             self._plan.unchanged[path] = state
         elif reason is None or (self._force and not place.is_dir()):
-            self._plan.write[path] = data
+            self._plan.write[path] = contents
         else:
             self._plan.refused[path] = reason
 
@@ -158,17 +162,17 @@ def _state(place: Path) -> State | None:
         return None
 
 
-def _same(place: Path, data: bytes) -> State | None:
-    """The state of the file if it has exactly this content."""
+def _same(place: Path, contents: Kept) -> State | None:
+    """The state of the file if it has exactly these contents."""
     try:
-        if os.stat(place).st_size != len(data):
+        if os.stat(place).st_size != contents.size:
             return None
-        content = read_regular(place, len(data))
+        present = read_regular(place, contents.size)
     except NotADirectoryError:
         raise
     except OSError:
         return None
-    return content.state if content.data == data else None
+    return present.state if kept(present.data).digest == contents.digest else None
 
 
 def _both(before: Targets, now: Targets) -> Targets:

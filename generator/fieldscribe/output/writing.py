@@ -30,8 +30,8 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
     record = manifest_path(plan.device)
     if record in plan.write:
         replace(inside(out, record), plan.pending)
-    for path, data in plan.write.items():  # the manifest comes last
-        states[path] = replace(inside(out, path), data)
+    for path, contents in plan.write.items():  # the manifest comes last
+        states[path] = replace(inside(out, path), contents.read())
     for path in plan.remove:
         inside(out, path).unlink(missing_ok=True)
     manifests.settle(plan.device, plan.targets)

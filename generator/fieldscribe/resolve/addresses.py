@@ -45,7 +45,7 @@ class Places:
         self.telegrams = telegrams
         bus = scope.bus
         self.order = None if bus is None else bus.get("words")
-        self._numberings = Numberings(scope.report)
+        self.numberings = Numberings(scope.report)
         self._wrong_rules: set[int] = set()
 
     def places(
@@ -74,9 +74,9 @@ class Places:
                 return NOWHERE
         if not text:
             self._refuse_scattered(draft, words)
-        order = "high first" if text else draft.get("words") or self._order(type_name)
         printed = words[0] if text else min(words)  # manuals print that of the first characters, else the lowest
-        return Place(words[::-1] if order == "low first" else words, self.references(draft, printed))
+        low_first = not text and self.low_first(draft, type_name)
+        return Place(words[::-1] if low_first else words, self.references(draft, printed))
 
     def access(self, draft: Draft, space: str) -> str:
         """What a master may do: as the description says, else all that the direction of the telegram allows."""
@@ -97,7 +97,7 @@ class Places:
         In a multiplexed telegram these are `mux`, the number of the frame, and `word`, the place in it, too.
         """
         numbering: Map | None = draft.group.get("numbering")
-        numbers = {} if numbering is None else dict(self._numberings.numbers(numbering, address))
+        numbers = {} if numbering is None else dict(self.numberings.numbers(numbering, address))
         carried = self.carried(draft)
         if carried:
             numbers = {"mux": address // carried, "word": address % carried + 1, **numbers}
@@ -123,9 +123,17 @@ class Places:
         first = self._address(draft, key)
         if first is None:
             return None
-        single_word = bits is not None or space in self.scope.family.indexed  # there a number names a whole value
-        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
-        return tuple(range(first, first + (1 if single_word else words)))
+        return tuple(range(first, first + self.count(draft, space, type_name, bits)))
+
+    def count(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> int:
+        """How many addresses a number takes."""
+        if bits is not None or space in self.scope.family.indexed:  # there a number names a whole value
+            return 1
+        return max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("length", 1))
+
+    def low_first(self, draft: Draft, type_name: str) -> bool:
+        """Whether the word with the low part of a number comes first."""
+        return bool((draft.get("words") or self._order(type_name)) == "low first")
 
     def _text_words(self, draft: Draft, last: int | None, key: str) -> tuple[int, ...] | None:
         """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""

@@ -25,26 +25,24 @@ _NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))
 
 
 class Kinds:
-    """Tells which points are alike."""
+    """Tells which points are alike: a number for each kind of them."""
 
     def __init__(self) -> None:
+        self._kinds: dict[Hashable, int] = {}
         self._known: dict[int, Hashable] = {}
 
-    def of(self, draft: Draft) -> Hashable:
-        """All facts of a point but its identity and the numbers of its limits and default: the same if they are alike.
+    def of(self, draft: Draft) -> int:
+        """The kind of a point: that of all whose facts are the same, but for identity and the numbers of their limits.
 
         A point that varies, or has findings, is like no other.
         """
         if draft.variant is not None or draft.failed:
-            return object()
-        first, *others = draft.layers
-        return (
-            id(draft.group),
-            first is draft.own,
-            bool(draft.hidden),
-            _facts(first),
-            *map(self._shared_facts, others),
-        )
+            facts: Hashable = draft
+        else:
+            first, *others = draft.layers
+            shared = tuple(map(self._shared_facts, others)) if others else ()
+            facts = id(draft.group), first is draft.own, bool(draft.hidden), _facts(first), shared
+        return self._kinds.setdefault(facts, len(self._kinds))
 
     def _shared_facts(self, layer: Map) -> Hashable:
         """The facts of a layer that many points have, such as a format."""
@@ -77,16 +75,16 @@ class Once(Generic[Fact]):
 
     def __init__(self, report: Report) -> None:
         self._report = report
-        self._known: dict[Hashable, Fact] = {}
+        self.known: dict[Hashable, Fact] = {}
 
     def of(self, kind: Hashable, draft: Draft, work: Callable[[Draft], Fact], general: Callable[[Fact], bool]) -> Fact:
         """The fact of a point; `general` tells whether it is that of all points of its kind."""
-        known = self._known.get(kind)
+        known = self.known.get(kind)
         if known is not None:
             return known
         before = self._report.count
         fact = work(draft)
         sound = self._report.count == before and not draft.failed and not self._report.full
         if sound and general(fact):
-            self._known[kind] = fact
+            self.known[kind] = fact
         return fact

@@ -35,7 +35,7 @@ def sound_device(subject: Subject) -> Device:
 
 def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
     scope, header = subject.scope, subject.scope.header
-    points = with_exponents(tuple([_with_errata(subject, entry.point) for entry in resolved]))
+    points = with_exponents(_with_errata(subject, [entry.point for entry in resolved]))
     return Device(
         id=str(header["device"]),
         version=str(header.get("version", "")),
@@ -60,11 +60,10 @@ def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
     )
 
 
-def _with_errata(subject: Subject, point: Point) -> Point:
-    cited = subject.cited.get(point.name)
-    if cited is None:
-        return point
-    return replace(point, errata=tuple(dict.fromkeys(open_erratum.erratum.id for open_erratum in cited)))
+def _with_errata(subject: Subject, points: list[Point]) -> tuple[Point, ...]:
+    """The points with the errata that name them."""
+    ids = {name: tuple(dict.fromkeys(cited.erratum.id for cited in errata)) for name, errata in subject.cited.items()}
+    return tuple([replace(point, errata=ids[point.name]) if point.name in ids else point for point in points])
 
 
 def _groups(scope: Scope) -> Iterator[Group]:

@@ -21,7 +21,11 @@ if TYPE_CHECKING:
 _INHERITED = inherited(GROUP)
 """Keys that a group may set for its points."""
 
-_RIVALS = (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
+_RIVALS = {
+    stated: rival
+    for pair in (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
+    for stated, rival in (pair, pair[::-1])
+}
 """Pairs of keys that say one fact: the key that the nearer layer has hides the other one of farther layers."""
 
 
@@ -55,10 +59,9 @@ class Draft:
         for layer in reversed(self.layers):
             keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
-            for pair in _RIVALS:
-                for stated, rival in (pair, pair[::-1]):
-                    if stated in keys and rival not in keys:
-                        where.pop(rival, None)
+            for stated in _RIVALS.keys() & keys:
+                if _RIVALS[stated] not in keys:
+                    where.pop(_RIVALS[stated], None)
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
         if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):

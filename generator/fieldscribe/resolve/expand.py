@@ -17,6 +17,8 @@ from fieldscribe.resolve.scope import Scope, titles
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.model import Titles
+
 MOST_POINTS = 100_000
 """The most points of a device: rows that stand for many could otherwise fill the memory."""
 
@@ -55,12 +57,18 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
         message = f"`{point['name']}` has no elements that could differ"
         hint = "`each` belongs to a count of `sets`, or to `indices`"
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
-    title = titles(point.get("title"), humanised(point["name"]))
+    title = _title(point)
     draft = Draft(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
     if rows is None:
         yield from _variants(scope, draft)
     else:
         yield from _sets(scope, draft, rows)
+
+
+def _title(point: Map) -> Titles:
+    """The title of a row: what it says, else its name in words."""
+    said = point.get("title")
+    return titles(said, "" if isinstance(said, Map) and "en" in said else humanised(point["name"]))
 
 
 def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
@@ -117,7 +125,7 @@ def _single_element(scope: Scope, draft: Draft) -> Element | None:
 
 def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     """The points that a row with sets and indices stands for."""
-    title = titles(point.get("title"), humanised(point["name"]))
+    title = _title(point)
     layers = (point, *_format(scope, point))
     elements = elements_of(scope, Draft(point["name"], layers, group, point, title))
     rows: Map = point.get("each") or Map(point.file, point.at)
@@ -241,7 +249,7 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
     override: Map | None = use.get("members", {}).get(point["name"])
     shared = (point,) if override is None else (override, point)
     together = titles(use.get("title"), humanised(use["name"]))
-    single = titles(point.get("title"), humanised(point["name"]))
+    single = _title(point)
     title = {language: f"{text}: {single.get(language, single['en'])}" for language, text in together.items()}
     layers = (*shared, *_format(scope, point), _whole_record(use))
     name = f"{use['name']}_{point['name']}"

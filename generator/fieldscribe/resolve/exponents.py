@@ -17,15 +17,18 @@ Ends = tuple[int, int]
 
 def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
     """The points, with the raw numbers for which powers of ten are defined added to the rules that have some."""
-    names = {factor.point for point in points for rule in _rules(point) for factor in rule.factors if factor.ten_to}
+    shapes = {id(point.shape): point.shape for point in points}
+    limits = {id(point.allowed): point.allowed for point in points}
+    rules = [*map(_rules_of_shape, shapes.values()), *map(_rules_of_limits, limits.values())]
+    names = {factor.point for some in rules for rule in some for factor in rule.factors if factor.ten_to}
+    if not names:
+        return points
     ends: dict[str, Ends] = {}
     for point in points:
         for name in {point.name, point.item} & names:
             ends[name] = _joined(ends.get(name), point.outer)
     if not ends:
         return points
-    shapes = {id(point.shape): point.shape for point in points}
-    limits = {id(point.allowed): point.allowed for point in points}
     bounded_shapes = {key: _shape(shape, ends) for key, shape in shapes.items()}
     bounded_limits = {key: _allowed(allowed, ends) for key, allowed in limits.items()}
     return tuple(
@@ -41,10 +44,13 @@ def _joined(known: Ends | None, other: Ends) -> Ends:
     return other if known is None else (min(known[0], other[0]), max(known[1], other[1]))
 
 
-def _rules(point: Point) -> list[Linear]:
-    """The rules of a point's scale and limits."""
-    bounds = [bound for interval in point.allowed.intervals for bound in (interval.low, interval.high)]
-    return [case.rule for case in point.scale or ()] + [bound.rule for bound in bounds if isinstance(bound, Limit)]
+def _rules_of_shape(shape: Shape) -> list[Linear]:
+    return [case.rule for case in shape.scale or ()]
+
+
+def _rules_of_limits(allowed: Allowed) -> list[Linear]:
+    bounds = [bound for interval in allowed.intervals for bound in (interval.low, interval.high)]
+    return [bound.rule for bound in bounds if isinstance(bound, Limit)]
 
 
 def _shape(shape: Shape, ends: Mapping[str, Ends]) -> Shape:

@@ -19,7 +19,7 @@ from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Mapping
 
     from fieldscribe.model import ScaleCase, Special
     from fieldscribe.resolve.addresses import Places
@@ -68,9 +68,9 @@ class Words:
         self._codes.check_types()
         self._once: Once[Word] = Once(scope.report)
 
-    def of(self, draft: Draft, kind: Hashable) -> Word:
+    def of(self, draft: Draft, kind: int) -> Word:
         """The word of a point."""
-        return self._once.of(kind, draft, self._word, lambda _: True)
+        return self._once.of(kind, draft, self._word, _always)
 
     def _word(self, draft: Draft) -> Word:
         space = space_of(self._scope, draft)
@@ -88,18 +88,18 @@ class Meanings:
         self._scope, self._words, self._ranges, self._places = scope, words, ranges, places
         self._interner = Interner()
         self._once: Once[Meaning] = Once(scope.report)
-        self._free: dict[Hashable, Meaning] = {}
+        self._free: dict[int, Meaning] = {}
 
-    def of(self, draft: Draft, kind: Hashable) -> Meaning:
-        """The meaning of a point: its kind's, with limits of its own."""
+    def of(self, draft: Draft, kind: int) -> tuple[Meaning, Allowed]:
+        """The meaning of a point, which is its kind's, and limits of its own."""
         limits, free = draft.get("range"), self._free.get(kind)
         if free is not None and (ends := _plain_ends(limits, self._words[draft].holds)) is not None:
-            return free._replace(allowed=self._interner.interval(*ends))
+            return free, self._interner.interval(*ends)
         whole = kind, frozen(limits), frozen(draft.get("range_in_units"))
         meaning = self._once.of(whole, draft, self._computed, _is_general)
         if meaning.free and _is_general(meaning):
             self._free.setdefault(kind, meaning)
-        return self._with_own_enum(draft, meaning)
+        return self._with_own_enum(draft, meaning), meaning.allowed
 
     def _computed(self, draft: Draft) -> Meaning:
         word = self._words[draft]
@@ -110,10 +110,15 @@ class Meanings:
     def _with_own_enum(self, draft: Draft, meaning: Meaning) -> Meaning:
         """The meaning with the names of numbers called after this point, if they stand in its row."""
         shape, name = meaning.shape, draft.enum_name
-        if shape.enum is None or shape.enum.name == name or not isinstance(draft.get("enum"), Map):
+        enum = shape.enum
+        if enum is None or enum.name == name or not isinstance(draft.get("enum"), Map):
             return meaning
-        enum = replace(shape.enum, name=name, title={"en": humanised(name)})
-        return meaning._replace(shape=self._interner.shape(replace(shape, enum=enum)))
+        own = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed)
+        return meaning._replace(shape=self._interner.shape(replace(shape, enum=own)))
+
+
+def _always(_: Word) -> bool:
+    return True
 
 
 def _is_general(meaning: Meaning) -> bool:

@@ -70,7 +70,7 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     kept = []
     for draft in drafts:
         known = index.by_name.setdefault(draft.name, [])
-        first = next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
+        first = _other(known, draft) if known else None
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
@@ -85,6 +85,11 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
         kept.append(draft)
     drafts[:] = kept
     return index
+
+
+def _other(known: list[Draft], draft: Draft) -> Draft | None:
+    """The first point of the same name that is not the same point in another variant."""
+    return next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
 
 
 def _are_variants(draft: Draft, other: Draft) -> bool:

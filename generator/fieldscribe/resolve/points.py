@@ -15,17 +15,17 @@ from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.defaults import default_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.meanings import Meaning, Meanings, Word, Words
+from fieldscribe.resolve.plain_places import PlainPlaces
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, Sources, titles
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
     from fractions import Fraction
 
     from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Shape, Unit
+    from fieldscribe.model import Allowed, Shape, Unit
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.names import Index
     from fieldscribe.resolve.telegrams import Telegrams
@@ -65,21 +65,22 @@ class _Points:
     """Puts points together: their identity, and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
-        self._scope, self._scales, self._places = scope, scales, places
+        self._scope, self._scales, self._places = scope, scales, PlainPlaces(places)
         self._sources = Sources(scope)
         self._terms: Once[Terms] = Once(scope.report)
         self._defaults: Once[tuple[Fraction | None, int | None]] = Once(scope.report)
 
-    def point(self, draft: Draft, kind: Hashable, word: Word, meaning: Meaning) -> Point:
+    def point(self, draft: Draft, kind: int, word: Word, meant: tuple[Meaning, Allowed]) -> Point:
         """The point of a draft."""
-        shape, get = meaning.shape, draft.get
-        place, write_place = self._places.places(draft, word.space, word.type, word.bits)
-        terms = self._terms.of(kind, draft, partial(self._computed_terms, word, meaning), _are_general)
+        (meaning, allowed), get = meant, draft.get
+        shape, code, old_names = meaning.shape, get("code"), get("was")
+        place, write_place = self._places.of(draft, word, kind)
+        terms = self._terms.known.get(kind) or self._computed_terms(draft, kind, word, meaning)
         default, default_raw = self._default(draft, kind, shape)
         return Point(
             draft.name,
             draft.variant,
-            draft.code,
+            None if code is None else str(code),
             draft.title,
             titles(get("note")),
             self._sources.of(draft),
@@ -87,24 +88,27 @@ class _Points:
             write_place,
             shape,
             terms if place.addresses else replace(terms, generated=False, reason="the manual prints no address"),
-            meaning.allowed,
+            allowed,
             default,
             default_raw,
             draft.record,
             draft.set_number,
             None if draft.element is None else draft.element.index,
-            tuple([f"{name}{draft.suffix}" for name in get("was", ())]),
+            () if old_names is None else tuple([f"{name}{draft.suffix}" for name in old_names]),
             (),
         )
 
-    def _default(self, draft: Draft, kind: Hashable, shape: Shape) -> tuple[Fraction | None, int | None]:
+    def _default(self, draft: Draft, kind: int, shape: Shape) -> tuple[Fraction | None, int | None]:
         """The factory setting in the unit and as raw number."""
         if draft.layer("default") is None and draft.layer("default_in_units") is None:
             return None, None
         said = kind, frozen(draft.get("default")), frozen(draft.get("default_in_units"))
         return self._defaults.of(said, draft, lambda _: default_of(self._scope, draft, shape), lambda _: True)
 
-    def _computed_terms(self, word: Word, meaning: Meaning, draft: Draft) -> Terms:
+    def _computed_terms(self, draft: Draft, kind: int, word: Word, meaning: Meaning) -> Terms:
+        return self._terms.of(kind, draft, partial(self._terms_of, word, meaning), _are_general)
+
+    def _terms_of(self, word: Word, meaning: Meaning, draft: Draft) -> Terms:
         get, scope, shape = draft.get, self._scope, meaning.shape
         reason = _reason(draft, shape.access, raw_alone=meaning.raw_alone)
         return Terms(

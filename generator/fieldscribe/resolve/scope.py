@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 _SOURCE = tuple(keys_of(SOURCE))
+_STATED, _LINE = {*_SOURCE, "source"}, {"line"}
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
 
@@ -173,16 +174,20 @@ class Sources:
 
     def __init__(self, scope: Scope) -> None:
         self._scope = scope
-        self._shared: dict[tuple[int, ...], Mapping[str, object]] = {}
+        self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
 
     def of(self, draft: Draft) -> Source:
-        """The source of a point."""
+        """The source of a point: mostly that of its group, with a line of its own."""
         own, *others = draft.layers
         key = (*map(id, others), id(draft.group))
-        shared = self._shared.get(key)
-        if shared is None:
-            shared = self._shared[key] = _cited((*others, draft.group))
-        return _source(self._scope, {**shared, **_cited((own,))})
+        known = self._shared.get(key)
+        if known is None:
+            facts = _cited((*others, draft.group))
+            known = self._shared[key] = facts, _source(self._scope, facts)
+        stated = own.keys() & _STATED
+        if stated == _LINE:
+            return Source(known[1].document, known[1].section, known[1].page, first_line(own["line"]))
+        return _source(self._scope, {**known[0], **_cited((own,))}) if stated else known[1]
 
 
 def _cited(layers: Iterable[Map]) -> dict[str, object]:

@@ -28,7 +28,12 @@ def label(point: Point) -> str:
 
 def address_text(address: int) -> str:
     """A wire address in both notations: `1028h (4136)`."""
-    return f"{hex_text(address)} ({address})"
+    return " ".join(address_parts(address))
+
+
+def address_parts(address: int) -> tuple[str, str]:
+    """The two notations of a wire address, between which a line may be broken."""
+    return hex_text(address), f"({address})"
 
 
 def words_text(point: Point) -> str:

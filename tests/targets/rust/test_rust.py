@@ -16,9 +16,10 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import left_out, point_doc, wrapped
+from fieldscribe.targets.rust.documentation import facts_text, left_out, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.identity import KnownLimits, words_of
 from fieldscribe.targets.rust.layout import Item, assignment, binding, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.literals import nearest_float
 from fieldscribe.targets.rust.subjects import scope_of
@@ -281,10 +282,11 @@ def test_numbers_of_several_bits_are_shown_by_name() -> None:
 
 
 def test_a_step_is_information() -> None:
-    points = [one for one in kitchen_sink().points if one.generated]
-    docs = {one.item: " ".join(point_doc(one, ())) for one in points}
+    subjects, limits = scope_of(kitchen_sink()).subjects, KnownLimits()
+    points = [one.point for one in subjects]
+    docs = {one.item: facts_text(one.point, words_of(one, limits.of(one))) for one in subjects}
     stepped = {one.item for one in points if one.steps}
-    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split())}
+    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in doc}
     assert stepped
 
 

@@ -50,10 +50,10 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
     lanes: dict[tuple[str, int], _Lane] = {}
     values = _variants_with_place(points)
     for point in points:
-        addresses = point.addresses
-        if not point.readable or not addresses or point.space not in SPACES:
+        addresses, space = point.place.addresses, point.terms.space
+        if not point.shape.readable or not addresses or space not in SPACES:
             continue
-        lane = lanes.setdefault((point.space, SPACES[point.space].read), _Lane())
+        lane = lanes.setdefault((space, SPACES[space].read), _Lane())
         if _always_there(point, values, variants):
             lane.crossable.update(addresses)
         low, end = min(addresses), max(addresses) + 1
@@ -77,7 +77,8 @@ def _stand(point: Point) -> _Stand:
 
 def _always_there(point: Point, values: Mapping[_Stand, set[Variant]], variants: Mapping[str, tuple[str, ...]]) -> bool:
     """Whether every device has this point at the place that it is read from."""
-    if point.when is not None or point.since is not None or point.until is not None:
+    terms = point.terms
+    if terms.when is not None or terms.since is not None or terms.until is not None:
         return False
     if point.variant is None:
         return True

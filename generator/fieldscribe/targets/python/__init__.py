@@ -30,14 +30,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files of the device's package, as paths below the output folder and their text."""
     names = Identifiers(device)
     head = _head(device)
-    enums = enums_view(device, names)
+    enums = enums_view(device, names, render)
     folder = f"python/{names.package}"
     shown = {"uses": uses(device, names.device_class, "")}
     yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})
-    yield f"{folder}/points.py", render("python/points.py.j2", {**head, "view": points_view(device, names)})
+    yield f"{folder}/points.py", render("python/points.py.j2", {**head, "view": points_view(device, names, render)})
     yield f"{folder}/device.py", render("python/device.py.j2", {**head, "view": device_view(device, names)})
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.python.attributes import BODY, AttributeView
 from fieldscribe.targets.python.forms import place_of_command
 from fieldscribe.targets.python.identifiers import command_attributes
-from fieldscribe.targets.python.layout import Group, laid_out
+from fieldscribe.targets.python.layout import Group, docstring, laid_out
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
@@ -25,13 +26,14 @@ def variants(device: Device) -> Group:
     return Group("{", tuple(entries), "}")
 
 
-def commands(device: Device, scope: PackageScope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
-    """Each command: its attribute, the runtime's class, the arguments and the docstring."""
+def commands(device: Device, scope: PackageScope) -> Iterable[AttributeView]:
+    """The attributes of the commands."""
     for command, name in command_attributes(device):
         scope.used.add("Command")
         where = place_of_command(command, scope)
         value = () if command.value is None else (f"value={command.value}",)
-        yield name, "Command", (laid_out(where, 8), *value), (_command_doc(command),)
+        doc = "\n".join(docstring((_command_doc(command),)))
+        yield AttributeView(name, "Command", (laid_out(where, BODY), *value), doc)
 
 
 def _command_doc(command: Command) -> str:

@@ -49,7 +49,7 @@ class DeviceView:
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     """The lines of an example that uses the class with points of the device."""
-    point = _shown(device, "rw") or _shown(device, "r")
+    point = _example(device)
     if point is None:
         return ()
     name_of_point = attribute(point.item)
@@ -63,16 +63,26 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     return tuple([python_doc(line) for line in lines])
 
 
-def _shown(device: Device, access: str) -> Point | None:
-    """The point for the example: the first with that access, preferably one that is a quantity."""
-    usual = [
-        point
-        for point in device.points
-        if point.generated and point.readable and point.variant is None and point.when is None
-    ]
-    fitting = [point for point in usual if point.writable or access == "r"]
-    quantities = [point for point in fitting if point.form in ("scaled", "float") and not point.specials]
-    return next(iter((*quantities, *fitting)), None)
+def _example(device: Device) -> Point | None:
+    """The point for the example: one to read and write, else one to read; of these the first that is a quantity."""
+    for is_fit in (_is_settable, _is_usual):
+        quantities = filter(_is_quantity, filter(is_fit, device.points))
+        point = next(quantities, None) or next(filter(is_fit, device.points), None)
+        if point is not None:
+            return point
+    return None
+
+
+def _is_usual(point: Point) -> bool:
+    return point.generated and point.readable and point.variant is None and point.when is None
+
+
+def _is_settable(point: Point) -> bool:
+    return point.writable and _is_usual(point)
+
+
+def _is_quantity(point: Point) -> bool:
+    return point.form in ("scaled", "float") and not point.specials
 
 
 def device_view(device: Device, names: Identifiers) -> DeviceView:

@@ -6,13 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
+from fieldscribe.patterns import Pattern, blanks
+from fieldscribe.targets.python.identifiers import word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device, Entry, Flag, Point, Titles
+    from collections.abc import Callable
 
+    from fieldscribe.model import Device, Entry, Flag, Point, Titles
+    from fieldscribe.render import Render
+    from fieldscribe.targets.python.identifiers import Identifiers
 
 _WORD_DOC = (
     "",
@@ -39,78 +43,109 @@ class Composer:
 
 @dataclass(frozen=True, slots=True)
 class EnumClass:
-    """A class: its head (`class Name(...):`), the lines of its docstring, and its members.
+    """A class: its head (`class Name(...):`), its docstring, and its members.
 
     Words of flags also have readers of each flag, and a composer if they can be written.
     """
 
     name: str
     head: str
-    doc: tuple[str, ...]
+    docstring: str
     members: tuple[Member, ...]
     readers: tuple[str, ...] = ()
     composer: Composer | None = None
 
-    @property
-    def docstring(self) -> tuple[str, ...]:
-        """The lines of the docstring."""
-        return docstring(self.doc)
-
 
 @dataclass(frozen=True, slots=True)
 class EnumsView:
-    """The enums module: its classes, its imports, and whether it has words of flags, or composers."""
+    """The enums module: the texts of its classes, its imports, and whether it has words of flags, or composers."""
 
-    classes: tuple[EnumClass, ...]
+    classes: list[str]
     runtime: tuple[str, ...]
     has_words: bool
     composes: bool
 
 
-def enums_view(device: Device, names: Identifiers) -> EnumsView:
+def enums_view(device: Device, names: Identifiers, render: Render) -> EnumsView:
     """All enums of the device, then the words of flags in the order of the points."""
-    classes = [_enum(names.enum_class(enum.name), enum.title, enum.entries) for enum in device.enums]
-    used: set[str] = set()
+    classes = _Classes(names, render)
+    for enum in device.enums:
+        classes.add_enum(names.enum_class(enum.name), enum.title, enum.entries)
     for point in device.points:
-        if point.form == "flags" and point.generated:
-            classes += _word(point, names, used)
-    if any(not enum_class.readers for enum_class in classes):
-        used.add("NamedNumber")
-    has_words, composes = "Word" in used, any(enum_class.composer for enum_class in classes)
-    return EnumsView(tuple(classes), tuple(sorted(used)), has_words, composes)
+        if point.shape.flags and point.form == "flags" and point.generated:
+            classes.add_word(point)
+    return EnumsView(classes.texts, tuple(sorted(classes.used)), "Word" in classes.used, classes.composes)
 
 
-def _enum(name: str, title: Titles, entries: tuple[Entry, ...]) -> EnumClass:
+class _Classes:
+    """The texts of classes: laid out once for all that have the same members."""
+
+    def __init__(self, names: Identifiers, render: Render) -> None:
+        self.texts: list[str] = []
+        self.used: set[str] = set()
+        """The used names of the runtime."""
+        self.composes = False
+        self._names = names
+        self._render = render
+        self._patterns: dict[object, Pattern] = {}
+
+    def add_enum(self, name: str, title: Titles, entries: tuple[Entry, ...]) -> None:
+        """The class of named numbers."""
+        self.used.add("NamedNumber")
+        words = (name, _sentence(title["en"]))
+        self._add(id(entries), words, lambda: _enum(*_blanked(words), entries))
+
+    def add_word(self, point: Point) -> None:
+        """The class of a word of flags, behind those of the numbers of its flags."""
+        fields = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
+        for flag, named in zip(point.flags, fields, strict=True):
+            if named:
+                self.add_enum(named, flag.title, flag.values)
+            self.used.add("Flag" if flag.width == 1 else "Field")
+        self.used.add("Word")
+        self.composes |= point.writable
+        words = (self._names.word_class(point), _sentence(point.title["en"]))
+        key = (id(point.flags), fields, point.fixed, point.writable, len(words[0]))
+        self._add(key, words, lambda: _word(*_blanked(words), point, fields))
+
+    def _add(self, alike: object, words: tuple[str, str], view: Callable[[], EnumClass]) -> None:
+        pattern = self._patterns.get(alike)
+        if pattern is None:
+            pattern = self._patterns[alike] = Pattern(self._render("python/enum.py.j2", {"class": view()}))
+        self.texts.append(pattern.filled(words))
+
+
+def _blanked(words: tuple[str, str]) -> tuple[str, str]:
+    """Blanks for the name of a class and for its sentence, whose width decides nothing."""
+    name, sentence = blanks(words)
+    return name, sentence
+
+
+def _enum(name: str, sentence: str, entries: tuple[Entry, ...]) -> EnumClass:
     members = tuple(Member(upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
-    return EnumClass(name, f"class {name}(NamedNumber):", (_sentence(title["en"]),), members)
+    return EnumClass(name, f"class {name}(NamedNumber):", "\n".join(docstring((sentence,))), members)
 
 
-def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
-    classes, bits, readers = [], [], []
-    for flag in point.flags:
-        if named := names.field_class(point, flag.name):
-            classes.append(_enum(named, flag.title, flag.values))
-        mask = (1 << flag.width) - 1 << flag.low
-        bits.append(Member(upper(flag.name), f"0x{mask:04X}", _flag_doc(flag)))
-        readers.append(laid_out(_reader(point, flag, names), 4))
-        used.add("Flag" if flag.width == 1 else "Field")
-    used.add("Word")
-    name, doc = names.word_class(point), (_sentence(point.title["en"]), *_WORD_DOC)
-    composer = _composer(point, names) if point.writable else None
+def _word(name: str, sentence: str, point: Point, fields: tuple[str, ...]) -> EnumClass:
+    bits = [
+        Member(upper(flag.name), f"0x{(1 << flag.width) - 1 << flag.low:04X}", _flag_doc(flag)) for flag in point.flags
+    ]
+    readers = [laid_out(_reader(flag, named), 4) for flag, named in zip(point.flags, fields, strict=True)]
+    composer = _composer(point, fields) if point.writable else None
     # the readers are in a base class, because type checkers take an enum's own attributes for members
     bases = call(f"class {name}", (f"_{name}Flags", "enum.IntFlag", "boundary=enum.KEEP"))
-    return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers), composer)]
+    doc = "\n".join(docstring((sentence, *_WORD_DOC)))
+    return EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers), composer)
 
 
-def _composer(point: Point, names: Identifiers) -> Composer:
+def _composer(point: Point, fields: tuple[str, ...]) -> Composer:
     """The composer of a word; flags whose bits are always written as a constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     parameters, parts = [], []
-    for flag in point.flags:
+    for flag, named in zip(point.flags, fields, strict=True):
         if mask >> flag.low & (1 << flag.width) - 1 == (1 << flag.width) - 1:
             continue
         attribute = word_attribute(flag.name)
-        named = names.field_class(point, flag.name)
         kind = "bool = False" if flag.width == 1 else f"{named} | int = 0" if named else "int = 0"
         parameters.append(f"{attribute}: {kind}")
         parts.append(f"cls.{attribute}.place({attribute})")
@@ -120,12 +155,11 @@ def _composer(point: Point, names: Identifiers) -> Composer:
     return Composer(tuple(parameters), laid_out(composed, 8))
 
 
-def _reader(point: Point, flag: Flag, names: Identifiers) -> Node:
-    """The assignment of the attribute that reads a flag of the word."""
+def _reader(flag: Flag, named: str) -> Node:
+    """The assignment of the attribute that reads a flag of the word; `named` is the class of its numbers."""
     attribute = word_attribute(flag.name)
     if flag.width == 1:
         return call(f"{attribute} = Flag", (str(flag.low),) if flag.active else (str(flag.low), "active=0"))
-    named = names.field_class(point, flag.name)
     return call(f"{attribute} = Field", (str(flag.low), str(flag.width), *((named,) if named else ())))
 
 

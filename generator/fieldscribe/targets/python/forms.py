@@ -8,7 +8,7 @@ from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
     from fieldscribe.lowered import Operand
@@ -21,9 +21,9 @@ NUMBERED = frozenset({"parameter", "telegram"})
 """Spaces whose addresses are written in decimal."""
 
 
-def form(point: Point, scope: PackageScope) -> Node:
-    """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
-    inner = _plain_form(point, scope)
+def form(point: Point, named: str, scope: PackageScope) -> Node:
+    """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`; `named` is the class of its numbers or flags."""
+    inner = _plain_form(point, named, scope)
     if not point.specials:
         return inner
     around = (
@@ -63,13 +63,16 @@ def _code_number(raw: int, special: Special) -> str:
     return f"0x{raw:04X}" if special.hexadecimal and raw >= 0 else str(raw)
 
 
-def _plain_form(point: Point, scope: PackageScope) -> Node:
+def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     if point.form == "bit":
         scope.used.add("Bit")
         return "Bit()"
     if point.form == "text":
         return _text(point, scope)
     scope.used.add(point.type.upper())
+    if point.form in _NAMED:
+        scope.used.update((_NAMED[point.form], "enums"))
+        return call(_NAMED[point.form], (point.type.upper(), f"enums.{named}", *_named_facts(point)))
     return _FORMS[point.form](point, point.type.upper(), scope)
 
 
@@ -95,31 +98,19 @@ def _scaled(point: Point, wire: str, scope: PackageScope) -> Node:
     return call("Scaled", tuple(arguments))
 
 
-def _flags(point: Point, wire: str, scope: PackageScope) -> Node:
-    scope.used.update(("Flags", "enums"))
-    return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
+def _named_facts(point: Point) -> Iterator[str]:
+    """What a form with a class of names says about it."""
+    if point.digits is not None:
+        yield f"count={point.digits.count}"
+    elif point.enum is not None and point.enum.closed:
+        yield "closed=True"
 
 
-def _named(point: Point, wire: str, scope: PackageScope) -> Node:
-    scope.used.update(("Named", "enums"))
-    enum = "" if point.enum is None else scope.names.enum_class(point.enum.name)
-    closed = ("closed=True",) if point.enum is not None and point.enum.closed else ()
-    return call("Named", (wire, f"enums.{enum}", *closed))
-
-
-def _digits(point: Point, wire: str, scope: PackageScope) -> Node:
-    scope.used.update(("Digits", "enums"))
-    enum = "" if point.digits is None else scope.names.enum_class(point.digits.enum.name)
-    return call("Digits", (wire, f"enums.{enum}", f"count={0 if point.digits is None else point.digits.count}"))
-
-
+_NAMED = {"flags": "Flags", "enum": "Named", "digits": "Digits"}
 _FORMS = {
     "integer": _integer,
     "float": _floating,
     "scaled": _scaled,
-    "flags": _flags,
-    "enum": _named,
-    "digits": _digits,
 }
 
 
@@ -191,17 +182,19 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
     return call("Factor", arguments)
 
 
-def allowed(point: Point, scope: PackageScope) -> Node | None:
-    """The argument for the raw numbers that may be written; None if the type or the enum says them."""
-    intervals = point.allowed.intervals
+def is_limited(point: Point) -> bool:
+    """Whether the raw numbers that may be written are fewer than the type or the enum says."""
     if point.form in ("float", "text", "digits") or _only_named(point):
-        return None
-    if point.allowed.fixed == ((point.least, point.greatest),):
-        return None
-    return Group(
-        "allowed=(",
-        tuple(Group("(", (_bound(interval.low, scope), _bound(interval.high, scope))) for interval in intervals),
-    )
+        return False
+    return point.allowed.fixed != ((point.least, point.greatest),)
+
+
+def allowed(point: Point, ends: tuple[str, ...], scope: PackageScope) -> Node:
+    """The argument for the raw numbers that may be written; `ends` are those of its intervals, if they are words."""
+    bounds = ends or [
+        _bound(end, scope) for interval in point.allowed.intervals for end in (interval.low, interval.high)
+    ]
+    return Group("allowed=(", tuple([Group("(", pair) for pair in zip(bounds[::2], bounds[1::2], strict=True)]))
 
 
 def _bound(bound: Bound, scope: PackageScope) -> Node:
@@ -224,28 +217,33 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
     )
 
 
-def place(keyword: str, point: Point, addresses: tuple[int, ...], scope: PackageScope) -> Node:
+def addresses_of(addresses: tuple[int, ...], *, numbered: bool) -> list[str]:
+    """Addresses as literals: `numbered` ones in decimal."""
+    return [str(address) if numbered else f"0x{address:04X}" for address in addresses]
+
+
+def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Node:
     """A place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
-    index = () if point.index is None else (f"index={point.index}",)
+    beside = (f"index={index}",) if index else ()
     if point.space not in NUMBERED:
-        return _place(keyword, point.space, addresses, index, scope)
+        return _place(keyword, point.space, addresses, beside, scope)
     scope.used.add(point.space)
     telegram = () if point.telegram is None else (python_string(point.telegram),)
-    return call(f"{keyword}={point.space}", (*telegram, *map(str, addresses), *index))
+    return call(f"{keyword}={point.space}", (*telegram, *addresses, *beside))
 
 
 def place_of_command(command: Command, scope: PackageScope) -> Node:
     """The place that a command writes to, with the function that it takes."""
-    return _place("at", command.space, (command.address,), (f"function=0x{command.function:02X}",), scope)
+    address = addresses_of((command.address,), numbered=False)
+    return _place("at", command.space, address, (f"function=0x{command.function:02X}",), scope)
 
 
-def _place(keyword: str, space: str, addresses: tuple[int, ...], beside: tuple[str, ...], scope: PackageScope) -> Node:
-    shown = tuple(f"0x{address:04X}" for address in addresses)
+def _place(keyword: str, space: str, addresses: Iterable[str], beside: tuple[str, ...], scope: PackageScope) -> Node:
     maker = _PLACES.get(space)
     scope.used.add(maker or "Place")
     if maker is not None:
-        return call(f"{keyword}={maker}", (*shown, *beside))
-    return call(f"{keyword}=Place", (python_string(space), Group("(", shown), *beside))
+        return call(f"{keyword}={maker}", (*addresses, *beside))
+    return call(f"{keyword}=Place", (python_string(space), Group("(", tuple(addresses)), *beside))
 
 
 def number(value: Fraction, binary: bool = False) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
@@ -10,7 +11,7 @@ from fieldscribe.names import pascal
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from fieldscribe.model import Command, Device, Point
+    from fieldscribe.model import Command, Device, Point, Shape
 
 _RESERVED = frozenset(
     {"False", "None", "True", "and", "as", "assert", "async", "await", "break", "case", "class", "continue"}
@@ -129,22 +130,27 @@ class Identifiers:
         self._words: dict[str, str] = {}
         self._fields: dict[tuple[str, str], str] = {}
         for point in device.points:
-            if point.form == "flags" and point.generated:
+            if point.shape.flags and point.form == "flags" and point.generated:
                 self._name_flags(point)
 
     def enum_class(self, enum: str) -> str:
         """The class of an enum."""
         return self._enums[enum]
 
+    def numbers_class(self, shape: Shape) -> str:
+        """The class that names the numbers of a shape, or each of its digits; empty if nothing does."""
+        enum = shape.digits.enum if shape.digits is not None else shape.enum
+        return "" if enum is None else self._enums[enum.name]
+
     def word_class(self, point: Point) -> str:
-        """The class of a point's flags."""
-        return self._words[point.item]
+        """The class of a point's flags; empty if it has none."""
+        return self._words.get(point.item, "")
 
     def field_class(self, point: Point, flag: str) -> str | None:
         """The class of the named numbers of a flag of several bits; None if they have no names."""
         return self._fields.get((point.item, flag))
 
-    @property
+    @cached_property
     def imports(self) -> Sequence[str]:
         """The classes of the enums module, sorted for an import."""
         return sorted_imports([*self._enums.values(), *self._words.values(), *self._fields.values()])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
 
 WIDTH = 88
 """The narrowest common line length, so that formatters with longer lines change nothing either."""
+
+DOC = WIDTH - 4 - 6
+"""The width of a docstring inside a class, less the indentation and two triple quotes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +78,11 @@ def flat(node: Node) -> str:
         return node
     comma = "," if len(node.items) == 1 and node.is_tuple else ""
     return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"
+
+
+def wrapped(text: str) -> list[str]:
+    """The lines of a docstring inside a class."""
+    return [text] if len(text) <= DOC else textwrap.wrap(text, DOC, break_long_words=False, break_on_hyphens=False)
 
 
 def docstring(lines: Sequence[str]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from fieldscribe.lowered import Lowered
     from fieldscribe.targets.python.identifiers import Identifiers
@@ -15,10 +15,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PackageScope:
-    """Final names, points by name and variants; collects the used names of the runtime and the shared codes."""
+    """Final names, points by name, variants and the errata that change facts.
+
+    It collects the used names of the runtime and the shared codes.
+    """
 
     names: Identifiers
     lowered: Lowered
     variants: Mapping[str, tuple[str, ...]]
+    errata: Collection[str]
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)

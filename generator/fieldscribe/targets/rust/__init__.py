@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.rust.device import device_context
+from fieldscribe.targets.rust.device import device_context, texts_of
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
@@ -28,12 +28,13 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.rust.conformance import arms, conformance_tables
 
     scope = scope_of(device)
-    context = device_context(device, scope, render)
+    context = device_context(device, scope)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
     yield f"{folder}/src/lib.rs", render(f"rust/{device.family}.rs.j2", context)
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
-        yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
+        texts = texts_of(name, device, scope, render)
+        yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", {**context, **texts})
     tables = conformance_tables(scope, device)
     suite = {**context, "tables": tables, "kinds": {table.name for table in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/conformance/Cargo.toml", render("rust/conformance.toml.j2", context)

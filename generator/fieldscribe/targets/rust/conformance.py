@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.families import family
 from fieldscribe.patterns import Pattern, blanks, widths
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
-from fieldscribe.targets.rust.families import Table, in_rust, row_text
+from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.text import rust_string
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.conformance_rows import Spot
+    from fieldscribe.targets.rust.families import Tokens
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALWAYS = {
@@ -43,10 +44,9 @@ _SOMETIMES = (
 _CHAIN = 60
 """A chain of calls on one line has at most so many characters."""
 
-_STEP = 16
+_STEP = 12
 """Names are laid out as if they were as wide as the next multiple: if their rows fit then, they fit with all."""
 
-_END = ";\n"
 
 Rows = dict["Spot", list[str]]
 
@@ -58,10 +58,10 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
     for spot in sorted(rows, key=lambda spot: spot.part):
         parts.setdefault(spot.table, []).extend(rows[spot])
     return (
-        *(Table(name, run, tuple(parts.get(name, ()))) for name, run in _ALWAYS.items()),
-        *(Table(name, name, tuple(parts[name])) for name in _SOMETIMES if name in parts),
+        *(Table(name, run, parts.get(name, ())) for name, run in _ALWAYS.items()),
+        *(Table(name, name, parts[name]) for name in _SOMETIMES if name in parts),
         *in_rust(scope.family).tables_of_points(scope),
-        *(Table(spot.table, spot.run, tuple(rows[spot]), spot.kind) for spot in rows if spot.kind),
+        *(Table(spot.table, spot.run, rows[spot], spot.kind) for spot in rows if spot.kind),
         *_protocol(device),
     )
 
@@ -70,38 +70,60 @@ def _rows(scope: CrateScope) -> Rows:
     """All rows of all points where they belong."""
     rows: Rows = {}
     plans: dict[object, _Plan] = {}
+    kinds: dict[int, object] = {}
     for subject in scope.subjects:
         enum = subject.shape.enum
         words = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
         wide = max(map(len, words)) // _STEP * _STEP + _STEP
-        key = (subject.kin, wide, enum is None)
+        kind = kinds.get(subject.kin) or kinds.setdefault(subject.kin, _kind(subject))
+        key = (kind, wide)
         plan = plans.get(key)
         if plan is None:
             plan = plans[key] = _laid_out(subject, [wide * bool(word) for word in words], scope, rows)
         if not plan.fits:
-            exact = (subject.kin, *widths(words))
+            exact = (kind, *widths(words))
             plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
-        for append, text in zip(plan.appends, plan.pattern.filled(words).split(_END), strict=True):
-            append(text)
+        for appends, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
+            for append in appends:
+                append(text)
     return rows
 
 
 class _Plan(NamedTuple):
-    """The rows of points that have the same ones, where they are appended, and whether each fits in one line."""
+    """The different rows of points, where each is appended, and whether each fits in one line."""
 
-    appends: tuple[Callable[[str], None], ...]
+    appends: list[list[Callable[[str], None]]]
     pattern: Pattern
     fits: bool
+
+
+def _kind(subject: CratePoint) -> tuple[object, ...]:
+    """All that decides which rows a kin has, and what is in them beside names."""
+    point = subject.point
+    return (
+        subject.shape.alike,
+        subject.arguments,
+        point.unit.symbol == "",
+        point.bits is None,
+        point.telegram,
+        point.index is None,
+        tuple(point.place.references),
+        point.write_place is None,
+        point.keeps,
+        subject.name if subject.name.endswith("_") else None,
+    )
 
 
 def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows: Rows) -> _Plan:
     """The rows with blanks in place of names; a name that would clash stays as it is."""
     item, name, enum = blanks(" " * width for width in wide)
     name = subject.name if subject.name.endswith("_") else name
-    laid_out = [(spot, row_text(row)) for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope)]
-    pattern = Pattern(_END.join([text for _, text in laid_out]))
-    appends = tuple([rows.setdefault(spot, []).append for spot, _ in laid_out])
-    return _Plan(appends, pattern, all("\n" not in text for _, text in laid_out))
+    spots: dict[Tokens, list[Spot]] = {}
+    for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope):
+        spots.setdefault(row, []).append(spot)
+    texts = [row_text(row) for row in spots]
+    appends = [[rows.setdefault(spot, []).append for spot in alike] for alike in spots.values()]
+    return _Plan(appends, Pattern(END.join(texts)), all("\n" not in text for text in texts))
 
 
 def _protocol(device: Device) -> Iterator[Table]:

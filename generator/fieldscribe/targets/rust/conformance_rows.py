@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.families import Needs, Tokens, Way
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_ALONE = ("(alone)",)
-
 
 class Spot(NamedTuple):
     """Where a row belongs: its table, the part of the table, and for exchanges the runner's function and the kind."""
@@ -38,6 +36,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     if enum:
         name = Spot("name", part=1 if subject.form == "digits" else 0)
         yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.shape.carried)))
+    alone = row_of(subject, ("(alone)",))
     for table, holds in (
         ("special", point.specials),
         ("special_name", point.specials),
@@ -50,7 +49,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
         ("display", point.display is not None),
     ):
         if holds:
-            yield Spot(table), row_of(subject, _ALONE)
+            yield Spot(table), alone
     yield Spot("address"), row_of(subject, _references(point))
     if point.display is not None:
         yield Spot("told"), _read(subject)
@@ -59,17 +58,19 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
 
 
 def _scaled(subject: CratePoint) -> Iterator[Row]:
-    point = subject.point
+    point, counted = subject.point, subject.point.decimals is not None
     if point.readable:
-        yield Spot("decode"), _read(subject)
-    if point.readable and point.decimals is not None:
-        yield Spot("decode_count"), _read(subject)
+        read = _read(subject)
+        yield Spot("decode"), read
+        if counted:
+            yield Spot("decode_count"), read
     if point.writable:
-        yield Spot("check"), _written(subject)
-    if point.writable and point.encodes_values:
-        yield Spot("encode"), _written(subject)
-    if point.writable and point.decimals is not None:
-        yield Spot("encode_count"), _written(subject)
+        written = _written(subject)
+        yield Spot("check"), written
+        if point.encodes_values:
+            yield Spot("encode"), written
+        if counted:
+            yield Spot("encode_count"), written
 
 
 def _whole(subject: CratePoint) -> Iterator[Row]:
@@ -80,8 +81,9 @@ def _whole(subject: CratePoint) -> Iterator[Row]:
     if point.readable:
         yield Spot(f"decode_{how}"), _read(subject)
     if point.writable:
-        yield Spot(f"encode_{how}"), _written(subject)
-        yield Spot("check", part), _written(subject)
+        written = _written(subject)
+        yield Spot(f"encode_{how}"), written
+        yield Spot("check", part), written
     yield from _flags(subject)
 
 
@@ -89,8 +91,9 @@ def _float(subject: CratePoint) -> Iterator[Row]:
     if subject.point.readable:
         yield Spot("decode", 1), _read(subject)
     if subject.point.writable:
-        yield Spot("encode", 1), _written(subject)
-        yield Spot("check", 4), _written(subject)
+        written = _written(subject)
+        yield Spot("encode", 1), written
+        yield Spot("check", 4), written
 
 
 def _digits(subject: CratePoint) -> Iterator[Row]:

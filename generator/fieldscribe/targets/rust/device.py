@@ -45,24 +45,29 @@ def _raw_only(point: Point) -> tuple[str, Lines]:
     return point.item, binding(4, item, f"runtime::Documented::new({where})")
 
 
-def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
+def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
+    """What only one source needs, made when that is written: the texts of points, of enums, or of words of flags."""
+    if source == "points":
+        points, names_runtime = point_texts(scope, render)
+        return {"points": points, "uses_runtime": names_runtime}
+    if source == "enums":
+        enums, long_enums = enum_texts(device, scope, render)
+        return {"enums": enums, "long_enums": long_enums}
+    return {"words": "".join(word_texts(scope, render))} if source == "flags" else {}
+
+
+def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
-    points, names_runtime = point_texts(scope, render)
-    enums, long_enums = enum_texts(device, scope, render)
     first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
     structs = tuple(arguments_views(scope))
     of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
-        "points": points,
         "table": in_lines(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
-        "enums": enums,
         "codes": tuple(shared_views(scope)),
-        "long_enums": long_enums,
-        "words": "".join(word_texts(scope, render)),
         "first_word": first_word,
         "structs": structs,
         "example": example.lines,
@@ -70,8 +75,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "received": received.lines,
         "example_uses": example_uses(device.id, example + received, of_family.names),
         "example_unit": device.bus.units[0],
-        "uses_enums": bool(enums),
-        "uses_runtime": names_runtime,
+        "uses_enums": any(enum.name in scope.enums for enum in device.enums),
         "uses_flags": bool(first_word),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),

@@ -37,9 +37,14 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-def point_doc(point: Point, words: Words, errata: Collection[str]) -> tuple[str, ...]:
+def facts_text(point: Point, words: Words) -> str:
+    """The paragraph with the facts of a point."""
+    return f"{', '.join(_facts(point, words))}."
+
+
+def point_doc(point: Point, title: str, facts: str, errata: Collection[str]) -> tuple[str, ...]:
     """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
-    paragraphs = [words.sentence, f"{', '.join(_facts(point, words))}."]
+    paragraphs = [title, facts]
     if point.specials:
         paragraphs.append(f"{codes_text(point, '`')}.")
     named = [f"`{name}`" for name in point.errata if name in errata]
@@ -56,6 +61,9 @@ def is_long(text: str) -> bool:
 
 def wrapped(text: str) -> Iterator[str]:
     """The text in lines, none of which begins like a list or a heading."""
+    if not is_long(text):
+        yield text
+        return
     line = ""
     for word in text.split(" "):
         if len(line) + len(word) >= _WIDTH and _BEGINS.match(word):
@@ -91,7 +99,7 @@ def _place(point: Point, address: str, index: str) -> str:
 
 
 def _facts(point: Point, words: Words) -> Iterator[str]:
-    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.index)
+    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.element)
     yield f"{words.code_shown} at {where}" if words.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:

@@ -51,7 +51,9 @@ def count_type(subject: CratePoint) -> str:
         return _COUNTS.get(subject.raw, "i32")
     if point.decimals is None:
         return ""
-    return "i64" if subject.shape.rule is None else f"i{min(64, _width(subject.shape.rule, point.decimals, subject.raw))}"
+    return (
+        "i64" if subject.shape.rule is None else f"i{min(64, _width(subject.shape.rule, point.decimals, subject.raw))}"
+    )
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:

@@ -10,10 +10,10 @@ from fieldscribe.targets.rust.documentation import is_long, sentence
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import integer, raw_literal, type_name, type_range
 from fieldscribe.text import rust_code, rust_string
-from fieldscribe.wording import address_text, raw_range_text
+from fieldscribe.wording import address_parts, raw_range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Allowed, Point
     from fieldscribe.targets.rust.subjects import CratePoint, CrateShape
@@ -24,7 +24,7 @@ _UNLIMITED = ("float", "text", "digits")
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 Layout = tuple[object, ...]
-"""The widths of words in whose lines there are others, and the words themselves where a line may be broken inside."""
+"""What decides where lines are broken."""
 
 
 class Words(NamedTuple):
@@ -43,7 +43,7 @@ class Words(NamedTuple):
     address: str
     hexadecimal: str
     decimal: str
-    index: str
+    element: str
     span: str
     low: str
     high: str
@@ -75,53 +75,74 @@ class KnownLimits:
         return limits
 
 
-def words_of(subject: CratePoint, limits: Limits) -> tuple[Words, Layout]:
-    """The words of a point, and what decides where lines are broken."""
+def words_of(subject: CratePoint, limits: Limits) -> Words:
+    """The words of a point."""
     point, item, name, shape, *_ = subject
-    addresses, code, title = point.place.addresses, point.code or "", sentence(item)
+    addresses, code = point.place.addresses, point.code or ""
     address = addresses[0] if len(addresses) == 1 else min(addresses)
-    hexadecimal, decimal = address_text(address).split(" ")
-    index = "" if point.index is None else str(point.index)
-    shown = rust_code(code)
-    _, span, low, high = limits
-    words = Words(
+    hexadecimal, decimal = address_parts(address)
+    return Words(
         item,
-        title,
+        sentence(item),
         name,
         "" if shape.enum is None else type_name(shape.enum.name),
         code and rust_string(code),
-        code and shown,
+        code and rust_code(code),
         f"0x{address:04X}",
         hexadecimal,
         decimal,
-        index,
-        span,
-        low,
-        high,
+        "" if point.index is None else str(point.index),
+        limits.span,
+        limits.low,
+        limits.high,
         "" if len(addresses) == 1 else _addresses(addresses),
         _references(point.place.references),
     )
-    layout = (
-        title if is_long(title) else None,
-        shown if " " in shown else len(code),
-        is_alias(code, name),
-        span if " " in span else len(span),
-        len(hexadecimal),
-        len(decimal),
-        len(index),
-        len(name) if point.was or subject.arguments else None,
-        low == "",
-        len(addresses),
+
+
+def layout_of(subject: CratePoint, words: Words) -> Layout:
+    """What decides about the layout beside the widths of words in the doc comment."""
+    point = subject.point
+    return (
+        words.sentence if is_long(words.sentence) else None,
+        len(words.name) if point.was or subject.arguments else None,
+        words.code == "",
+        is_alias(point.code or "", words.name),
+        words.span == "",
+        words.low == "",
     )
-    return words, layout
 
 
-def blanked(words: Words) -> Words:
-    """Blanks for the words, but for names that would clash, and for those within which a line may be broken."""
-    kept = {"sentence": words.sentence} if is_long(words.sentence) else {}
-    kept |= {"name": words.name} if words.name.endswith("_") else {}
-    kept |= {key: word for key in ("code_shown", "span") if " " in (word := getattr(words, key))}
-    return Words(*blanks(words))._replace(**kept)
+def widths_of(words: Words) -> Layout:
+    """The widths of the words in a doc comment of several lines; words in which a line may be broken themselves."""
+    alone = [word if " " in word else len(word) for word in (words.code_shown, words.span)]
+    return (*alone, len(words.hexadecimal), len(words.decimal), len(words.element))
+
+
+def blanked(words: Words, *, kept: Iterable[str] = (), wider: int = 0) -> Words:
+    """Blanks for the words, but for those `kept`, for names that would clash and for titles of several lines.
+
+    The doc comment becomes `wider` than it would with the words.
+    """
+    names = [*kept]
+    if words.name.endswith("_"):
+        names.append("name")
+    if is_long(words.sentence):
+        names.append("sentence")
+    shown = Words(*blanks(words))
+    return shown._replace(
+        decimal=shown.decimal + shown.decimal[:1] * wider, **{name: getattr(words, name) for name in names}
+    )
+
+
+def broken(words: Words) -> tuple[str, ...]:
+    """The words of the doc comment within which a line may be broken."""
+    return tuple(name for name in ("code_shown", "span") if " " in getattr(words, name))
+
+
+def width_of(words: Words) -> int:
+    """The width of all words that share a paragraph of the doc comment."""
+    return len(words.code_shown) + len(words.hexadecimal) + len(words.decimal) + len(words.element) + len(words.span)
 
 
 def is_alias(code: str, name: str) -> bool:
@@ -149,10 +170,11 @@ def _addresses(addresses: tuple[int, ...]) -> str:
 
 def _references(references: Mapping[str, int | str]) -> str:
     """The manual's other numberings of the point."""
-    return "\n    ".join([_reference(key.upper(), number) for key, number in references.items()])
+    return "\n    ".join([f"const {key.upper()}: {_typed(number)};" for key, number in references.items()])
 
 
-def _reference(name: str, number: int | str) -> str:
+def _typed(number: int | str) -> str:
+    """The type of a numbering and the number in it."""
     if isinstance(number, str):
-        return f"const {name}: &'static str = {rust_string(number)};"
-    return f"const {name}: {'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)};"
+        return f"&'static str = {rust_string(number)}"
+    return f"{'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)}"

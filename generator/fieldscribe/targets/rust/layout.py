@@ -112,6 +112,9 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
 
 def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
     """Items in as few lines as possible, for macros, where rustfmt changes nothing."""
+    line = f"{left}{between.join(items)}{right}"
+    if len(line) <= _FREE_WIDTH:
+        return (line,)
     lines = [left]
     for place, item in enumerate(items):
         text = item + (between if place + 1 < len(items) else right)

@@ -128,25 +128,30 @@ def _subjects(points: Iterable[Point], shapes: Mapping[int, CrateShape]) -> Iter
         shape, item = shapes[id(point.shape)], point.item
         name = type_name(item)
         arguments = point.arguments if shape.factors or point.allowed.arguments else ()
-        kin = (
-            shape.alike,
-            arguments,
-            point.space,
-            point.unit.symbol,
-            point.bits,
-            point.steps,
-            point.telegram,
-            point.index is None,
-            tuple(point.place.references),
-            point.write_place and point.write_place.addresses,
-            point.variant,
-            point.when,
-            point.errata,
-            point.keeps,
-            point.was,
-            name if name.endswith("_") else None,
-        )
+        kin = _kin(point, shape, name, arguments)
         yield CratePoint(point, item, name, shape, arguments, kins.setdefault(kin, len(kins)))
+
+
+def _kin(point: Point, shape: CrateShape, name: str, arguments: tuple[str, ...]) -> tuple[object, ...]:
+    """All that decides about the text of a point beside its words and limits; a name that would clash has no kin."""
+    return (
+        shape.alike,
+        arguments,
+        point.space,
+        point.unit.symbol,
+        point.bits,
+        point.steps,
+        point.telegram,
+        point.index is None,
+        tuple(point.place.references),
+        point.write_place and point.write_place.addresses,
+        point.variant,
+        point.when,
+        point.errata,
+        point.keeps,
+        point.was,
+        name if name.endswith("_") else None,
+    )
 
 
 def _shapes(shapes: Mapping[int, Shape], enums: Mapping[str, str]) -> dict[int, CrateShape]:

@@ -15,16 +15,12 @@ class ConstantView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One point: its doc comment, the manual's code to search for (or empty), its facts, its former names.
-
-    `names_runtime` says whether the facts name items of the runtime.
-    """
+    """One point: its doc comment, the manual's code to search for (or empty), its facts, its former names."""
 
     doc: tuple[str, ...]
     alias: str
     name: str
     facts: tuple[str, ...]
-    names_runtime: bool
     was: tuple[tuple[str, ...], ...]
 
 

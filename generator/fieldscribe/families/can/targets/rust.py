@@ -151,7 +151,9 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """The table of points that come in frames of a telegram."""
     heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
-        yield Table("can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in heard))
+        yield Table(
+            "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in heard)
+        )
 
 
 def heard(scope: CrateScope) -> tuple[str, Snippet]:

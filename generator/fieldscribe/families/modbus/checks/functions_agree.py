@@ -42,25 +42,32 @@ def check(subject: Subject) -> None:
 def _reached(subject: Subject, bus: Map) -> None:
     """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
-    points = [resolved.point for resolved in subject.resolved if resolved.point.generated]
     for space, functions in SPACES.items():
-        inside = [point for point in points if point.space == space]
         writers = {functions.write_one, functions.write_many} - {None}
-        for verb, count, able in (
-            ("reads", sum(point.readable for point in inside), functions.read in known),
-            ("writes", sum(point.writable for point in inside), bool(writers & known) or not writers),
+        for verb, letter, able in (
+            ("reads", "r", functions.read in known),
+            ("writes", "w", bool(writers & known) or not writers),
         ):
-            if count and not able:
+            count = 0 if able else _count(subject, space, letter)
+            if count:
                 message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
                 hint = "list the function under `functions`, or correct `access` or `space`"
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
 
 
+def _count(subject: Subject, space: str, letter: str) -> int:
+    """How many points of a space need to be read (`r`) or written (`w`)."""
+    points = [resolved.point for resolved in subject.resolved]
+    return sum(point.generated and point.space == space and letter in point.access for point in points)
+
+
 def _elsewhere(subject: Subject) -> None:
     """Findings for points that are written at another address, in a space that no function writes."""
     for resolved in subject.resolved:
+        if resolved.point.write_place is None:
+            continue
         functions = SPACES.get(resolved.point.space)
-        if resolved.point.write_place is not None and functions is not None and functions.write_many is None:
+        if functions is not None and functions.write_many is None:
             message = f"`{resolved.point.name}` cannot be written: no function writes `{resolved.point.space}`"
             hint = "leave `write_at` out; what is written in another space is a point of its own"
             subject.report.error("write-address", message, resolved.draft.span("write_at"), hint)
@@ -72,6 +79,8 @@ def _at_once(subject: Subject) -> None:
     too_long: dict[tuple[str, int], list[Resolved]] = {}
     for resolved in subject.resolved:
         point = resolved.point
+        if len(point.place.addresses) == 1:
+            continue  # any function carries one item
         if not point.generated or "type" in resolved.draft.failed or point.space not in SPACES:
             continue
         functions = SPACES[point.space]

@@ -10,7 +10,7 @@ from fieldscribe.targets.rust.example import Snippet
 from fieldscribe.targets.rust.layout import filled
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.model import Device
     from fieldscribe.targets.identifiers import Names
@@ -26,6 +26,10 @@ Way = tuple[str, str, Needs]
 """How a point travels: the kind of vector, the runner's function, and what that needs."""
 
 
+END = ";\n"
+"""What stands between the rows of a table, and nowhere in them."""
+
+
 @dataclass(frozen=True, slots=True)
 class Table:
     """A table of the conformance program: its function, the function of the runner that it calls, and its rows.
@@ -35,19 +39,18 @@ class Table:
 
     name: str
     run: str
-    rows: tuple[str, ...]
+    rows: Sequence[str]
     kind: str = ""
 
     @property
     def text(self) -> str:
         """The rows, each with its semicolon."""
-        return "".join([f"{row};\n" for row in self.rows])
+        return f"{END.join(self.rows)}{END}" if self.rows else ""
 
 
 def row_text(row: Tokens) -> str:
     """A row in as few lines as possible, without its semicolon."""
-    lines = filled("", " ", row, ";")
-    return "    " + "\n    ".join(lines)[:-1]
+    return "    " + "\n    ".join(filled("", " ", row, ";"))[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:

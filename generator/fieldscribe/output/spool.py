@@ -1,0 +1,65 @@
+"""The contents of the files of one device until all are made: large ones wait on disk and not in memory."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from os import SEEK_END
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from typing import IO, Self
+
+_LARGE = 1 << 20
+
+
+class Kept(NamedTuple):
+    """The contents of a file: checksum, size, and the bytes, or where they wait."""
+
+    digest: str
+    size: int
+    data: bytes
+    spool: IO[bytes] | None = None
+    start: int = 0
+
+    def read(self) -> bytes:
+        """All bytes."""
+        if self.spool is None:
+            return self.data
+        self.spool.seek(self.start)
+        return self.spool.read(self.size)
+
+
+def kept(data: bytes) -> Kept:
+    """Bytes that stay in memory."""
+    return Kept(sha256(data).hexdigest(), len(data), data)
+
+
+class Spool:
+    """A nameless temporary file, made for the first large contents; it is gone when the run ends, however it ends."""
+
+    def __init__(self) -> None:
+        self._file: IO[bytes] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._file is not None:
+            self._file.close()
+
+    def keep(self, data: bytes) -> Kept:
+        """Keep these bytes."""
+        if len(data) < _LARGE:
+            return kept(data)
+        spool = self._opened()
+        spool.seek(0, SEEK_END)
+        start = spool.tell()
+        spool.write(data)
+        return kept(data)._replace(data=b"", spool=spool, start=start)
+
+    def _opened(self) -> IO[bytes]:
+        if self._file is None:
+            from tempfile import TemporaryFile
+
+            self._file = TemporaryFile()  # noqa: SIM115 - closed with the spool
+        return self._file
