@@ -7,7 +7,8 @@ import os
 import shutil
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -15,9 +16,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import find_devices
 from support.places import ROOT
 from support.strange_files import KINDS, put
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DOCS = [
     *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
@@ -135,6 +133,27 @@ def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
     assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
     assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
     assert main(["generate", "--target", "docs", "--out", "made", "--check"]) == 0
+
+
+def test_a_folder_in_the_way_is_not_taken_over(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (project / "made/docs/hitachi_l200.csv").mkdir(parents=True)
+    for force in ([], ["--force"]):
+        assert main(["generate", "--target", "docs", "--out", "made", *force]) == 1
+        assert "hint: move it away; nothing of hitachi_l200 was written\n" in capsys.readouterr().err
+
+
+def test_what_is_read_is_opened_so_that_nothing_hangs(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pipe does not wait for a writer, a terminal does not take over, and no child inherits the file."""
+    flags: dict[str, int] = {}
+    opened = os.open
+
+    def noting(path: Any, how: int, *more: Any, **named: Any) -> int:
+        flags[Path(path).name] = how
+        return opened(path, how, *more, **named)
+
+    monkeypatch.setattr(os, "open", noting)
+    assert main(["check"]) == 0
+    assert flags["device.yaml"] == os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
 
 
 def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
+from fieldscribe.reading import UnfitFileError
 from support.places import TESTS
 
 if TYPE_CHECKING:
@@ -147,7 +148,7 @@ def test_a_folder_that_takes_no_files_is_no_other_run(tmp_path: Path, monkeypatc
 )
 def test_what_is_no_lock_is_refused_and_left(tmp_path: Path, put: Callable[[Path], object]) -> None:
     put(tmp_path / NAME)
-    with pytest.raises(OSError, match="move it away"), only_run(tmp_path, nobody, 1.0):
+    with pytest.raises(UnfitFileError, match="move it away"), only_run(tmp_path, nobody, 1.0):
         raise AssertionError("taken for a lock")
     assert os.path.lexists(tmp_path / NAME)
 
