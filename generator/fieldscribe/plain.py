@@ -34,25 +34,17 @@ if TYPE_CHECKING:
 _NOWHERE = Source("", None, None, None)
 
 
-_SHARED = ("source", "shape", "terms", "allowed")
+_SHARED = ("source", "shape", "terms")
 """What many points have in common, so that its text is written once."""
 _common = attrgetter(*_SHARED)
 _identity = attrgetter(
-    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "place")],
+    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
     *[f"place.{field.name}" for field in fields(Place)],
 )
 
 
-_kept: list[tuple[Device, Device]] = []
-"""The device that got its digest last, with what code may know of it: that is what its targets ask for next."""
-
-
 def for_code(device: Device) -> Device:
     """The same device without anything that is only for people."""
-    return _kept[0][1] if _kept and _kept[0][0] is device else _for_code(device)
-
-
-def _for_code(device: Device) -> Device:
     enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
@@ -95,26 +87,26 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
-    plain = replace(_for_code(device), digest="")
+    plain = replace(for_code(device), digest="")
     checksum = hashlib.sha256()
     for text in _texts(plain):
         checksum.update(text.encode("utf-8", "surrogatepass"))
     digest = checksum.hexdigest()
-    _kept[:] = [(replace(device, digest=digest), replace(plain, digest=digest))]
-    return _kept[0]
+    return replace(device, digest=digest), replace(plain, digest=digest)
 
 
 def _texts(plain: Device) -> Iterator[str]:
     """Texts that differ wherever a fact of the device does: all but the points, then each point."""
     yield repr(replace(plain, points=()))
-    texts: dict[tuple[int, ...], str] = {}
+    texts: dict[object, str] = {}
     for point in plain.points:
         shared = _common(point)
-        key = tuple(map(id, shared))
-        text = texts.get(key)
-        if text is None:
-            text = texts[key] = repr(shared)
-        yield f"{_identity(point)!r}{text}"
+        key, limits = tuple(map(id, shared)), id(point.allowed)
+        if key not in texts:
+            texts[key] = repr(shared)
+        if limits not in texts:
+            texts[limits] = repr(point.allowed)
+        yield f"{_identity(point)!r}{texts[limits]}{texts[key]}"
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:

@@ -38,16 +38,20 @@ def line(text: str) -> str:
     return _SPACES.sub(" ", text).strip()
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def c_comment(text: str) -> str:
     """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
+    if text.isalnum() and text.isascii():
+        return text
     cleaned = line(text).translate(_TYPEWRITER).replace("*/", "* /").replace("/*", "/ *")
     return _QUERIES.sub("? ", cleaned).rstrip("\\ ")
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def c_string(text: str) -> str:
     """A C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes (they end by themselves)."""
+    if text.isalnum() and text.isascii():
+        return f'"{text}"'
     escaped = []
     for byte in line(text).encode():
         char = chr(byte)
@@ -97,14 +101,14 @@ def rust_string(text: str) -> str:
     return f'"{cleaned}"'
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def dbc_string(text: str) -> str:
     """A string of a CAN database with its quotes: Latin-1, without what would end it or be read as an escape."""
     cleaned = line(text).replace("\\", "/").replace('"', "'")
     return '"' + cleaned.encode("latin-1", "replace").decode("latin-1") + '"'
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def markdown(text: str) -> str:
     """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

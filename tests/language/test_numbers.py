@@ -7,7 +7,7 @@ from fractions import Fraction
 from time import perf_counter
 
 import pytest
-from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number
+from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number, plain_number
 from fieldscribe.language.scalars import scalar
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -148,6 +148,22 @@ def test_all_notations_of_a_whole_number_agree(number: int) -> None:
         assert parse_integer(f"{sign}0b{magnitude:b}") == number
 
 
+@given(st.integers(0, 1 << 40) | st.from_regex(r"[0-9A-Fa-fxXhH'+ -]{0,8}[hH]?", fullmatch=True))
+@example("0x10h")
+@example("10 h")
+@example("\uff11h")
+def test_what_is_plainly_a_number_is_that_number(written: int | str) -> None:
+    plain = plain_number(written)
+    assert plain is None or plain == parse_integer(str(written))
+
+
+def test_most_addresses_are_plain() -> None:
+    assert [plain_number(written) for written in (0, 4136, "1028h", "0FH", "0..3", "1028", None)] == [
+        *(0, 4136, 0x1028, 15),
+        *(None, None, None),
+    ]
+
+
 @pytest.mark.parametrize(
     ("texts", "value"),
     [
@@ -166,44 +182,10 @@ def test_plain_scalars(texts: tuple[str, ...], value: object) -> None:
         assert (type(found), found) == (type(value), value), text
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        *(
-            "on",
-            "off",
-            "yes",
-            "no",
-            "On",
-            "NO",
-            "y",
-            "tRue",
-            "nULL",
-            "nil",
-            "none",
-            "12:30",
-            "1_000",
-            "0b11",
-            "0x",
-            "0o8",
-        ),
-        *(
-            "1e9999",
-            "1.2.3",
-            "--1",
-            "+-1",
-            ".inf",
-            ".nan",
-            "-",
-            "+",
-            ".",
-            "1h",
-            "9" * 65,
-            "0x" + "F" * 63,
-            "1." + "0" * 63,
-        ),
-    ],
-)
+TEXTS = "on off yes no On NO y tRue nULL nil none 12:30 1_000 0b11 0x 0o8 1e9999 1.2.3 --1 +-1 .inf .nan - + . 1h"
+
+
+@pytest.mark.parametrize("text", [*TEXTS.split(), "9" * 65, "0x" + "F" * 63, "1." + "0" * 63])
 def test_what_is_text(text: str) -> None:
     assert scalar(text) == text
     assert isinstance(scalar(text), str)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -48,11 +49,18 @@ class Line(NamedTuple):
         for argument in arguments:
             yield from (argument, argument * self.factor, argument * self.factor + self.add)
 
+    def largest(self, low: int, high: int) -> int:
+        """The largest magnitude that occurs between these arguments and the division."""
+        first, last = low * self.factor, high * self.factor
+        met = (low, high, first, last, first + self.add, last + self.add)
+        return max(*met, -min(met))
+
 
 SAME = Line(1, 0, 1)
 """The rule whose result is its argument."""
 
 
+@lru_cache(maxsize=4096)
 def value_line(rule: Linear) -> Line:
     """The line from raw numbers to values, for a rule without factors."""
     return count_line(rule, 0).inverse

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.arithmetic.words import number_of
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.numbers import NumberError, parse_number, plain_number
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
@@ -52,7 +52,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
     draft = resolved.draft
     unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
     for key, value in printed.items():
-        if key not in _NEEDS and _is_number(value, _plain_number(resolved.point, key)):
+        if key not in _NEEDS and _is_plainly(value, _numbered_as(resolved.point, key)):
             continue
         span = printed.span(key)
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
@@ -72,28 +72,17 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
             _number(subject, resolved, key, printed, numbers)
 
 
-def _plain_number(point: Point, key: str) -> int | str | None:
+def _numbered_as(point: Point, key: str) -> int | str | None:
     """The point's number in a numbering of its group, or its address; None where that needs a closer look."""
     if key != WIRE:
         return point.references.get(key)
     return None if not point.addresses else point.addresses[0] if point.text is not None else min(point.addresses)
 
 
-def _is_number(value: object, number: int | str | None) -> bool:
-    """Whether all that is printed is plainly this number: decimal, or hexadecimal with an `h`."""
-    if isinstance(value, int):
-        return value == number
-    if isinstance(value, Seq):
-        return False not in [_is_number(item, number) for item in value]
-    digits = (
-        value[:-1]
-        if isinstance(value, str) and value[-1:] in ("h", "H") and value.isalnum() and value.isascii()
-        else ""
-    )
-    try:
-        return int(digits, 16) == number
-    except ValueError:
-        return False
+def _is_plainly(value: object, number: int | str | None) -> bool:
+    """Whether all that is printed is plainly this number."""
+    numbers = map(plain_number, value if isinstance(value, Seq) else (value,))
+    return number is not None and {number}.issuperset(numbers)
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:

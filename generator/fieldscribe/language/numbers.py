@@ -24,6 +24,7 @@ MOST_EXPONENT = 400
 
 _QUOTED = 40  # how many characters of a wrong text a message repeats
 _HEX = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH])")
+_HEX_DIGITS = re.compile(r"[0-9A-Fa-f]{1,16}[hH]")
 _BINARY = re.compile(r"([+-]?)0b([01]+)")
 _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
 
@@ -61,6 +62,13 @@ def parse_integer(text: str) -> int:
     if number.denominator != 1 or "." in text:
         raise NumberError(f"`{shown(text)}` is not a whole number", "write a whole number, without a decimal point")
     return number.numerator
+
+
+def plain_number(value: object) -> int | None:
+    """The whole number that a number or a text such as `1028h` plainly is; None for all that needs a closer look."""
+    if not isinstance(value, str):
+        return value if isinstance(value, int) else None
+    return int(value[:-1], 16) if _HEX_DIGITS.fullmatch(value) else None
 
 
 def is_whole_number(text: str) -> bool:

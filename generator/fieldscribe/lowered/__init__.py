@@ -49,5 +49,6 @@ def lower(device: Device) -> Lowered:
 def _by_name(device: Device) -> dict[str, Point]:
     points = {point.item: point for point in reversed(device.points)}
     for point in device.points:
-        points.setdefault(point.name, point)
+        if point.variant is not None:
+            points.setdefault(point.name, point)
     return points

@@ -43,6 +43,19 @@ def plan_of(point: Point, low: int, high: int) -> Plan:
     return _plan(point.fixed_scale, point.decimals or 0, point.held, low, high)
 
 
+class _Unlimited(NamedTuple):
+    """What a plan has whatever the limits are."""
+
+    to_raw: Line
+    to_value: Line
+    count_wide: bool
+    decode_wide: bool
+    numerator: int
+    beyond: tuple[int, int] | None
+    largest: int
+    """The largest integer for values."""
+
+
 @lru_cache(maxsize=4096)
 def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
     """Prove the widths: compute the integers that occur for the extreme arguments.
@@ -52,23 +65,36 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
     the divisor. Encoding is only ever asked for `counts`, for a count outside is refused before anything is computed;
     decoding for any raw number that the type holds.
     """
-    to_raw, to_value = count_line(rule, decimals), value_line(rule)
-    to_count = to_raw.inverse
-    ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
-    count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])
+    to_raw, to_value, count_wide, decode_wide, numerator, beyond, largest = _unlimited(rule, decimals, raws)
     counts = _usable(to_raw, _counts(to_raw, low, high), INT64 if count_wide else INT32)
-    numerator = max(map(abs, to_value.meets(raws)))
     return Plan(
         to_raw,
         to_value,
         raws,
         count_wide,
-        encode_wide=max(map(abs, to_raw.meets(counts))) + to_raw.divisor > INT32[1],
-        decode_wide=max(map(abs, to_count.meets(raws))) + to_count.divisor > INT32[1],
+        encode_wide=to_raw.largest(*counts) + to_raw.divisor > INT32[1],
+        decode_wide=decode_wide,
         numerator=numerator,
         counts=counts,
+        beyond=beyond,
+        fits_float=largest <= EXACT_FLOAT,
+    )
+
+
+@lru_cache(maxsize=4096)
+def _unlimited(rule: Linear, decimals: int, raws: tuple[int, int]) -> _Unlimited:
+    to_raw, to_value = count_line(rule, decimals), value_line(rule)
+    to_count = to_raw.inverse
+    ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
+    numerator = to_value.largest(*raws)
+    return _Unlimited(
+        to_raw,
+        to_value,
+        count_wide=not (INT32[0] <= min(ends) and max(ends) <= INT32[1]),
+        decode_wide=to_count.largest(*raws) + to_count.divisor > INT32[1],
+        numerator=numerator,
         beyond=_countable(to_raw, raws),
-        fits_float=max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator) <= EXACT_FLOAT,
+        largest=max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator),
     )
 
 

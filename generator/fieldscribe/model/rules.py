@@ -33,6 +33,10 @@ class Linear:
     offset: Fraction
     factors: tuple[Factor, ...]
 
+    def __hash__(self) -> int:
+        """A hash of whole numbers only: that of a fraction takes long."""
+        return hash((self.ratio.numerator, self.ratio.denominator, self.offset.numerator, len(self.factors)))
+
     def at(self, argument: Fraction) -> Fraction:
         """The result of a rule without factors."""
         return argument * self.ratio + self.offset

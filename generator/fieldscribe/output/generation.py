@@ -112,7 +112,7 @@ class Generation:
             with Spool() as spool:
                 try:
                     for target, path, text in outputs(device, self.targets, models.plain):
-                        files[target][path] = spool.keep(text.encode())
+                        files[target][path] = spool.keep(text)
                 except (TargetError, UnicodeEncodeError) as error:
                     where = f"target {error}" if isinstance(error, TargetError) else "a text"
                     self._report_bug(device_file, where, error.__cause__ or error)

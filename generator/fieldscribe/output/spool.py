@@ -47,15 +47,17 @@ class Spool:
         if self._file is not None:
             self._file.close()
 
-    def keep(self, data: bytes) -> Kept:
-        """Keep these bytes."""
-        if len(data) < _LARGE:
-            return kept(data)
-        spool = self._opened()
-        spool.seek(0, SEEK_END)
-        start = spool.tell()
-        spool.write(data)
-        return kept(data)._replace(data=b"", spool=spool, start=start)
+    def keep(self, text: str) -> Kept:
+        """Keep this text. Raises UnicodeEncodeError."""
+        if len(text) < _LARGE:
+            return kept(text.encode())
+        spool, digest, size = self._opened(), sha256(), 0
+        start = spool.seek(0, SEEK_END)
+        for at in range(0, len(text), _LARGE):
+            data = text[at : at + _LARGE].encode()
+            digest.update(data)
+            size += spool.write(data)
+        return Kept(digest.hexdigest(), size, b"", spool, start)
 
     def _opened(self) -> IO[bytes]:
         if self._file is None:

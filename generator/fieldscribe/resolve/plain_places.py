@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.language.numbers import plain_number
 from fieldscribe.model import Place
 from fieldscribe.resolve.telegrams import SPACE
 
@@ -41,9 +42,9 @@ class PlainPlaces:
         layout = self._layouts.get(kind)
         if layout is None:
             layout = self._layouts[kind] = self._layout(draft, word)
-        at = draft.get("at")
-        plain = at.__class__ is int and 0 <= at <= layout.last and draft.element is None and draft.use is None
-        if not plain or draft.layer("write_at") is not None:
+        at = plain_number(draft.get("at"))
+        alone = draft.element is None and draft.use is None and draft.layer("write_at") is None
+        if at is None or not (alone and 0 <= at <= layout.last):
             return self._places.places(draft, word.space, word.type, word.bits)
         addresses = (at,) if layout.words == 1 else tuple(range(at, at + layout.words))
         numbers = {} if layout.numbering is None else self._places.numberings.numbers(layout.numbering, at)

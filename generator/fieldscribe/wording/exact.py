@@ -93,6 +93,7 @@ def _decimal(count: int, places: int) -> str:
     return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
 
 
+@lru_cache(maxsize=4096)
 def _decimal_places(denominator: int) -> int | None:
     """How many decimals a reduced fraction over `denominator` has; None when they never end."""
     twos = (denominator & -denominator).bit_length() - 1

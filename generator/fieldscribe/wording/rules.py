@@ -41,6 +41,11 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
     """All intervals in one text, with the unit behind the last number and the exceptions of limits at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
+    simple = intervals[0].fixed if len(intervals) == 1 and not listed else None
+    if simple is not None:  # as below, but most points are so
+        ends = [shown(raw, line) for raw in (simple[::-1] if falling else simple)]
+        text = "..".join(ends) if simple[0] != simple[1] else ends[0]
+        return f"{text} {unit}" if unit else text
     parts, remarks = [], []
     for interval in intervals:
         ends = [
@@ -48,7 +53,8 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
             _bound_text(interval.high, False, point, line, points),
         ]
         parts.append(_span_text(interval, ends, falling, listed))
-        remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
+        if point.allowed.moves:
+            remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
     if unit and parts:
         parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)

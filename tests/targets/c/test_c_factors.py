@@ -52,7 +52,7 @@ def draws(rng: random.Random) -> Iterator[tuple[Any, ...]]:
     while True:
         point = POINTS[rng.choice(NAMES)]
         settings = {name: setting(rng, POINTS[name]) for name in point.arguments}
-        ratio, limits = oracle.ratio(point, settings), oracle.limits(point, settings)
+        ratio, limits = oracle.ratio(point.shape, settings), oracle.limits(point.shape, point.allowed, settings)
         raw = rng.choice((rng.randint(point.least, point.greatest), rng.randint(max(point.least, -99), 99)))
         head = point.name, settings
         if isinstance(ratio, str) or isinstance(limits, str):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.layout import WIDTH, filled
 from fieldscribe.text import c_comment
 from fieldscribe.wording import (
     codes_text,
     condition_text,
-    default_text,
     display_text,
     range_text,
     raw_range_text,
@@ -24,28 +24,37 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.words import Words
 
 
-def comment_lines(point: Point, scope: HeaderScope, remark: str = "") -> tuple[str, ...]:
+def comment_text(point: Point, words: Words, scope: HeaderScope, remark: str = "") -> str:
     """Code, name, range, unit, step, access, space and default; rare facts; errata that changed one of these."""
-    name = point.item.replace("_", " ")
-    head = f"{point.code} {name}" if point.code else name
-    words = c_comment(f"{head}: {'; '.join((*_facts(point, scope), *([remark] if remark else [])))}").split(" ")
-    single_line = f"/* {' '.join(words)} */"
+    head = f"{words.code_said} {words.said}" if words.code_said else words.said
+    return f"{head}: {'; '.join((*_facts(point, words, scope), *([c_comment(remark)] if remark else [])))}"
+
+
+def laid_out(text: str) -> str:
+    """The comment of that text: on one line if it fits."""
+    single_line = f"/* {text} */"
     if len(single_line) <= WIDTH:
-        return (single_line,)
-    return ("/*", *filled(words, " ", " * "), " */")
+        return single_line
+    return folded("\n".join(("/*", *filled(text.split(" "), " ", " * "), " */")))
 
 
-def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
+def _facts(point: Point, words: Words, scope: HeaderScope) -> Iterator[str]:
     if point.untyped is None:
-        yield from filter(None, (_range(point), *_steps(point)))
+        yield from filter(None, (words.range, *map(c_comment, _steps(point))))
     spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
-    yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
+    references = zip(point.references, words.references[::2], strict=True)
+    yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in references)))
     if point.display is not None:
         yield display_text(point)
-    if default := default_text(point):
-        yield f"default {default}"
+    if words.default:
+        yield f"default {words.default}"
+    yield from map(c_comment, _rare_facts(point, scope))
+
+
+def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
     if point.when is not None:
         yield f"exists only when {condition_text(point.when, scope.points)}"
     yield from width_texts(point)
@@ -58,13 +67,14 @@ def _facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
 
 
-def _range(point: Point) -> str:
+def range_words(point: Point) -> str:
     """The range in the unit, or in raw numbers where values cannot be given."""
     if point.text is not None:
         return f"{point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
         return f"{point.digits.count} digits, the highest first"
-    units, raws = range_text(point), raw_range_text(point)
+    units = range_text(point)
+    raws = "" if units else raw_range_text(point)
     return units or (f"raw {raws}" if raws else "")
 
 

@@ -7,15 +7,19 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.names import upper
-from fieldscribe.targets.c.conformance_cases import AdapterView, StructView, adapter_of, structs_of
+from fieldscribe.targets.c.conformance_cases import StructView, cases_of, structs_of
 from fieldscribe.targets.c.families import frames_of
+from fieldscribe.targets.c.fold import folded
+from fieldscribe.targets.c.kinds import Texts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
     from fieldscribe.model import Code, Device
+    from fieldscribe.render import Render
+    from fieldscribe.targets.c.frames import Frames
+    from fieldscribe.targets.c.kinds import Kind, Placed
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import DeviceView
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +27,8 @@ class SuiteView:
     """The conformance program of a device."""
 
     structs: tuple[StructView, ...]
-    adapters: tuple[AdapterView, ...]
+    items: tuple[str, ...]
+    """The points, each of which has a function that answers vectors."""
     statuses: tuple[tuple[str, str], ...]
     family: str
     groups: tuple[tuple[str, str], ...]
@@ -39,20 +44,14 @@ class SuiteView:
 _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special")
 
 
-def conformance_view(
-    device: Device, view: DeviceView, scope: HeaderScope, cases_of_family: Iterable[tuple[str, str]]
-) -> SuiteView:
-    """The view of `<device>_conformance.c`; `cases_of_family` has a point's function and a further macro for it."""
+def conformance_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> SuiteView:
+    """The view of `<device>_conformance.c`."""
     named = frames_of(device).NAMED_CODES
-    extra: dict[str, list[str]] = {}
-    for function, case in cases_of_family:
-        extra.setdefault(function, []).append(case)
-    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated]
     groups = ((group, f"{scope.prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks)
+    dependent = (point for point, kind, _ in placed if kind.view.takes_others)
     return SuiteView(
-        structs=tuple(struct for point in points for struct in structs_of(point, scope)),
-        adapters=tuple(adapter_of(point, views[point.item], scope, extra) for point in points),
+        structs=tuple(struct for point in dependent for struct in structs_of(point, scope)),
+        items=tuple([words[0] for _, _, words in placed]),
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
@@ -60,7 +59,7 @@ def conformance_view(
         documented=tuple(
             (point.item, point.space, f"{scope.upper}_{upper(point.item)}", point.index is not None)
             for point in device.points
-            if point.raw_only and point.address is not None
+            if not point.generated and point.raw_only
         ),
         names=tuple(kind for kind, codes in _code_kinds(device) if codes and kind in named),
         commands=tuple(
@@ -73,6 +72,18 @@ def conformance_view(
         ),
         telegrams=tuple(telegram.name for telegram in device.telegrams),
     )
+
+
+def adapters_text(placed: Iterable[Placed], scope: HeaderScope, sections: Collection[Frames], render: Render) -> str:
+    """The functions of points that answer vectors."""
+    adapters = Texts(lambda kind: _adapter(kind, scope, sections, render))
+    return "".join([adapters.of(kind).filled(words) for _, kind, words in placed])
+
+
+def _adapter(kind: Kind, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:
+    of_family = [case for frames in sections for case in frames.cases(kind)]
+    cases = cases_of(kind.point, kind.view, scope, of_family)
+    return folded(render("c/adapter.c.j2", {"item": kind.view.words.item, "cases": cases}))
 
 
 def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:

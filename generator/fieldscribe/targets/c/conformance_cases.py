@@ -8,27 +8,18 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.defines import shares_values
-from fieldscribe.targets.c.literals import raw_type, signed
-from fieldscribe.targets.c.points import named_numbers
+from fieldscribe.targets.c.literals import raw_type
+from fieldscribe.targets.c.points import named_numbers, names_of
 from fieldscribe.targets.c.scales import scaled
-from fieldscribe.targets.c.special_codes import encoded_limits, owner, special_defines
-from fieldscribe.text import c_string
+from fieldscribe.targets.c.special_codes import encoded_limits, special_defines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
-
-
-@dataclass(frozen=True, slots=True)
-class AdapterView:
-    """A point with its macros, each of which answers one kind of vector."""
-
-    item: str
-    cases: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,17 +35,10 @@ class StructView:
     floating: bool
 
 
-def adapter_of(point: Point, view: PointView, scope: HeaderScope, extra: Mapping[str, list[str]]) -> AdapterView:
-    """The macros of a point; `extra` are further ones of its family, by the point's function."""
-    cases = _all_cases(point, view, scope)
-    cases += extra.get(view.function, [])
-    return AdapterView(
-        view.item,
-        tuple(
-            f"FIELDSCRIBE_{case}"
-            for case in (*cases, *_flag_cases(point, view), *_special_code_cases(point, view, scope))
-        ),
-    )
+def cases_of(point: Point, view: PointView, scope: HeaderScope, of_family: Iterable[str]) -> list[str]:
+    """The macros of a point, each of which answers one kind of vector; `of_family` are further ones."""
+    cases = [*_all_cases(point, view, scope), *of_family]
+    return [*cases, *_flag_cases(point, view), *_special_code_cases(point, view, scope)]
 
 
 def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
@@ -66,8 +50,9 @@ def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
     cases += _conversion_cases(point, view, scope)
     enum = named_numbers(point)
     if enum is not None:
-        cases.append(f"NAME({scope.prefix}_{enum.name}_name, {value_type(point)})")
-        constant = f"{scope.upper}_{upper(enum.name)}"
+        name, macro = names_of(point, view.words)
+        cases.append(f"NAME({scope.prefix}_{name}_name, {value_type(point)})")
+        constant = f"{scope.upper}_{macro}"
         first = {entry.raw: entry.name for entry in reversed(enum.entries)}
         cases += [f'NAMED("{name}", {constant}_{upper(name)})' for name in first.values()]
     cases += _place_cases(point, view)
@@ -75,7 +60,7 @@ def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
         return cases
     if view.bits:
         cases.append(f"BITS({function}, {kind}, {view.macro})")
-    elif view.words:
+    elif view.splits:
         cases.append(f"WORDS({function}, {kind}, {point.words}U)")
     else:
         cases.append(f"ONE_WORD({kind})")
@@ -89,17 +74,14 @@ def _address_answers(point: Point, view: PointView) -> str:
         f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
     ]
     if view.shape not in ("float", "text", "digits"):
-        low, high = point.outer
-        only_read = f"ONLY_READ({signed(low)}, {signed(high)})"
+        only_read = f"ONLY_READ({view.words.low_signed}, {view.words.high_signed})"
         calls.append(f"RAWS({view.macro})" if point.writable else only_read)
     if point.form == "scaled" and point.decimals is not None:
         calls.append(f"DECIMALS({view.macro})")
     if point.code is not None:
-        calls.append(f"CODE({c_string(point.code)})")
-    for key, number in point.references.items():
-        text = isinstance(number, str)
-        literal = c_string(number) if isinstance(number, str) else signed(number)
-        calls.append(f'REFERENCE{"_TEXT" if text else ""}("{key}", {literal})')
+        calls.append(f"CODE({view.words.code})")
+    for (key, number), literal in zip(point.references.items(), view.words.references[1::2], strict=True):
+        calls.append(f'REFERENCE{"_TEXT" if isinstance(number, str) else ""}("{key}", {literal})')
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
@@ -112,7 +94,7 @@ def _conversion_cases(point: Point, view: PointView, scope: HeaderScope) -> list
     scale = _arguments_of(point, view.scale_arguments, scope)
     attempt = "TRY_" if view.special is not None or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
-    scale_of = scaled(point, *_checked_raws(point)) if form == "scaled" else None
+    scale_of = scaled(point, *encoded_limits(point)) if form == "scaled" else None
     number = value_type(point) if form == "plain" else "int64_t" if scale_of is None else scale_of.count_type
     if form == "plain" and kind == "bool" and not attempt:
         number = "int32_t"
@@ -130,10 +112,6 @@ def _conversion_cases(point: Point, view: PointView, scope: HeaderScope) -> list
         if view.readable:
             cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
     return cases
-
-
-def _checked_raws(point: Point) -> tuple[int, int]:
-    return encoded_limits(point) if point.specials else point.outer
 
 
 def _is_double(point: Point, scale: Scaled | None) -> bool:
@@ -217,7 +195,9 @@ def _flag_number(view: PointView, name: str, width: int) -> str:
 def _special_code_cases(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
     """The macros for special codes."""
     for special in point.specials:
-        (first, _), (last, _) = special_defines(special, f"{scope.upper}_{upper(owner(point))}", point)
+        (first, _), (last, _) = special_defines(
+            special, f"{scope.upper}_{upper(point.shared_codes) or view.words.macro}", point
+        )
         yield f'SPECIAL("{special.name}", {first}, {last})'
     if point.specials:
         yield f"SPECIAL_NAME({view.function}, {view.raw_type})"

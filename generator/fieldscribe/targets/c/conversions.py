@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import called, function
 from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.literals import (
@@ -12,7 +11,6 @@ from fieldscribe.targets.c.literals import (
     bare,
     float_order,
     raw_kind,
-    raw_type,
     sign_and_size,
     unsigned,
 )
@@ -28,7 +26,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import SpecialView
+    from fieldscribe.targets.c.views import PointView
 
 STATUS = "FIELDSCRIBE_STATUS"
 INLINE = "static inline"
@@ -49,20 +47,17 @@ def is_rechecked(point: Point) -> bool:
 class Writer:
     """Writes the functions of one point."""
 
-    def __init__(self, point: Point, special: SpecialView | None, scope: HeaderScope) -> None:
-        self.point, self.special, self.scope = point, special, scope
-        self.name = f"{scope.prefix}_{point.item}"
-        self.macro = f"{scope.upper}_{upper(point.item)}"
-        self.type, self.kind = raw_type(point), raw_kind(point)
-        self.limits = (0, 0) if point.info.floating else point.outer
-        self.reach = encoded_limits(point) if point.specials and not point.info.floating else self.limits
+    def __init__(self, point: Point, view: PointView, scope: HeaderScope) -> None:
+        self.point, self.words, self.special, self.scope = point, view.words, view.special, scope
+        self.name, self.macro = view.function, view.macro
+        self.type, self.kind = view.raw_type, raw_kind(point)
 
     # ---- for points of every form
 
     def check(self) -> Function:
         """The function that tells whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
-        status = codes_first(self.point, self.special, check(self.point, self.scope))
+        status = codes_first(self.point, self.special, check(self.point, self.words, self.scope))
         if self.point.allowed.moves and self.special is None:
             own = f"{self.name}_check"
             owner = self.scope.tables.setdefault(("check", *parameters, status), own)
@@ -125,10 +120,12 @@ class Writer:
     def _plain_body(self, kind: str) -> str:
         point = self.point
         literal = unsigned if kind == "uint64_t" else bare
-        low, high = point.held if fixes(point) else self.reach
+        low, high = point.held if fixes(point) else encoded_limits(point)
         if not is_rechecked(point):
-            core = f"fieldscribe_encode_{self.kind}(value, {literal(low)}, {literal(high)}, raw)"
-            return f"return {known(point, core)};"
+            ends = (
+                f"{unsigned(low)}, {unsigned(high)}" if kind == "uint64_t" else f"{self.words.low}, {self.words.high}"
+            )
+            return f"return {known(point, f'fieldscribe_encode_{self.kind}(value, {ends}, raw)')};"
         self.scope.grouped = len(point.arguments) > 1
         number = fixed_number(point, self.macro, self.scope, "value") if fixes(point) else self._of_value(kind)
         within = {"int32_t": "within", "int64_t": "within_wide", "uint64_t": "within_u64"}[kind]
@@ -142,18 +139,18 @@ class Writer:
 
     def scaled(self) -> Iterator[Function]:
         """The functions of a point whose scale is known at compile time."""
-        point, scale = self.point, scaled(self.point, *self.reach)
+        point, scale, words = self.point, scaled(self.point, *encoded_limits(self.point)), self.words
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
         if point.writable:
             yield self.check()
         if point.writable and counts:
             self.scope.grouped = len(point.arguments) > 1
-            low, high = self.limits
-            if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == (low, high):
-                body = f"return fieldscribe_encode_{self.kind}(count, {bare(low)}, {bare(high)}, raw);"
+            if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == point.outer:
+                body = f"return fieldscribe_encode_{self.kind}(count, {words.low}, {words.high}, raw);"
             else:
-                body = self._kept(scale.count_inside, scale.raw_of_count, "FIELDSCRIBE_OUT_OF_RANGE")
+                inside = f"{scale.inside}(count, {words.first}, {words.last})" if scale.inside else ""
+                body = self._kept(inside, scale.raw_of_count, "FIELDSCRIBE_OUT_OF_RANGE")
             yield self._encode("encode_count", f"{scale.count_type} count", body)
         if point.readable and counts:
             yield self._decode("decode_count", scale.count_type, scale.count_of_raw, fits=scale.count_fits)
@@ -165,8 +162,11 @@ class Writer:
 
     def _outer(self) -> str:
         """The limits as two arguments: by their macros where a check follows, else as numbers."""
-        named = is_rechecked(self.point) and self.reach == self.limits
-        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else ", ".join(map(bare, self.reach))
+        reach = encoded_limits(self.point)
+        if reach != self.point.outer:
+            return ", ".join(map(bare, reach))
+        named = is_rechecked(self.point)
+        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else f"{self.words.low}, {self.words.high}"
 
     def _rounded(self, scale: Scaled) -> tuple[str, ...]:
         limits = self._outer()

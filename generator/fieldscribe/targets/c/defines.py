@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.names import upper
-from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
+from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
 
 if TYPE_CHECKING:
@@ -15,14 +15,16 @@ if TYPE_CHECKING:
     from fieldscribe.model import Flag, Point
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
+    from fieldscribe.targets.c.words import Words
 
 
-def defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
+def defines(point: Point, words: Words, scope: HeaderScope) -> Iterator[Define]:
     """The macros of a generated point and their literals."""
-    yield from place_defines(point, macro, scope)
+    macro = f"{scope.upper}_{words.macro}"
+    yield from place_defines(point, words, scope)
     if point.words > 1 or point.text is not None:
         yield f"{macro}_WORDS", f"{point.words}U"
-    yield from _raw_number(point, macro)
+    yield from _raw_number(point, words, macro)
     yield from _bits(point, macro)
     if not point.shared_codes:
         yield from code_defines(point, macro)
@@ -42,14 +44,12 @@ def shares_values(point: Point) -> bool:
     return len(wide) > 1 and len(set(wide)) == 1
 
 
-def place_defines(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
+def place_defines(point: Point, words: Words, scope: HeaderScope) -> Iterator[Define]:
     """The macros that say where a point is."""
-    if point.address is not None:
-        yield from _places(point, macro, scope)
-
-
-def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
-    yield f"{macro}_ADDRESS", hexadecimal(min(point.addresses))
+    macro = f"{scope.upper}_{words.macro}"
+    if not point.addresses:
+        return
+    yield f"{macro}_ADDRESS", words.address
     if point.index is not None:
         yield f"{macro}_INDEX", unsigned(point.index)
     if point.telegram is not None:
@@ -58,16 +58,15 @@ def _places(point: Point, macro: str, scope: HeaderScope) -> Iterator[Define]:
         yield f"{macro}_WRITE_ADDRESS", hexadecimal(min(point.write_place.addresses))
 
 
-def _raw_number(point: Point, macro: str) -> Iterator[Define]:
+def _raw_number(point: Point, words: Words, macro: str) -> Iterator[Define]:
     """The macros of the contents: the number of characters or digits, or the limits of the raw number."""
     if point.text is not None:
         yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
     elif point.digits is not None:
         yield f"{macro}_DIGITS", unsigned(point.digits.count)
     elif point.writable and not point.info.floating:
-        low, high = point.outer
-        yield f"{macro}_RAW_MIN", signed(low)
-        yield f"{macro}_RAW_MAX", signed(high)
+        yield f"{macro}_RAW_MIN", words.low_signed
+        yield f"{macro}_RAW_MAX", words.high_signed
     if point.form == "scaled" and point.decimals is not None:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
     if point.display is not None:

@@ -1,4 +1,4 @@
-"""The view of a whole device."""
+"""The header of a device: its view, and the text of its points."""
 
 from __future__ import annotations
 
@@ -7,38 +7,32 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
-from fieldscribe.targets.c.comments import comment_lines
+from fieldscribe.targets.c.comments import comment_text, laid_out
 from fieldscribe.targets.c.defines import defines, place_defines
-from fieldscribe.targets.c.points import computes_in_double, named_numbers, point_view
-from fieldscribe.targets.c.scope import HeaderScope, scope_of
+from fieldscribe.targets.c.fold import folded, framed
+from fieldscribe.targets.c.kinds import Texts
+from fieldscribe.targets.c.points import computes_in_double, functions_of, named_numbers
 from fieldscribe.targets.c.special_codes import FUNCTIONS
-from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, PointView, RemarkView, TelegramView
+from fieldscribe.targets.c.views import AliasView, DeviceView, TelegramView
+from fieldscribe.targets.c.words import Words, words_of
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.render import Render
+    from fieldscribe.targets.c.kinds import Kind, Placed
+    from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import Define, PointView
 
 STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL")
 """What conversions answer."""
 
 
-def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, HeaderScope]:
-    """The header's view and its scope; `names_only` leaves out the bodies of functions and the comments."""
-    scope = scope_of(device, names_only=names_only)
-    by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
-    aliases: list[AliasView] = []
-    for point in device.points:
-        if not point.generated:
-            by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
-            continue
-        shown = point_view(point, scope)
-        by_group.setdefault(point.group, []).append((shown, RemarkView(point.item, (), ())))
-        for old, item in old_items(point):
-            aliases += _aliases(point, shown, AliasView(old, item, shown.item), scope)
-    groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
-    view = DeviceView(
+def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> DeviceView:
+    """The header's view, but for the points."""
+    return DeviceView(
         head=head_lines(device),
         title=c_comment(f"{device.vendor} {device.model}"),
         file=f"{device.id}.h",
@@ -52,12 +46,57 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
             for number, telegram in enumerate(device.telegrams)
             for name in (f"{scope.upper}_TELEGRAM_{upper(telegram.name)}",)
         ),
-        groups=groups,
-        aliases=tuple(aliases),
+        aliases=tuple(
+            alias
+            for point, kind, _ in placed
+            if point.was
+            for old, item in old_items(point)
+            for alias in _aliases(point, kind.view, AliasView(old, item, point.item), scope)
+        ),
         statuses=STATUSES,
-        double=not names_only and any(computes_in_double(point) for point in device.points if point.generated),
+        double=any(computes_in_double(kind.point) for kind in {kind: None for _, kind, _ in placed}),
     )
-    return view, scope
+
+
+def header(device: Device, view: DeviceView, placed: Iterable[Placed], scope: HeaderScope, render: Render) -> str:
+    """The text of `<device>.h`."""
+    texts: list[str] = []
+    for name, of_points in _points_by_group(device, placed, scope, render).items():
+        if of_points:
+            texts += [folded(render("c/group.h.j2", {"title": _title(name, scope)})), *of_points]
+    return framed(render, "c/device.h.j2", {"device": view}, {"points": "".join(texts)})
+
+
+def _points_by_group(
+    device: Device, placed: Iterable[Placed], scope: HeaderScope, render: Render
+) -> dict[str, list[str]]:
+    """The texts of each group's points."""
+    comments = Texts(lambda kind: comment_text(kind.point, kind.view.words, scope))
+    headers = Texts(lambda kind: _point_text(kind, scope, render))
+    by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
+    generated = iter(placed)
+    for point in device.points:
+        terms = point.terms
+        if terms.generated:
+            _, kind, words = next(generated)
+            comment = laid_out(comments.of(kind).filled(words))
+            text = headers.of(kind).filled((*words, comment))
+        else:
+            text = folded(_remark(point, scope, render))
+        by_group.setdefault(terms.group, []).append(text)
+    return by_group
+
+
+def _point_text(kind: Kind, scope: HeaderScope, render: Render) -> str:
+    """The part of the header that is one point."""
+    functions = list(functions_of(kind.point, kind.view, scope))
+    context = {
+        "p": kind.view,
+        "comment": kind.comment,
+        "functions": [function.text for function in functions if not function.floating],
+        "floats": [function.text for function in functions if function.floating],
+    }
+    return folded(render("c/point.h.j2", context))
 
 
 def old_items(point: Point) -> Iterator[tuple[str, str]]:
@@ -102,15 +141,16 @@ def _function_tails(view: PointView) -> list[str]:
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
     tails += ["_rule"] if view.rules else []
-    tails += ["_to_words", "_from_words"] if view.words else []
+    tails += ["_to_words", "_from_words"] if view.splits else []
     tails += ["_extract", "_insert"] if view.bits else []
     return [*tails, *view.flags, *codes]
 
 
 def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """The old names of everything that a renamed point has in the header."""
-    function, macro = f"{scope.prefix}_{old.old_item}", f"{scope.upper}_{upper(old.old_item)}"
-    for (name, _), (new, _) in zip(defines(point, macro, scope), view.defines, strict=True):
+    words = view.words._replace(item=old.old_item, macro=upper(old.old_item))
+    function, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
+    for (name, _), (new, _) in zip(defines(point, words, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
     for tail in _function_tails(view):
         floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
@@ -125,9 +165,15 @@ def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) 
             yield replace(old, old=f"{macro}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
-def _remark(point: Point, scope: HeaderScope) -> RemarkView:
-    remark = f"not generated: {point.reason or 'documented only'}"
-    lines = () if scope.names_only else comment_lines(point, scope, remark)
-    macro = f"{scope.upper}_{upper(point.item)}"
-    places = (*place_defines(point, macro, scope), (f"{macro}_WORDS", f"{point.words}U")) if point.raw_only else ()
-    return RemarkView(point.item, lines, places)
+def _remark(point: Point, scope: HeaderScope, render: Render) -> str:
+    """What the header says of a point that is not generated: why, and its address if it can be read or written raw."""
+    words = words_of(point)
+    comment = laid_out(comment_text(point, words, scope, f"not generated: {point.reason or 'documented only'}"))
+    return render("c/remark.h.j2", {"comment": comment, "defines": remark_defines(point, words, scope)})
+
+
+def remark_defines(point: Point, words: Words, scope: HeaderScope) -> tuple[Define, ...]:
+    """The macros of a point that is not generated."""
+    if not point.raw_only:
+        return ()
+    return *place_defines(point, words, scope), (f"{scope.upper}_{words.macro}_WORDS", f"{point.words}U")

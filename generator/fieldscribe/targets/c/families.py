@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 from fieldscribe.families import family
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device
+    from fieldscribe.targets.c.frames import Frames
+    from fieldscribe.targets.c.kinds import Placed
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import DeviceView
     from fieldscribe.targets.identifiers import Named
 
 
@@ -21,14 +22,14 @@ class OfFamily(Protocol):
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
 
-    def bus_view(self, device: Device, view: DeviceView, scope: HeaderScope) -> Any:
+    def bus_view(self, device: Device, placed: Sequence[Placed], scope: HeaderScope) -> Any:
         """The view of the header of frames, `<family>.h.j2`."""
+
+    def sections(self, bus: Any) -> Mapping[str, Frames]:
+        """The frames of points in that header, by the names of their texts in the template."""
 
     def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
         """Every identifier in that header, with its owner."""
-
-    def adapters(self, bus: Any) -> Iterator[tuple[str, str]]:
-        """Macros for the conformance vectors that only this family has, each with the function of its point."""
 
 
 def frames_of(device: Device) -> OfFamily:

@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
+
+from fieldscribe.patterns import blanks
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.render import Render
 
 MOST = 120
 _DEEPER = "    "
@@ -12,7 +20,19 @@ _WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
 
 def folded(text: str) -> str:
     """The same C in lines of at most 120 characters; a macro goes on behind a backslash."""
-    return "\n".join(part for line in text.split("\n") for part in _parts(line))
+    lines = text.split("\n")
+    if max(map(len, lines)) <= MOST:
+        return text
+    return "\n".join([part for line in lines for part in (_parts(line) if len(line) > MOST else (line,))])
+
+
+def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
+    """The template, folded, around texts that are folded already."""
+    places = dict(zip(texts, blanks(["_" if text else "" for text in texts.values()]), strict=True))
+    result = folded(render(template, {**context, **places}))
+    for name, text in texts.items():
+        result = text.join(result.split(places[name])) if text else result
+    return result
 
 
 def _parts(line: str) -> list[str]:

@@ -7,16 +7,21 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.device import old_items
+from fieldscribe.targets.c.fold import folded
+from fieldscribe.targets.c.kinds import Texts
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.render import Render
+    from fieldscribe.targets.c.kinds import Kind, Placed
     from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
 
 _LINE = 120
@@ -31,15 +36,65 @@ class Descriptor:
     type: str
     name: str
     value: str
-    item: str = ""
-    """The point that it describes; empty for layouts and commands."""
     tail: str = ""
-    """The part of the name behind the name of the point."""
+    """The part of the name behind the name of the point; empty for layouts and commands."""
 
     @property
     def parted(self) -> bool:
         """Whether one line would be too long."""
         return len(f"static const {self.type} {self.name} = {self.value};") > _LINE
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What reaches a point: its descriptors, and the macros of the conformance program for them."""
+
+    descriptors: tuple[Descriptor, ...]
+    cases: tuple[str, ...]
+
+
+class Frames:
+    """The frames of points, made for the first point of each kind, in their order."""
+
+    def __init__(self, placed: Sequence[Placed], make: Callable[[Point, PointView], Frame | None]) -> None:
+        self._placed = placed
+        nothing = Frame((), ())
+        self._made = {kind: make(kind.point, kind.view) or nothing for kind in {kind: None for _, kind, _ in placed}}
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing reaches any of the points."""
+        return not any(frame.descriptors for frame in self._made.values())
+
+    def cases(self, kind: Kind) -> tuple[str, ...]:
+        """The macros of the conformance program for the frames of a kind."""
+        return self._made[kind].cases if kind in self._made else ()
+
+    def text(self, render: Render) -> str:
+        """The descriptors of all points."""
+        texts = Texts(lambda kind: folded("".join(self._constants(kind, render))))
+        return "".join([texts.of(kind).filled(words) for _, kind, words in self._placed])
+
+    def names(self) -> Iterator[Named]:
+        """The identifiers of the descriptors."""
+        names = Texts(lambda kind: " ".join(descriptor.name for descriptor in self._descriptors(kind)))
+        for _, kind, words in self._placed:
+            yield Owner("point", words[0]), names.of(kind).filled(words).split()
+
+    def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
+        """The descriptors of renamed points under their old names."""
+        for point, kind, _ in self._placed:
+            for old, item in old_items(point) if point.was else ():
+                for descriptor in self._descriptors(kind):
+                    name = f"{scope.prefix}_{item}{descriptor.tail}"
+                    yield AliasView(old, item, point.item, name, descriptor.name, "OBJECT")
+
+    def _constants(self, kind: Kind, render: Render) -> Iterator[str]:
+        for descriptor in self._descriptors(kind):
+            yield render("c/constant.h.j2", {"one": descriptor})
+
+    def _descriptors(self, kind: Kind) -> tuple[Descriptor, ...]:
+        return self._made[kind].descriptors
 
 
 def kind_of(point: Point) -> str:
@@ -92,21 +147,11 @@ def places_of(point: Point) -> list[int]:
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
-def names_of(layouts: Iterable[Descriptor], others: Iterable[Descriptor]) -> Iterator[Named]:
+def names_of(layouts: Iterable[Descriptor], sections: Iterable[Frames]) -> Iterator[Named]:
     """The identifiers of layouts, and of the descriptors of points."""
     yield Owner("target", "the layouts of points in words"), [layout.name for layout in layouts]
-    for described in others:
-        yield Owner("point", described.item), (described.name,)
-
-
-def aliases_of(descriptors: Iterable[Descriptor], device: Device, scope: HeaderScope) -> tuple[AliasView, ...]:
-    """The descriptors of renamed points under their old names."""
-    renamed = {point.item: tuple(old_items(point)) for point in device.points if point.was}
-    return tuple(
-        AliasView(old, item, descriptor.item, f"{scope.prefix}_{item}{descriptor.tail}", descriptor.name, "OBJECT")
-        for descriptor in descriptors
-        for old, item in renamed.get(descriptor.item, ())
-    )
+    for frames in sections:
+        yield from frames.names()
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:

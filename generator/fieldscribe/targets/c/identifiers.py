@@ -4,19 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.patterns import Pattern
 from fieldscribe.targets.c.defines import flag_defines
-from fieldscribe.targets.c.device import STATUSES, device_view, function_names
+from fieldscribe.targets.c.device import STATUSES, device_view, function_names, remark_defines
 from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.frames import old_names_of
-from fieldscribe.targets.c.points import named_numbers
+from fieldscribe.targets.c.kinds import placed_points
+from fieldscribe.targets.c.points import named_numbers, names_of
+from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
+from fieldscribe.targets.c.words import words_of
 from fieldscribe.targets.identifiers import Names, Owner
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Point, Special
-    from fieldscribe.targets.c.views import DeviceView, PointView
+    from fieldscribe.targets.c.kinds import Kind, Placed
+    from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
 
 _OWN = Owner("target", "what the header needs")
@@ -43,25 +49,43 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 
 def _identifiers(device: Device) -> Iterator[Named]:
-    view, scope = device_view(device, names_only=True)
+    scope = scope_of(device)
+    placed = placed_points(device, scope)
+    view = device_view(device, placed, scope)
     yield _OWN, [f"{view.prefix}_{name}" for name in _TYPES]
     yield _OWN, [f"{view.upper}_{name}" for name in (*STATUSES, *_MACROS)]
     for telegram, named in zip(device.telegrams, view.telegrams, strict=True):
         yield Owner("telegram", telegram.name), (named.name, named.words_name)
-    points = {point.item: point for point in device.points}
-    for group in view.groups:
-        for shown, remark in group.entries:
-            if shown is None:
-                yield Owner("point", remark.item), [name for name, _ in remark.defines]
-            else:
-                yield from _of_point(shown, points[shown.item], view)
+    yield from _of_points(device, placed, scope)
     yield from old_names_of(view.aliases)
     frames = frames_of(device)
-    yield from frames.identifiers(device, frames.bus_view(device, view, scope), scope)
+    yield from frames.identifiers(device, frames.bus_view(device, placed, scope), scope)
 
 
-def _of_point(shown: PointView, point: Point, device: DeviceView) -> Iterator[Named]:
-    owner = Owner("point", point.item)
+def _of_points(device: Device, placed: Iterable[Placed], scope: HeaderScope) -> Iterator[Named]:
+    """The identifiers of points, worked out for the first of each kind."""
+    known: dict[Kind, list[tuple[Owner, Pattern]]] = {}
+    generated = iter(placed)
+    for point in device.points:
+        if not point.generated:
+            yield Owner("point", point.item), [name for name, _ in remark_defines(point, words_of(point), scope)]
+            continue
+        _, kind, words = next(generated)
+        if kind not in known:
+            named = _of_point(kind.view, kind.point, scope)
+            known[kind] = [(owner, Pattern(" ".join(names))) for owner, names in named]
+        for owner, names in known[kind]:
+            yield _owner_of(owner, kind.view.words.item, words[0]), names.filled(words).split()
+
+
+def _owner_of(owner: Owner, blank: str, item: str) -> Owner:
+    """The owner with the point's name in place of the blank."""
+    of = None if owner.of is None else _owner_of(owner.of, blank, item)
+    return Owner(owner.kind, item if owner.name == blank else owner.name, of)
+
+
+def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
+    owner = Owner("point", shown.words.item)
     names = [*(name for name, _ in shown.defines), *function_names(shown), *(table.name for table in shown.tables)]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
@@ -75,11 +99,11 @@ def _of_point(shown: PointView, point: Point, device: DeviceView) -> Iterator[Na
         for special in point.specials:
             yield (
                 Owner("code", special.name, shared),
-                _code_names(special, f"{device.upper}_{shared.name.upper()}", point),
+                _code_names(special, f"{scope.upper}_{shared.name.upper()}", point),
             )
     enum = named_numbers(point)
     if shown.enum is not None and enum is not None:
-        whole = Owner("enum", enum.name)
+        whole = Owner("enum", names_of(point, shown.words)[0])
         yield whole, (shown.enum.function, shown.enum.table)
         for entry, (name, _, _) in zip(enum.entries, shown.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 WIDTH = 120
 """No line is longer."""
 
 _LAST = 100
 """Added to the depth of a break behind an opening bracket, so that it is the last choice."""
+
+
+_SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
+"""A string, a bracket, a comma or an operator."""
 
 
 def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
@@ -62,17 +67,18 @@ def wrapped(statement: str, indent: str) -> list[str]:
     return [indent + statement[:at].rstrip(), *wrapped(statement[at:].lstrip(), deeper)]
 
 
-def _places(statement: str) -> Iterable[tuple[int, int]]:
+def _places(statement: str) -> Iterator[tuple[int, int]]:
     """The possible breaks with their depth in brackets: behind a comma or a bracket, or before an operator."""
-    depth, quoted = 0, False
-    for at, character in enumerate(statement):
-        quoted ^= character == '"'
-        if quoted:
-            continue
-        depth += (character in "([{") - (character in ")]}")
-        if character == "," and statement[at + 1 : at + 2] == " ":
-            yield depth, at + 1
-        elif character == "(":
-            yield depth + _LAST, at + 1
-        elif statement.startswith((" ? ", " : ", " || ", " && "), at):
-            yield depth, at
+    depth = 0
+    for match in _SIGNS.finditer(statement):
+        sign = match[0]
+        if sign in "([{":
+            depth += 1
+            if sign == "(":
+                yield depth + _LAST, match.end()
+        elif sign in ")]}":
+            depth -= 1
+        elif sign == ",":
+            yield depth, match.end()
+        elif sign[0] == " ":
+            yield depth, match.start()

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.words import Words
 
 _TABLE = 3
 """From so many ranges on a table is used; fewer are tested one by one."""
@@ -28,9 +29,9 @@ def refused(point: Point) -> str:
     return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
 
 
-def check(point: Point, scope: HeaderScope) -> str:
+def check(point: Point, words: Words, scope: HeaderScope) -> str:
     """The status of writing `raw`, an integer that is no special code."""
-    status = known(point, _status(point, scope))
+    status = known(point, _status(point, words, scope))
     if point.fixed is None or point.bits is not None:
         return status
     bits = f"uint{max(32, point.info.bits)}_t"
@@ -38,16 +39,15 @@ def check(point: Point, scope: HeaderScope) -> str:
     return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
 
 
-def checked(point: Point, name: str, low: int, high: int) -> str:
-    """The status of a number between two limits."""
+def _checked(point: Point, words: Words, low: int, high: int) -> str:
+    """The status of `raw` between two limits."""
     if point.type == "u64":
-        return f"fieldscribe_check_u64({name}, {unsigned(low)}, {unsigned(high)})"
-    name = f"{name} ? 1 : 0" if point.type == "bit" else name
+        return f"fieldscribe_check_u64(raw, {unsigned(low)}, {unsigned(high)})"
     wide = "_wide" if point.info.bits > 16 else ""
-    return f"fieldscribe_check{wide}({name}, {bare(low)}, {bare(high)})"
+    return f"fieldscribe_check{wide}({'raw ? 1 : 0' if point.type == 'bit' else 'raw'}, {words.low}, {words.high})"
 
 
-def _status(point: Point, scope: HeaderScope) -> str:
+def _status(point: Point, words: Words, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
         parts = [_between(interval, point, scope) for interval in intervals]
@@ -58,7 +58,7 @@ def _status(point: Point, scope: HeaderScope) -> str:
     if len(intervals) == 1:
         low, high = point.allowed.fixed[0]
         least, greatest = _bounds_without_codes(point)
-        return "FIELDSCRIBE_OK" if low <= least and high >= greatest else checked(point, "raw", low, high)
+        return "FIELDSCRIBE_OK" if low <= least and high >= greatest else _checked(point, words, low, high)
     table = ranges_table(point, scope)
     if table:
         return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
@@ -68,10 +68,15 @@ def _status(point: Point, scope: HeaderScope) -> str:
     return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
 
 
+def has_ranges_table(point: Point) -> bool:
+    """Whether the point has so many ranges that a table has them."""
+    many = len(point.allowed.intervals) >= _TABLE and not point.allowed.moves
+    return many and point.writable and point.info.bits <= 16
+
+
 def ranges_table(point: Point, scope: HeaderScope) -> str:
     """The name of the table of a point's ranges, which points that have the same share; empty where none is needed."""
-    intervals = point.allowed.intervals
-    if not point.writable or len(intervals) < _TABLE or point.info.bits > 16 or point.allowed.moves:
+    if not has_ranges_table(point):
         return ""
     return scope.tables.setdefault(point.allowed.fixed, f"{scope.prefix}_{point.item}_ranges")
 

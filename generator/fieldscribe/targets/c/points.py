@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.comments import comment_lines
 from fieldscribe.targets.c.conversions import INLINE, Writer, value_type
 from fieldscribe.targets.c.defines import defines
 from fieldscribe.targets.c.layout import filled, function
@@ -14,7 +13,7 @@ from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
 from fieldscribe.targets.c.rules import rule_name
-from fieldscribe.targets.c.scales import is_double
+from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import special_view
 from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
 from fieldscribe.text import c_comment, c_string
@@ -24,27 +23,22 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Enum, Flag, Point
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import SpecialView
+    from fieldscribe.targets.c.words import Words
 
 
-def point_view(point: Point, scope: HeaderScope) -> PointView:
-    """The view of a generated point."""
-    name, macro = f"{scope.prefix}_{point.item}", f"{scope.upper}_{upper(point.item)}"
-    enum = named_numbers(point)
-    special = special_view(point, scope)
+def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: bool, first_codes: bool) -> PointView:
+    """The view of a generated point; it may be the first that has the names of its numbers, or its special codes."""
+    name, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
     shape = shape_of(point)
-    tables = tuple(_tables(point, name, scope))
-    functions = [] if scope.names_only else list(_functions(point, shape, special, scope))
-    several = point.arguments and len(point.arguments) > 1
+    several = len(point.arguments) > 1
     arguments = point.arguments if several and scope.struct(point) == f"{name}_with" else ()
     return PointView(
+        words=words,
         function=name,
         macro=macro,
-        item=point.item,
-        comment=() if scope.names_only else comment_lines(point, scope),
-        defines=tuple(defines(point, macro, scope)),
-        enum=_enum_view(enum, point, scope) if enum is not None else None,
-        tables=tables,
+        defines=tuple(defines(point, words, scope)),
+        enum=_enum_view(point, words, scope) if first_names else None,
+        tables=tuple(_tables(point, name, scope)),
         fields=tuple((raw_type(scope.points[argument]), f"{argument}_raw") for argument in arguments),
         shape=shape,
         raw_type=raw_type(point),
@@ -52,31 +46,33 @@ def point_view(point: Point, scope: HeaderScope) -> PointView:
         encodes=point.encodes_values,
         readable=point.readable,
         writable=point.writable,
-        special=special,
+        special=special_view(point, words, scope, is_first=first_codes),
         scale_arguments=point.scale_arguments,
         limit_arguments=point.limit_arguments,
         rules=shape == "ruled" and rule_name(point, scope) == f"{name}_rule",
-        words=has_words(point),
+        splits=has_words(point),
         bits=point.bits is not None,
         flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
-        functions=tuple(function.text for function in functions if not function.floating),
-        floats=tuple(function.text for function in functions if function.floating),
     )
 
 
 def computes_in_double(point: Point) -> bool:
     """Whether the value is a double even where values are float by choice."""
-    if point.form == "float":
-        return point.info.bits == 64
     if point.form != "scaled":
-        return False
-    low, high = point.outer
-    return bool(point.scale_arguments) or is_double(point, low, high)
+        return point.form == "float" and point.info.bits == 64
+    return bool(point.scale_arguments) or scaled(point, *point.outer).wide
 
 
 def named_numbers(point: Point) -> Enum | None:
     """The enum that names the point's numbers, or each of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
+
+
+def names_of(point: Point, words: Words) -> tuple[str, str]:
+    """The name of the point's enum, also in capitals; an enum of its own has the point's name."""
+    enum = named_numbers(point)
+    assert enum is not None
+    return (words.item, words.macro) if enum.name == point.item else (enum.name, upper(enum.name))
 
 
 def shape_of(point: Point) -> str:
@@ -87,22 +83,22 @@ def shape_of(point: Point) -> str:
     return form if form in ("float", "text", "digits") else "plain"
 
 
-def _functions(point: Point, shape: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
+def functions_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[Function]:
     """All functions of a point."""
-    name, writer = f"{scope.prefix}_{point.item}", Writer(point, special, scope)
-    if shape == "text":
+    name, writer = view.function, Writer(point, view, scope)
+    if view.shape == "text":
         yield from text_functions(point, name)
-    elif shape == "digits":
-        yield from digits_functions(point, name, special, scope)
+    elif view.shape == "digits":
+        yield from digits_functions(point, name, view.special, scope)
     else:
         ways = {"plain": writer.plain, "scaled": writer.scaled, "ruled": writer.ruled, "float": writer.floating}
-        yield from ways[shape]()
+        yield from ways[view.shape]()
     for flag in point.flags:
         if flag.width > 1:
             yield _flag_function(flag, point, name)
-    if has_words(point):
+    if view.splits:
         yield from words_functions(point, name)
-    if point.bits is not None:
+    if view.bits:
         yield from bits_functions(point, name)
 
 
@@ -116,20 +112,18 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
         yield TableView("fieldscribe_range", f"{name}_ranges", "", tuple(rows))
 
 
-def _enum_view(enum: Enum, point: Point, scope: HeaderScope) -> EnumView | None:
-    """The enumerators, at the first point that uses the enum; else None."""
-    if enum.name in scope.enums:
-        return None
-    scope.enums.add(enum.name)
-    prefix = f"{scope.upper}_{upper(enum.name)}"
+def _enum_view(point: Point, words: Words, scope: HeaderScope) -> EnumView:
+    """The enumerators."""
+    enum, (prefix, macro) = named_numbers(point), names_of(point, words)
+    assert enum is not None
     entries: list[tuple[str, str, str]] = []
     named: dict[int, tuple[str, str]] = {}
     for entry in enum.entries:
-        name = f"{prefix}_{upper(entry.name)}"
+        name = f"{scope.upper}_{macro}_{upper(entry.name)}"
         comment = f" /* {c_comment(entry.quantity)} */" if entry.quantity else ""
         entries.append((name, signed(entry.raw), comment))
         named.setdefault(entry.raw, (name, c_string(entry.name)))
-    lookup, table = f"{scope.prefix}_{enum.name}_name", f"{scope.prefix}_{enum.name}_names"
+    lookup, table = f"{scope.prefix}_{prefix}_name", f"{scope.prefix}_{prefix}_names"
     form = _form_of(named, digits=enum.name in scope.digits)
     return EnumView(
         entries=tuple(entries),

@@ -29,9 +29,33 @@ class Numbers(NamedTuple):
         return max(abs(self.low), abs(self.high), 1)
 
 
-@lru_cache(maxsize=4096)
 def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
-    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`."""
+    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`.
+
+    What fails for some numbers fails for more: the first reciprocal for fewer numbers is the first here if it serves.
+    """
+    met = _met(numbers.num, numbers.den, most)
+    for factors, fewer in met.items():
+        if numbers.low <= fewer.low and fewer.high <= numbers.high and (not factors or _serves(factors, numbers, most)):
+            return factors
+    first = _fewest(numbers, most)
+    met[first] = numbers
+    return first
+
+
+@lru_cache(maxsize=4096)
+def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, Numbers]:
+    """The reciprocals of a ratio that were found, with the numbers for which they were."""
+    return {}
+
+
+def _serves(factors: Reciprocal, numbers: Numbers, most: int) -> bool:
+    """Whether a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
+    whole = numbers.size * (factors.much + 1) + (1 << factors.bits) <= most
+    return whole and numbers.size * factors.little <= most and _is_exact(factors, numbers)
+
+
+def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
     for bits in range(1, most.bit_length()):
         much = (numbers.num << bits) // numbers.den
         if numbers.size * (much + 1) + (1 << bits) > most:

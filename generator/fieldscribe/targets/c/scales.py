@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT32, INT64
@@ -24,67 +24,64 @@ if TYPE_CHECKING:
 _EXACT = 1 << 53
 
 
-@dataclass(frozen=True, slots=True)
 class Scaled:
     """The expressions of a scale: `raw_of_count` of `count`, `whole` of `value`, the others of `raw`.
 
-    `count_inside` tests whether the raw number of a count may be written, `count_fits` whether a raw number has one.
-    Both are empty if that is always so. `direct` says that a count equals its raw number. `factor` is the factor of a
-    rule that only multiplies, else empty.
+    `inside` is the test whether the raw number of a count may be written; it is empty if that is always so, as is
+    `count_fits`, the test whether a raw number has a count. `direct` says that a count equals its raw number. `wide`
+    says that values are always double.
     """
 
-    count_type: str
-    count_inside: str
-    count_fits: str
-    counts: tuple[int, int]
-    direct: bool
-    raw_of_count: str
-    count_of_raw: str
-    wide: bool
-    factor: str
-    steps: str
-    value_of_raw: str
+    def __init__(self, point: Point, plan: Plan) -> None:
+        assert point.fixed_scale is not None
+        self._point, self._plan, self._rule = point, plan, point.fixed_scale
+        self.count_type = "int64_t" if plan.count_wide else "int32_t"
+        self.counts = plan.counts
+        self.direct = plan.to_raw.does_nothing
+        self.wide = not plan.fits_float
+        open_ended = plan.counts == (INT64 if plan.count_wide else INT32)
+        self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if plan.count_wide else ''}"
+
+    @cached_property
+    def count_fits(self) -> str:
+        """The test whether a raw number has a count; empty if each has one."""
+        return count_fits(self._plan)
+
+    @cached_property
+    def raw_of_count(self) -> str:
+        """The raw number of a count that is inside."""
+        return cast(raw_type(self._point), raw_of_count(self._plan))
+
+    @property
+    def count_of_raw(self) -> str:
+        """The count of a raw number, cast to its type where C needs that."""
+        number, wide = count_of_raw(self._plan)
+        becomes = self._plan.raws[1] <= INT64[1] and (self._plan.count_wide or not wide)
+        return number if becomes else cast(self.count_type, number)
+
+    @property
+    def factor(self) -> str:
+        """The factor of a rule that only multiplies, else empty."""
+        rule = self._rule
+        return bare(rule.ratio.numerator) if rule.ratio.denominator == 1 and not rule.offset else ""
+
+    @property
+    def steps(self) -> str:
+        """The unrounded raw number of a value: times, divided by, plus; each step is rounded to floating point."""
+        return _steps(self._rule, wide=self.wide)
+
+    @property
+    def value_of_raw(self) -> str:
+        """The value of a raw number."""
+        return _value_of_raw(self._plan, self._point, wide=self.wide)
 
 
 def scaled(point: Point, low: int, high: int) -> Scaled:
     """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    assert point.fixed_scale is not None
-    rule = point.fixed_scale
-    plan = plan_of(point, low, high)
-    kind = "int64_t" if plan.count_wide else "int32_t"
-    first, last = plan.counts
-    open_ended = (first, last) == (INT64 if plan.count_wide else INT32)
-    wide = not plan.fits_float
-    within = "fieldscribe_within_wide" if plan.count_wide else "fieldscribe_within"
-    return Scaled(
-        count_type=kind,
-        count_inside="" if open_ended else f"{within}(count, {bare(first)}, {bare(last)})",
-        count_fits=count_fits(plan),
-        counts=plan.counts,
-        direct=plan.to_raw.does_nothing,
-        raw_of_count=cast(raw_type(point), raw_of_count(plan)),
-        count_of_raw=_count(plan, kind),
-        wide=wide,
-        factor=bare(rule.ratio.numerator) if rule.ratio.denominator == 1 and not rule.offset else "",
-        steps=_steps(rule, wide=wide),
-        value_of_raw=_value_of_raw(plan, point, wide=wide),
-    )
-
-
-def _count(plan: Plan, kind: str) -> str:
-    """The count of a raw number, cast to its type where C needs that."""
-    number, wide = count_of_raw(plan)
-    becomes = plan.raws[1] <= INT64[1] and (kind == "int64_t" or not wide)
-    return number if becomes else cast(kind, number)
-
-
-def is_double(point: Point, low: int, high: int) -> bool:
-    """Whether the values of a scaled point are always double."""
-    return not plan_of(point, low, high).fits_float
+    return Scaled(point, plan_of(point, low, high))
 
 
 def _steps(rule: Linear, *, wide: bool) -> str:
-    """The unrounded raw number of a value: times, divided by, plus; each step is rounded to floating point."""
     kind, tail = ("double", "_wide") if wide else ("fieldscribe_real", "")
     text = "value"
     if rule.ratio.numerator != 1:

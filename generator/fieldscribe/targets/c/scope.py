@@ -21,9 +21,8 @@ class HeaderScope:
     """The state while the header of a device is built.
 
     `errata` are the ids of errata that change a fact, `digits` the names of enums of decimal digits, `spaces` the space
-    of each group whose points all have the same. `enums` and `codes` are the names of those that were emitted already,
-    `tables` the names of tables by their contents. `names_only` leaves out comments and functions, which take most of
-    the time. `grouped` says that the function being written gets the raw numbers of other points in a struct.
+    of each group whose points all have the same. `tables` are the names of tables by their contents. `grouped` says
+    that the function being written gets the raw numbers of other points in a struct.
     """
 
     prefix: str
@@ -32,10 +31,7 @@ class HeaderScope:
     errata: frozenset[str]
     digits: frozenset[str]
     spaces: Mapping[str, str | None]
-    names_only: bool = False
     grouped: bool = False
-    enums: set[str] = field(default_factory=set)
-    codes: set[str] = field(default_factory=set)
     tables: dict[object, str] = field(default_factory=dict)
 
     @property
@@ -63,17 +59,18 @@ class HeaderScope:
         return ("with",) if len(names) > 1 else tuple(map(self.raw, names))
 
 
-def scope_of(device: Device, *, names_only: bool = False) -> HeaderScope:
+def scope_of(device: Device) -> HeaderScope:
     """A fresh scope for a device."""
-    digits = frozenset(point.digits.enum.name for point in device.points if point.digits is not None)
+    shapes = {id(point.shape): point.shape for point in device.points}.values()
+    digits = frozenset(shape.digits.enum.name for shape in shapes if shape.digits is not None)
     known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
-    return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device), names_only)
+    return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device))
 
 
 def _spaces(device: Device) -> dict[str, str | None]:
     """The space of each group; None if its points have different ones."""
     spaces: dict[str, str | None] = {}
-    for point in device.points:
-        if spaces.setdefault(point.group, point.space) != point.space:
-            spaces[point.group] = None
+    for terms in {id(point.terms): point.terms for point in device.points}.values():
+        if spaces.setdefault(terms.group, terms.space) != terms.space:
+            spaces[terms.group] = None
     return spaces

@@ -18,18 +18,22 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point, Special
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define
+    from fieldscribe.targets.c.words import Words
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """The ends of the functions' names, behind the name of the point or of the shared codes."""
 
 
-def special_view(point: Point, scope: HeaderScope) -> SpecialView | None:
-    """What the functions of a point need for its special codes; None if it has none."""
+def special_view(point: Point, words: Words, scope: HeaderScope, *, is_first: bool) -> SpecialView | None:
+    """What the functions of a point need for its special codes; None if it has none.
+
+    `is_first` says that no earlier point has the same shared codes.
+    """
     if not point.specials:
         return None
-    own_prefix, name = f"{scope.prefix}_{point.item}", f"{scope.prefix}_{owner(point)}"
+    own_prefix, name = f"{scope.prefix}_{words.item}", f"{scope.prefix}_{owner(point, words)}"
     return SpecialView(
-        codes=_codes(point, name, scope),
+        codes=_codes(point, name, scope) if is_first or not point.shared_codes else None,
         test=f"{name}_is_special",
         written=any(special.writable for special in point.specials),
         aliases=tuple((own_prefix + tail, name + tail) for tail in FUNCTIONS) if own_prefix != name else (),
@@ -52,9 +56,9 @@ def no_code(special: SpecialView | None) -> str:
     return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
 
 
-def owner(point: Point) -> str:
+def owner(point: Point, words: Words) -> str:
     """The name that prefixes the codes of a point: its own, or that of the shared codes."""
-    return point.shared_codes or point.item
+    return point.shared_codes or words.item
 
 
 def code_defines(point: Point, macro: str) -> Iterator[Define]:
@@ -77,22 +81,21 @@ def encoded_limits(point: Point) -> tuple[int, int]:
 
     Values are computed in signed 64 bits, so that larger codes need no check.
     """
+    if not point.specials:
+        return point.outer
     low, high = point.outer
     high = max(high, *(special.high for special in point.specials))
     return min(low, *(special.low for special in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
-def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView | None:
-    """The set of codes, at the first point that has it; else None."""
-    if name in scope.codes:
-        return None
-    scope.codes.add(name)
+def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView:
+    """The set of codes, as the first point that has it brings it."""
     shared = point.shared_codes
     return CodesView(
         comment=c_comment(f"Special codes of {shared}: raw numbers that are no quantity.") if shared else "",
         defines=tuple(code_defines(point, f"{scope.upper}_{upper(shared)}")) if shared else (),
         name=name,
-        functions=() if scope.names_only else tuple(_functions(point, name)),
+        functions=tuple(_functions(point, name)),
     )
 
 

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.targets.c.words import Words
 
 Define = tuple[str, str]
 """A macro's name and its literal."""
@@ -65,16 +69,15 @@ class SpecialView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One generated point.
+    """A generated point, or blanks in place of the words of all points of a kind.
 
-    `fields` are those of the struct with the raw numbers of other points, if functions need several. `floats` are the
-    functions that FIELDSCRIBE_NO_FLOAT leaves out.
+    `fields` are those of the struct with the raw numbers of other points, if functions need several. `splits` says that
+    functions split the raw number into words and join them.
     """
 
+    words: Words
     function: str
     macro: str
-    item: str
-    comment: tuple[str, ...]
     defines: tuple[Define, ...]
     enum: EnumView | None
     tables: tuple[TableView, ...]
@@ -89,28 +92,14 @@ class PointView:
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
     rules: bool
-    words: bool
+    splits: bool
     bits: bool
     flags: tuple[str, ...]
-    functions: tuple[str, ...]
-    floats: tuple[str, ...]
 
-
-@dataclass(frozen=True, slots=True)
-class RemarkView:
-    """A remark on a point that is not generated: why, and its address if it can be read or written raw."""
-
-    item: str
-    comment: tuple[str, ...]
-    defines: tuple[Define, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class GroupView:
-    """A section of the header: generated points, and remarks on those that are not."""
-
-    title: str
-    entries: tuple[tuple[PointView | None, RemarkView], ...]
+    @property
+    def takes_others(self) -> bool:
+        """Whether functions take raw numbers of other points."""
+        return bool(self.scale_arguments or self.limit_arguments)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +142,5 @@ class DeviceView:
     digest: str
     statuses: tuple[str, ...]
     telegrams: tuple[TelegramView, ...]
-    groups: tuple[GroupView, ...]
     aliases: tuple[AliasView, ...]
     double: bool

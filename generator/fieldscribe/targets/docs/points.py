@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.patterns import blanks
+from fieldscribe.targets.docs.alike import Alike
 from fieldscribe.targets.docs.cells import (
     Table,
     anchor,
@@ -35,6 +37,28 @@ _KEEPS = {
 }
 
 
+[_BITS] = blanks("?")
+"""Where the link to the table of its bits stands in the remarks on a point."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Meaning:
+    """The cells of a point that follow from more than its identity."""
+
+    type: str
+    access: str
+    range: str
+    raw_range: str
+    scale: str
+    default: str
+    remarks: str
+    """With a blank for the link to the bits of a word."""
+
+    def remarks_on(self, point: Point) -> str:
+        """The remarks with the point's own links."""
+        return self.remarks.replace(_BITS, link("bits", point.item)) if point.shape.flags else self.remarks
+
+
 @dataclass(frozen=True, slots=True)
 class FlagsView:
     """The bits of one word."""
@@ -62,9 +86,10 @@ def group_views(device: Device) -> Iterator[GroupView]:
     for point in device.points:
         members.setdefault(point.group, []).append(point)
     by_name = {point.name: point for point in device.points}
+    meanings = Alike(lambda point: _meaning(device, point, by_name))
     for group in device.groups:
         if group.name in members or group.note:
-            yield _group_view(device, group, members.get(group.name, []), by_name)
+            yield _group_view(device, group, members.get(group.name, []), meanings)
 
 
 def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
@@ -72,7 +97,7 @@ def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(key for point in points for key in point.references))
 
 
-def _group_view(device: Device, group: Group, points: list[Point], by_name: Mapping[str, Point]) -> GroupView:
+def _group_view(device: Device, group: Group, points: list[Point], meanings: Alike[_Meaning]) -> GroupView:
     spaces = {point.space for point in points}
     several = len(device.documents) > 1
     source = source_text(group.source, several)
@@ -86,18 +111,17 @@ def _group_view(device: Device, group: Group, points: list[Point], by_name: Mapp
         name=code(group.name),
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
-        points=_point_table(device, points, by_name, len(spaces) > 1, several) if points else None,
+        points=_point_table(points, meanings, len(spaces) > 1, several) if points else None,
         flags=tuple(flags),
     )
 
 
-def _point_table(
-    device: Device, points: list[Point], by_name: Mapping[str, Point], with_space: bool, several: bool
-) -> Table | None:
+def _point_table(points: list[Point], meanings: Alike[_Meaning], with_space: bool, several: bool) -> Table | None:
     references = [
         (cell(key.capitalize()), [cell(str(point.references.get(key, ""))) for point in points])
         for key in reference_heads(points)
     ]
+    said = [meanings.of(point) for point in points]
     return table(
         [
             ("Code", [cell(point.code or "") for point in points]),
@@ -107,15 +131,27 @@ def _point_table(
             ("Wire address", [wording.words_text(point) for point in points]),
             ("Index", ["" if point.index is None else str(point.index) for point in points]),
             *references,
-            ("Type", [wording.type_text(point) for point in points]),
-            ("Access", [point.access for point in points]),
-            ("Range", [_range_cell(point, by_name) for point in points]),
-            ("Raw range", [cell(wording.raw_range_text(point)) if _has_rule(point) else "" for point in points]),
-            ("Scale", [cell(wording.scale_text(point, by_name)) for point in points]),
-            ("Default", [_default_cell(point) for point in points]),
-            ("Remarks", ["; ".join(_remarks(device, point, by_name)) for point in points]),
+            ("Type", [meaning.type for meaning in said]),
+            ("Access", [meaning.access for meaning in said]),
+            ("Range", [meaning.range for meaning in said]),
+            ("Raw range", [meaning.raw_range for meaning in said]),
+            ("Scale", [meaning.scale for meaning in said]),
+            ("Default", [meaning.default for meaning in said]),
+            ("Remarks", [meaning.remarks_on(point) for meaning, point in zip(said, points, strict=True)]),
             ("Source", [cell(source_text(point.source, several)) for point in points]),
         ]
+    )
+
+
+def _meaning(device: Device, point: Point, by_name: Mapping[str, Point]) -> _Meaning:
+    return _Meaning(
+        wording.type_text(point),
+        point.access,
+        "" if point.flags else cell(wording.range_text(point, by_name)),
+        cell(wording.raw_range_text(point)) if _has_rule(point) else "",
+        cell(wording.scale_text(point, by_name)),
+        cell(wording.default_text(point)),
+        "; ".join(_remarks(device, point, by_name)),
     )
 
 
@@ -127,14 +163,6 @@ def _ends(point: Point) -> Iterator[object]:
     for interval in point.allowed.intervals:
         yield interval.low
         yield interval.high
-
-
-def _range_cell(point: Point, by_name: Mapping[str, Point]) -> str:
-    return "" if point.flags else cell(wording.range_text(point, by_name))
-
-
-def _default_cell(point: Point) -> str:
-    return cell(wording.default_text(point))
 
 
 def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
@@ -172,7 +200,7 @@ def _repeated(point: Point) -> Iterator[str]:
 
 def _names(point: Point) -> Iterator[str]:
     if point.flags:
-        yield f"bits: {link('bits', point.item)}"
+        yield f"bits: {_BITS}"
     if point.fixed is not None:
         yield cell(wording.fixed_text(point))
     if point.digits is not None:

@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe import text, wording
+from fieldscribe.targets.docs.alike import Alike
 from fieldscribe.targets.docs.points import reference_heads
 from fieldscribe.wording.exact import hex_text
 
@@ -21,13 +22,13 @@ def sheet_of(device: Device) -> list[str]:
     references = reference_heads(device.points)
     by_name = {point.name: point for point in device.points}
     heads = ("code", "name", "variant", "group", *(f"title_{key}" for key in languages), *_PLACE, *references, *_FACTS)
+    meanings = Alike(lambda point: _meaning(device, point, by_name))
     lines = [",".join(map(_cell, heads))]
     for point in device.points:
         titles = [_cell(point.title.get(key, "")) for key in languages]
         printed = [_cell(str(point.references.get(key, ""))) for key in references]
-        cells = [*_identity(point), *titles, *_place(point), *printed]
-        cells += [*_meaning(point, by_name), *_names(point), *_behaviour(device, point, by_name), *_origin(point)]
-        lines.append(",".join(cells))
+        meaning, reason = meanings.of(point)
+        lines.append(",".join((*_identity(point), *titles, *_place(point), *printed, meaning, *_source(point), reason)))
     return lines
 
 
@@ -59,7 +60,18 @@ def _hexes(addresses: tuple[int, ...]) -> str:
     return " ".join(map(hex_text, addresses))
 
 
-def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
+def _meaning(device: Device, point: Point, by_name: dict[str, Point]) -> tuple[str, str]:
+    """The cells before and behind the place in the manual."""
+    cells = (
+        *_numbers(point, by_name),
+        *_names(point),
+        *_behaviour(device, point, by_name),
+        _cell("; ".join(point.errata)),
+    )
+    return ",".join(cells), f"{'yes' if point.generated else 'no'},{_cell(point.reason or '')}"
+
+
+def _numbers(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
     outer = None if point.info.floating else wording.outer_raw(point)
     return (
         point.type if point.untyped is None else _cell(wording.type_text(point)),
@@ -103,14 +115,7 @@ def _behaviour(device: Device, point: Point, by_name: dict[str, Point]) -> tuple
     )
 
 
-def _origin(point: Point) -> tuple[str, ...]:
+def _source(point: Point) -> tuple[str, ...]:
     source = point.source
-    return (
-        _cell("; ".join(point.errata)),
-        _cell(source.document),
-        _cell(source.section or ""),
-        _cell(source.page or ""),
-        "" if source.line is None else str(source.line),
-        "yes" if point.generated else "no",
-        _cell(point.reason or ""),
-    )
+    line = "" if source.line is None else str(source.line)
+    return _cell(source.document), _cell(source.section or ""), _cell(source.page or ""), line

@@ -46,6 +46,7 @@ class Kind:
     """Points of one shape on the same terms. `alike` is the same for all whose text differs in words only."""
 
     alike: tuple[object, ...]
+    has_flags: bool
     numbered: bool
     """Whether addresses are written in decimal."""
     named: str
@@ -88,7 +89,7 @@ class Kinds:
         if kind is None:
             named, remarks = self._scope.names.numbers_class(shape), _remarks(point, self._scope)
             alike = (self._number(self._shapes, shape, _facts_of), terms)
-            kind = self._kinds[key] = Kind(alike, point.terms.space in NUMBERED, named, remarks)
+            kind = self._kinds[key] = Kind(alike, shape.form == "flags", point.terms.space in NUMBERED, named, remarks)
         return kind
 
     def _number(self, numbers: dict[int, int], shared: Shared, facts_of: Callable[[Shared], object]) -> int:

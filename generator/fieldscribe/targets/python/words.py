@@ -42,12 +42,12 @@ def words_of(point: Point, kind: Kind, limits: Limits, scope: PackageScope) -> t
     """The words of a point, one behind the other."""
     place, code, index = point.place, point.code, point.index
     return (
-        attribute(point.item),
+        attribute(point.name if point.variant is None else point.item),
         _docstring(point, kind, limits, scope),
         python_string(point.terms.group),
         python_string(code) if code else "",
         "" if point.default is None else number(point.default),
-        kind.named or scope.names.word_class(point),
+        scope.names.word_class(point) if kind.has_flags else kind.named,
         "" if index is None else str(index),
         *addresses_of(place.addresses, numbered=kind.numbered),
         *[

@@ -10,17 +10,17 @@ from fieldscribe.targets.vectors.samples import codes
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.model import Digits, Point
+    from fieldscribe.model import Digits, Shape
     from fieldscribe.targets.vectors.lines import Lines
 
 _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range(0x20, 0x7F), *range(0xA0, 0x100)))}
 
 
-def text(lines: Lines, point: Point) -> None:
+def text(lines: Lines, shape: Shape) -> None:
     """Vectors of a text: full, shorter, empty, too long, ending in blanks, and with bytes that are no characters."""
-    if point.text is None:
+    if shape.text is None:
         return
-    size = point.text.characters
+    size = shape.text.characters
     alphabet = bytes(0x41 + place % 26 for place in range(size))
     received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
     received += [
@@ -28,14 +28,14 @@ def text(lines: Lines, point: Point) -> None:
         b"\0" * size,
         bytes(0xA0 + place % 0x60 for place in range(size)),
     ]
-    if point.readable:
+    if shape.readable:
         for data in dict.fromkeys(received):
             lines.add("text_decode", _words(data.ljust(size)), data.rstrip(b" "))
-    if not point.writable:
+    if not shape.writable:
         return
     tried = [*received, alphabet + b"Z", alphabet + b" ", b" ~", b"\x7f", b"\x1f", b"A\0", b"\xe4", b"\xff"]
     for data in dict.fromkeys(tried):
-        good = len(data) <= size and _WRITABLE[point.text.encoding].issuperset(data)
+        good = len(data) <= size and _WRITABLE[shape.text.encoding].issuperset(data)
         lines.add("text_encode", data, *(("ok", _words(data.ljust(size))) if good else ("out_of_range",)))
 
 
@@ -43,9 +43,9 @@ def _words(data: bytes) -> list[int]:
     return [data[at] << 8 | data[at + 1] for at in range(0, len(data), 2)]
 
 
-def digits(lines: Lines, point: Point) -> None:
+def digits(lines: Lines, shape: Shape) -> None:
     """Vectors of words of digits: each digit with all its numbers and some that it cannot have."""
-    layout = point.digits
+    layout = shape.digits
     if layout is None:
         return
     allowed = {entry.raw for entry in layout.enum.entries}
@@ -57,7 +57,7 @@ def digits(lines: Lines, point: Point) -> None:
     )
     raws = {
         raw: None
-        for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF, *codes(point))
+        for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF, *codes(shape))
         if raw <= 0xFFFF
     }
     for raw in raws:
@@ -65,16 +65,16 @@ def digits(lines: Lines, point: Point) -> None:
         for place in places:
             digit, rest = divmod(rest, place)
             digits_of_raw.append(digit)
-        code = code_of(point, raw)
-        if point.readable:
+        code = code_of(shape, raw)
+        if shape.readable:
             lines.add("digits", raw, *(("ok", digits_of_raw) if code is None else ("special", None, code.name)))
-        if point.writable:
+        if shape.writable:
             coded = None if code is None else "ok" if code.writable else "special"
             lines.add("check", raw, coded or ("ok" if allowed.issuperset(digits_of_raw) else "unknown_value"))
-    for digits_of_number in numbers if point.writable else ():
+    for digits_of_number in numbers if shape.writable else ():
         raw = sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
         good = allowed.issuperset(digits_of_number) and raw <= 0xFFFF
-        status = "unknown_value" if not good else "ok" if code_of(point, raw) is None else "special"
+        status = "unknown_value" if not good else "ok" if code_of(shape, raw) is None else "special"
         lines.add("digits_encode", digits_of_number, status, raw if status == "ok" else None)
 
 

@@ -7,21 +7,17 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.targets.vectors.bus import add_limits
-from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.exchanges import Exchanges
-from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.identity import Identities
+from fieldscribe.targets.vectors.lines import Lines, rows
+from fieldscribe.targets.vectors.meaning import Meanings
 from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.places import address, aliases, facts, words
-from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.shapes import Shapes
-from fieldscribe.targets.vectors.shown import shown
-from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
+from fieldscribe.targets.vectors.sheets import Sheets
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.model import Bus, Device
     from fieldscribe.targets.vectors.exchanges import Wire
 
 
@@ -46,10 +42,12 @@ class OfFamily:
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
     family_part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
-    lines = Lines(family_part.KINDS)
-    shapes = Shapes()
+    lines = Lines(rows(family_part.KINDS))
     oracle = Oracle({point.name: point for point in reversed(device.points)})
-    exchanges = [Exchanges(lines, oracle, device, wire) for wire in family_part.wires(device)]
+    meanings = Meanings()
+    sheets = Sheets(lines, oracle, meanings)
+    identities = Identities(lines, device.variants)
+    exchanges = [Exchanges(lines, oracle, meanings, device, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
         collector.open()
@@ -58,9 +56,12 @@ def collect(device: Device) -> Lines:
     _limits(lines, device, family_part)
     for point in device.points:
         if point.generated:
-            _point(lines, oracle, point, device.variants, deep=shapes.is_new(point))
+            meaning = meanings.of(point)
+            identities.add(point)
+            lines.include(sheets.of(meaning))
+            lines.include(sheets.of_bits(meaning))
             for collector in usual:
-                collector.of(point)
+                collector.of(point, meaning)
             lines.gather()
     for collector in others:
         collector.open()
@@ -83,27 +84,3 @@ def _limits(lines: Lines, device: Device, family_part: OfFamily) -> None:
     family_part.limits(lines, device.bus)
     for telegram in device.telegrams:
         lines.add("size", "words", telegram.name, telegram.words)
-
-
-def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]], *, deep: bool) -> None:
-    lines.set("point", point.item)
-    address(lines, point)
-    facts(lines, point, variants)
-    aliases(lines, point)
-    if point.form == "scaled":
-        scaled(lines, oracle, point, deep=deep)
-    elif point.form == "float":
-        floats(lines, point, deep=deep)
-    elif point.form == "text":
-        text(lines, point)
-    elif point.form == "digits":
-        digits(lines, point)
-    else:
-        whole(lines, oracle, point, deep=deep)
-    shown(lines, oracle, point, deep=deep)
-    names(lines, point, deep=deep)
-    specials(lines, point)
-    flags(lines, point)
-    fixed(lines, point)
-    bits(lines, point)
-    words(lines, point)

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.meaning import ascending
 from fieldscribe.targets.vectors.numbers import as_raw, bits32, bits64
-from fieldscribe.targets.vectors.oracle import Oracle, admit
+from fieldscribe.targets.vectors.oracle import Oracle, admit, code_of, outer_bounds
 from fieldscribe.targets.vectors.whole import with_fixed
+from fieldscribe.targets.vectors.words import words_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning, Meanings
 
 Script = list[tuple[bytes, bytes]]
 """The requests of an exchange with their answers."""
-
-OTHER_BITS = 0xA5C3
-"""The bits of a shared word around those of the point."""
 
 
 class Wire(Protocol):
@@ -38,14 +39,38 @@ class Wire(Protocol):
         """The exchange with bad answers, each with the status that it gives."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Usual:
+    """What the exchanges of all points with one meaning carry."""
+
+    meaning: Meaning
+    settings: dict[str, int]
+    needs: Script
+    """The exchanges that read the settings."""
+    raws: tuple[int, ...]
+    """The raw numbers that are written; the first one is read."""
+    received: tuple[int, ...]
+    """The words of the number that is read."""
+    sent: tuple[tuple[int, ...], ...]
+    """The words of each number, written where the point is read."""
+
+    def words_at(self, point: Point) -> tuple[tuple[int, ...], ...]:
+        """The words that are written, which may lie in another order than those that are read."""
+        if point.write_place is None:
+            return self.sent
+        order = ascending(self.meaning.shape, point.write_place.addresses)
+        return tuple(words_of(self.meaning, order, raw) for raw in self.raws)
+
+
 class Exchanges:
     """The exchanges of one device."""
 
-    def __init__(self, lines: Lines, oracle: Oracle, device: Device, wire: Wire) -> None:
-        self.lines, self.oracle, self.wire = lines, oracle, wire
+    def __init__(self, lines: Lines, oracle: Oracle, meanings: Meanings, device: Device, wire: Wire) -> None:
+        self.lines, self.oracle, self.meanings, self.wire = lines, oracle, meanings, wire
         self.points = {point.item: point for point in device.points if point.generated}
         self.spoiled: set[tuple[str, str]] = set()
         """The kinds and spaces that have vectors with bad answers already."""
+        self._usual: dict[Meaning, _Usual | None] = {}
 
     def open(self) -> None:
         """Set the unit and the line for all exchanges."""
@@ -57,35 +82,48 @@ class Exchanges:
             kinds = (("read", point.readable), ("write", point.writable))
             new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
             if new and point.bits is None and point.text is None and not point.arguments:
-                self.of(point)
+                self.lines.set("point", point.item)
+                self.of(point, self.meanings.of(point))
 
-    def of(self, point: Point) -> None:
-        """Add the exchanges of a point: read, write, and write permanently."""
-        if not point.addresses:
+    def of(self, point: Point, meaning: Meaning) -> None:
+        """Add the exchanges of the point that is set: read, write, and write permanently."""
+        if meaning not in self._usual:
+            self._usual[meaning] = self._of_meaning(meaning)
+        usual = self._usual[meaning]
+        if usual is None:
             return
-        settings = samples.settings(self.oracle, point)[0] if point.arguments else {}
-        needs = self._needs(settings)
-        raw = None if needs is None else typical(self.oracle, point, settings)
-        if raw is None:
-            return
-        self.lines.set("point", point.item)
-        self.lines.set("with", settings)
-        if point.readable:
-            words = words_of(point, point.addresses, raw, received=True)
-            self._add("read", point, raw, self.wire.reads(point, words), needs or [])
-        if point.writable:
-            for kind, keep in (("write", False), ("store", True)):
-                for number in (raw, 0) if point.type == "bit" and point.outer == (0, 1) else (raw,):
-                    self._add(kind, point, number, self._writing(point, number, keep=keep), needs or [])
+        if usual.settings:
+            self.lines.set("with", usual.settings)
+        if meaning.shape.readable:
+            self._add("read", point, usual, usual.raws[0], self.wire.reads(point, usual.received))
+        if meaning.shape.writable:
+            for kind, keep in _WRITING:
+                for raw, words in zip(usual.raws, usual.words_at(point), strict=True):
+                    script = self.wire.writes(point, words, keep=keep)
+                    if script is not None and meaning.bits is not None:
+                        script = self._beside(point, meaning, raw, script)
+                    self._add(kind, point, usual, raw, script)
 
-    def _writing(self, point: Point, raw: int, *, keep: bool) -> Script | None:
-        words = words_of(point, writing_addresses(point), raw)
-        script = self.wire.writes(point, words, keep=keep)
-        if script is None or point.bits is None:
-            return script
-        if not point.readable:
+    def _of_meaning(self, meaning: Meaning) -> _Usual | None:
+        """What exchanges with this meaning carry; None without an address, or if what it needs cannot be read."""
+        if meaning.order is None:
             return None
-        before = self.wire.reads(point, words_of(point, point.addresses, as_raw(point, ~raw), received=True))
+        settings = samples.settings(self.oracle, meaning)[0]
+        needs = self._needs(settings)
+        raw = None if needs is None else typical(self.oracle, meaning, settings)
+        if needs is None or raw is None:
+            return None
+        switch = meaning.shape.type == "bit" and outer_bounds(meaning.shape, meaning.allowed) == (0, 1)
+        raws = (raw, 0) if switch else (raw,)
+        sent = tuple(words_of(meaning, meaning.order, raw) for raw in raws)
+        return _Usual(meaning, settings, needs, raws, words_of(meaning, meaning.order, raw, received=True), sent)
+
+    def _beside(self, point: Point, meaning: Meaning, raw: int, script: Script) -> Script | None:
+        """The exchange that writes a bit group: its word is read before."""
+        if not meaning.shape.readable:
+            return None
+        other = as_raw(meaning.shape, ~raw)
+        before = self.wire.reads(point, words_of(meaning, (0,), other, received=True))
         return None if before is None else before + script
 
     def _needs(self, settings: dict[str, int]) -> Script | None:
@@ -95,23 +133,29 @@ class Exchanges:
             other = self.points.get(name)
             if other is None or not other.readable or not other.addresses or other.scale_arguments:
                 return None
-            read = self.wire.reads(other, words_of(other, other.addresses, raw))
+            meaning = self.meanings.of(other)
+            read = self.wire.reads(other, words_of(meaning, meaning.order or (), raw))
             if read is None:
                 return None
             script += read
         return script
 
-    def _add(self, kind: str, point: Point, raw: int, script: Script | None, needs: Script) -> None:
+    def _add(self, kind: str, point: Point, usual: _Usual, raw: int, script: Script | None) -> None:
         if script is None:
             return
-        words = None if point.text is None else words_of(point, point.addresses, raw)
-        number = raw if point.text is None else None
-        self.lines.add(kind, script, "ok", number, words, needs)
-        if (kind, point.space) in self.spoiled or point.bits is not None or needs or point.text is not None:
+        meaning, needs = usual.meaning, usual.needs
+        if meaning.shape.text is not None:
+            self.lines.add(kind, script, "ok", None, words_of(meaning, meaning.order or (), raw), needs)
+            return
+        self.lines.add(kind, script, "ok", raw, *((None, needs) if needs else ()))
+        if (kind, point.space) in self.spoiled or meaning.bits is not None or needs:
             return
         self.spoiled.add((kind, point.space))
         for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
-            self.lines.add(kind, bad, status, None if kind == "read" else number)
+            self.lines.add(kind, bad, status, None if kind == "read" else raw)
+
+
+_WRITING = (("write", False), ("store", True))
 
 
 def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
@@ -125,52 +169,31 @@ def writing_addresses(point: Point) -> tuple[int, ...]:
     return point.addresses if point.write_place is None else point.write_place.addresses
 
 
-def words_of(point: Point, addresses: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
-    """The words of a raw number as they travel, in ascending order of address.
-
-    A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
-    """
-    count = len(addresses) if point.text is not None else point.words
-    if point.bits is not None:
-        low, ones = point.bits[1], (1 << point.width) - 1
-        word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
-        if point.fixed is None:
-            return (word,)
-        constant = point.fixed.bits ^ point.fixed.mask if received else point.fixed.bits
-        return (word & ~point.fixed.mask | constant,)
-    pattern = raw & (1 << 16 * count) - 1
-    parts = [pattern >> 16 * (count - 1 - part) & 0xFFFF for part in range(count)]
-    if len(addresses) != count:
-        return tuple(parts)
-    return tuple(part for _, part in sorted(zip(addresses, parts, strict=True)))
-
-
-def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | None:
+def typical(oracle: Oracle, meaning: Meaning, settings: dict[str, int]) -> int | None:
     """A typical raw number to write: two thirds up the range, odd if possible."""
-    if point.text is not None:
-        return int.from_bytes(bytes(0x41 + place % 26 for place in range(point.text.characters)), "big")
-    if point.digits is not None:
-        known = sorted(entry.raw for entry in point.digits.enum.entries if entry.raw < 10)
-        digits = [known[place % len(known)] for place in range(point.digits.count)]
+    shape = meaning.shape
+    if shape.text is not None:
+        return int.from_bytes(bytes(0x41 + place % 26 for place in range(shape.text.characters)), "big")
+    if shape.digits is not None:
+        known = sorted(entry.raw for entry in shape.digits.enum.entries if entry.raw < 10)
+        digits = [known[place % len(known)] for place in range(shape.digits.count)]
         return int("".join(map(str, digits))) & 0xFFFF
-    if point.form == "float":
-        return _typical_pattern(point)
-    ratio = oracle.ratio(point, settings) if point.scale is not None else None
-    limits = oracle.limits(point, settings)
+    if shape.form == "float":
+        return _typical_pattern(meaning)
+    ratio = oracle.ratio(shape, settings) if shape.scale is not None else None
+    limits = oracle.limits(shape, meaning.allowed, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
     low, high = max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
-    tried = (upper | 1, upper, *(raw for interval in limits for raw in interval))
-    candidates = (with_fixed(point, raw) for raw in tried)
-    return next((raw for raw in candidates if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
+    for raw in (upper | 1, upper, *(raw for interval in limits for raw in interval)):
+        put = with_fixed(meaning, raw)
+        if admit(shape, put, limits) == "ok" and code_of(shape, put) is None:
+            return put
+    return None
 
 
-def _typical_pattern(point: Point) -> int:
-    low, high = point.allowed.units[0] if point.allowed.units else (0, 100)
+def _typical_pattern(meaning: Meaning) -> int:
+    low, high = meaning.allowed.units[0] if meaning.allowed.units else (0, 100)
     value = float(low) + (float(high) - float(low)) / 3
-    return bits64(value) if point.width == 64 else bits32(value) or 0
-
-
-def _is_special(point: Point, raw: int) -> bool:
-    return any(special.low <= raw <= special.high for special in point.specials)
+    return bits64(value) if meaning.shape.width == 64 else bits32(value) or 0

@@ -10,8 +10,9 @@ from fieldscribe.targets.vectors.oracle import code_of
 from fieldscribe.targets.vectors.samples import codes
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point
+    from fieldscribe.model import Allowed, Shape
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning
 
 _PATTERNS_32 = (
     0,
@@ -44,22 +45,23 @@ _GREATEST_32 = 2.0**128 - 2.0**104
 _GREATEST_64 = 1.7976931348623157e308
 
 
-def floats(lines: Lines, point: Point, *, deep: bool) -> None:
+def floats(lines: Lines, meaning: Meaning, *, deep: bool) -> None:
     """Vectors of decoding, encoding and checking; limits are compared after conversion to the type."""
-    wide = point.width == 64
-    limits = _limits(point, wide)
-    if point.readable:
+    shape, allowed = meaning.shape, meaning.allowed
+    wide = shape.width == 64
+    limits = _limits(allowed, wide)
+    if shape.readable:
         patterns = dict.fromkeys(_PATTERNS_64 if wide else _PATTERNS_32 + _EDGES_32)
-        patterns = dict.fromkeys((*patterns, *codes(point)) if deep else (*patterns,)[-2:])
+        patterns = dict.fromkeys((*patterns, *codes(shape)) if deep else (*patterns,)[-2:])
         for bits in patterns:
-            lines.add("decode", bits, *_decoded(point, bits))
-    if point.writable:
-        for value in dict.fromkeys(map(_Same, _values(point, limits, wide, deep=deep))):
-            lines.add("encode", value.value, *_encoded(point, value.value, limits))
-        for bits in dict.fromkeys((*_patterns_to_check(limits, wide), *codes(point))):
-            code = code_of(point, bits)
+            lines.add("decode", bits, *_decoded(shape, bits))
+    if shape.writable:
+        for value in dict.fromkeys(map(_Same, _values(meaning, limits, wide, deep=deep))):
+            lines.add("encode", value.value, *_encoded(shape, value.value, limits))
+        for bits in dict.fromkeys((*_patterns_to_check(limits, wide), *codes(shape))):
+            code = code_of(shape, bits)
             coded = None if code is None else "ok" if code.writable else "special"
-            lines.add("check", bits, coded or _admitted(float_of_bits(bits, point.width), limits))
+            lines.add("check", bits, coded or _admitted(float_of_bits(bits, shape.width), limits))
 
 
 class _Same:
@@ -75,15 +77,15 @@ class _Same:
         return hash(bits64(self.value))
 
 
-def _decoded(point: Point, bits: int) -> tuple[object, ...]:
-    code = code_of(point, bits)
-    return ("ok", float_of_bits(bits, point.width)) if code is None else ("special", None, code.name)
+def _decoded(shape: Shape, bits: int) -> tuple[object, ...]:
+    code = code_of(shape, bits)
+    return ("ok", float_of_bits(bits, shape.width)) if code is None else ("special", None, code.name)
 
 
-def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
+def _limits(allowed: Allowed, wide: bool) -> list[tuple[float, float]]:
     """The limits, rounded to numbers of the type as values are; without limits, the limits of the type."""
     greatest = _GREATEST_64 if wide else _GREATEST_32
-    return [(_typed(float(low), wide), _typed(float(high), wide)) for low, high in point.allowed.units] or [
+    return [(_typed(float(low), wide), _typed(float(high), wide)) for low, high in allowed.units] or [
         (-greatest, greatest)
     ]
 
@@ -96,19 +98,19 @@ def _typed(value: float, wide: bool) -> float:
     return (inf if value > 0 else -inf) if pattern is None else float_of_bits(pattern, 32)
 
 
-def _values(point: Point, limits: list[tuple[float, float]], wide: bool, *, deep: bool) -> list[float]:
+def _values(meaning: Meaning, limits: list[tuple[float, float]], wide: bool, *, deep: bool) -> list[float]:
     values = [0.0, -0.0, 0.1, -1.5]
     if not deep:
         return [
             0.1,
             *(value for low, high in limits for value in (low, high, nextafter(low, -inf), nextafter(high, inf))),
         ]
-    values += [value for raw in codes(point) if isfinite(value := float_of_bits(raw, point.width))]
-    for low, high in point.allowed.units:
+    values += [value for raw in codes(meaning.shape) if isfinite(value := float_of_bits(raw, meaning.shape.width))]
+    for low, high in meaning.allowed.units:
         for limit in (float(low), float(high)):
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
     if not wide:
-        if point.allowed.units:
+        if meaning.allowed.units:
             # For each limit: the middle between it and each neighbour in the type, and the values beside that middle.
             for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
                 for beside in _neighbours(limit, wide):
@@ -142,12 +144,12 @@ def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[in
     return list(dict.fromkeys(patterns))
 
 
-def _encoded(point: Point, value: float, limits: list[tuple[float, float]]) -> tuple[object, ...]:
+def _encoded(shape: Shape, value: float, limits: list[tuple[float, float]]) -> tuple[object, ...]:
     if not isfinite(value):
         return ("not_a_number" if isnan(value) else "out_of_range",)
-    wide = point.width == 64
+    wide = shape.width == 64
     pattern = bits64(value) if wide else bits32(value)
-    if pattern is not None and code_of(point, pattern) is not None:
+    if pattern is not None and code_of(shape, pattern) is not None:
         return ("special",)
     status = "out_of_range" if pattern is None else _admitted(_typed(value, wide), limits)
     return (status, pattern if status == "ok" else None)

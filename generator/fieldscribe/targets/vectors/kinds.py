@@ -9,12 +9,12 @@ line. A runner compares every field with something, except notes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import call
+from struct import Struct
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.numbers import bits64
-
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
 ABSENT = "-"
 
@@ -122,21 +122,34 @@ KINDS = table(
 """The kinds of vectors of all families: the fields of their lines. The sets in force apply to every line."""
 
 
+class Written(str):
+    """A word in the notation of its field, which is part of a line as it is."""
+
+
+def _other(value: object, kind: str) -> str:
+    """What stands for any field: nothing, or a word that is written already."""
+    if value is None:
+        return ABSENT
+    if type(value) is Written:
+        return value
+    raise TypeError(f"{value!r} is no {kind}")
+
+
 def _int(value: object) -> str:
-    if type(value) is not int:
-        raise TypeError(f"{value!r} is no integer")
-    return str(value)
+    return str(value) if type(value) is int else _other(value, "integer")
 
 
-def _word(value: object) -> str:
+def word(value: object) -> str:
     """A name; it must not need an escape."""
-    return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
+    return value if type(value) is str and value.isidentifier() and value.isascii() else text(value)
 
 
 def text(value: object) -> str:
     """A text; unprintable characters, `%`, `,` and `=` become `%` and two hexadecimal digits a byte of UTF-8."""
-    if not isinstance(value, str):
-        raise TypeError(f"{value!r} is no text")
+    if type(value) is not str:
+        return _other(value, "text")
+    if value.isalnum():
+        return value
     if value in ("", ABSENT):
         return "%" + "2D" * len(value)
     return "".join(
@@ -149,55 +162,55 @@ def _escaped(character: str) -> str:
 
 
 def _bytes(value: object) -> str:
-    if not isinstance(value, bytes):
-        raise TypeError(f"{value!r} is no bytes")
-    return value.hex()
+    return value.hex() or ABSENT if type(value) is bytes else _other(value, "bytes")
 
 
-def _real(value: object) -> str:
+def real(value: object) -> str:
     """The pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
-    if not isinstance(value, float):
-        raise TypeError(f"{value!r} is no float")
-    return f"{bits64(value):016x}".rstrip("0") or "0"
+    return _BINARY64(value).hex().rstrip("0") or "0" if type(value) is float else _other(value, "float")
+
+
+_BINARY64 = Struct(">d").pack
 
 
 def _ints(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
-    return ",".join(map(_int, value))
+        return _other(value, "list")
+    return ",".join([_int(item) for item in value]) or ABSENT
 
 
 def _names(value: object) -> str:
     if not isinstance(value, tuple):
-        raise TypeError(f"{value!r} is no list")
-    return ",".join(map(text, value))
+        return _other(value, "list")
+    return ",".join([text(item) for item in value]) or ABSENT
 
 
 def _pairs(value: object) -> str:
     if not isinstance(value, dict):
-        raise TypeError(f"{value!r} is no map")
-    return ",".join(f"{text(key)}={text(str(part))}" for key, part in value.items())
+        return _other(value, "map")
+    pairs = [(key, part if isinstance(part, str) else str(part)) for key, part in value.items()]
+    return ",".join([f"{text(key)}={text(part)}" for key, part in pairs]) or ABSENT
 
 
 def _frames(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
-    return ",".join(f"{number}={_bytes(data)}" for number, data in value)
+        return _other(value, "list")
+    return ",".join([f"{number}={data.hex()}" for number, data in value]) or ABSENT
 
 
 def _script(value: object) -> str:
     if not isinstance(value, (tuple, list)):
-        raise TypeError(f"{value!r} is no list")
-    return ",".join(f"{_bytes(sent)}={_bytes(received)}" for sent, received in value)
+        return _other(value, "list")
+    return ",".join([f"{sent.hex()}={received.hex()}" for sent, received in value]) or ABSENT
 
 
 FORMS: dict[str, Callable[[object], str]] = {
     "int": _int,
-    "word": _word,
-    "note": _word,
+    "word": word,
+    "note": word,
     "text": text,
     "bytes": _bytes,
-    "real": _real,
+    "real": real,
     "ints": _ints,
     "names": _names,
     "pairs": _pairs,
@@ -207,27 +220,28 @@ FORMS: dict[str, Callable[[object], str]] = {
 """The notation of each form of field: lists with commas; `pairs`, `frames` and `script` have items of two parts."""
 
 
-class Shape:
+class Row:
     """Writes the lines of one kind or set, and checks each value against its field."""
 
     def __init__(self, name: str, kind: Kind) -> None:
-        self.name = name
-        self._fields = [(key, FORMS[form], key in kind.optional) for key, form in kind.fields]
+        self.name, self.kind = name, kind
+        self._writers = [FORMS[form] for _, form in kind.fields]
+        needed = [place + 1 for place, (key, _) in enumerate(kind.fields) if key not in kind.optional]
+        self._least, self._most = max(needed, default=0), len(self._writers)
 
-    def line(self, values: Iterable[object]) -> str:
+    def line(self, values: Sequence[object]) -> str:
         """The line of one vector; fields without a value are absent."""
-        parts = [self.name]
-        remaining = iter(values)
-        for key, write, optional in self._fields:
-            value = next(remaining, None)
-            if value is None or (not value and value not in (0, "")):
-                if not optional:
-                    raise ValueError(f"{self.name} lacks {key}")
-                parts.append(ABSENT)
-            else:
-                parts.append(write(value))
-        if next(remaining, None) is not None:
-            raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
-        while parts[-1] == ABSENT:
-            parts.pop()
-        return "\t".join(parts)
+        words = [*map(call, self._writers, values)]
+        if ABSENT in words or not self._least <= len(values) <= self._most:
+            self._look_at(words, values)
+        return "\t".join((self.name, *words))
+
+    def _look_at(self, words: list[str], values: Sequence[object]) -> None:
+        """Refuse too many fields, and the lack of one that every line needs; leave out what is absent at the end."""
+        if len(values) > self._most:
+            raise ValueError(f"{self.name} has no more than {self._most} fields")
+        for place, (key, _) in enumerate(self.kind.fields):
+            if key not in self.kind.optional and (place >= len(words) or words[place] == ABSENT):
+                raise ValueError(f"{self.name} lacks {key}")
+        while words and words[-1] == ABSENT:
+            words.pop()

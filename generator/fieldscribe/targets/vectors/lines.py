@@ -2,57 +2,101 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.kinds import KINDS, SETS, Shape, table
+from fieldscribe.targets.vectors.kinds import KINDS, SETS, Row, table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
 FORMAT = 2
 
-_SETS = {name: Shape(name, kind) for name, kind in SETS.items()}
+
+def rows(further: Mapping[str, str] = MappingProxyType({})) -> dict[str, Row]:
+    """What writes the lines of each kind; `further` are the kinds that only the device's family has."""
+    return {name: Row(name, kind) for name, kind in (KINDS | table(further)).items()}
+
+
+_SETS = {name: Row(name, kind) for name, kind in SETS.items()}
+_BEHIND = {name: tuple(SETS)[place + 1 :] for place, name in enumerate(SETS)}
 
 
 class Lines:
     """Collects vectors in order, and counts them."""
 
-    def __init__(self, further: Mapping[str, str] = MappingProxyType({})) -> None:
-        """`further` are the kinds that only the device's family has."""
-        self._kinds = KINDS | table(further)
-        self._shapes = {name: Shape(name, kind) for name, kind in self._kinds.items()}
-        self.counts: dict[str, int] = dict.fromkeys(self._kinds, 0)
+    def __init__(self, rows_of_kinds: Mapping[str, Row] | None = None) -> None:
+        self._rows = rows() if rows_of_kinds is None else rows_of_kinds
+        self._kinds: list[str] = []
         self._held: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._open: list[str] = []
         self._chunks: list[str] = []
+        self._included: list[Lines] = []
 
     def set(self, name: str, *values: object) -> None:
         """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
-        self._wanted[name] = _SETS[name].line(values)
+        line = _SETS[name].line(values)
+        if self._wanted or line != self._held.get(name, name):
+            self._wanted[name] = line
 
     def add(self, kind: str, *values: object) -> None:
         """Add a vector: the fields of its kind in their order."""
         if self._wanted:
             self._settle()
-        self.counts[kind] += 1
-        self._open.append(self._shapes[kind].line(values))
+        self._open.append(self._rows[kind].line(values))
+        self._kinds.append(kind)
+
+    def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
+        """Add vectors of one kind."""
+        if self._wanted and rows_of_fields:
+            self._settle()
+        self._open += map(self._rows[kind].line, rows_of_fields)
+        self._kinds += [kind] * len(rows_of_fields)
+
+    def apart(self) -> Lines:
+        """No lines yet, of the same kinds: for vectors that are included in several places."""
+        return Lines(self._rows)
+
+    def include(self, part: Lines, text: str | None = None) -> None:
+        """Add all vectors of a part, which set only what comes after the sets in force; `text` if blanks are filled."""
+        if part.joined:
+            if self._wanted:
+                self._settle()
+            self._open.append(part.joined if text is None else text)
+            self._included.append(part)
+        if part._held or part._wanted:
+            self._held.update(part._held)
+            self._wanted.update(part._wanted)
+
+    @cached_property
+    def joined(self) -> str:
+        """The lines of a part that is complete."""
+        text = "\n".join(self._open)
+        self._open.clear()
+        return text
+
+    def _counts(self) -> Counter[str]:
+        """How many vectors of each kind there are."""
+        counts = Counter(self._kinds)
+        for part, times in Counter(self._included).items():
+            for kind in part._kinds:
+                counts[kind] += times
+        return counts
 
     def _settle(self) -> None:
         """Write the sets that changed; each ends the sets after it in the table."""
-        for name in SETS:
-            line = self._wanted.get(name)
-            if line is not None and line != self._held.get(name, name):
+        wanted = self._wanted
+        for name in wanted if len(wanted) == 1 else [name for name in SETS if name in wanted]:
+            line = wanted[name]
+            if line != self._held.get(name, name):
                 self._open.append(line)
                 self._held[name] = line
-                self._forget_behind(name)
-        self._wanted.clear()
-
-    def _forget_behind(self, name: str) -> None:
-        behind = list(SETS)[list(SETS).index(name) + 1 :]
-        for key in behind:
-            self._held.pop(key, None)
+                for key in _BEHIND[name]:
+                    self._held.pop(key, None)
+        wanted.clear()
 
     def gather(self) -> None:
         """Join the new lines: one long string takes less memory."""
@@ -67,11 +111,12 @@ class Lines:
         return "\n".join([*self._head(device, version, digest), *chunks, ""])
 
     def _head(self, device: str, version: str, digest: str) -> Iterator[str]:
+        counts = self._counts()
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
-        for name, kind in SETS.items():
-            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in kind.fields)))
-        for name, kind in self._kinds.items():
-            if self.counts[name]:
-                fields = (f"{key}:{form}" for key, form in kind.fields)
-                only = (f"only:{kind.only}",) if kind.only else ()
-                yield "\t".join(("kind", name, str(self.counts[name]), *only, *fields))
+        for name, row in _SETS.items():
+            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.kind.fields)))
+        for name, row in self._rows.items():
+            if number := counts[name]:
+                fields = (f"{key}:{form}" for key, form in row.kind.fields)
+                only = (f"only:{row.kind.only}",) if row.kind.only else ()
+                yield "\t".join(("kind", name, str(number), *only, *fields))

@@ -7,7 +7,7 @@ import struct
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point
+    from fieldscribe.model import Shape
 
 INFINITY = math.inf
 EXACT = 1 << 53
@@ -29,10 +29,10 @@ def quotient(over: int, under: int) -> float:
         return INFINITY if (over < 0) == (under < 0) else -INFINITY
 
 
-def as_raw(point: Point, pattern: int) -> int:
-    """The raw number in a pattern of the point's bits; higher bits are ignored."""
-    pattern &= (1 << point.width) - 1
-    return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
+def as_raw(shape: Shape, pattern: int) -> int:
+    """The raw number in a pattern of its bits; higher bits are ignored."""
+    pattern &= (1 << shape.width) - 1
+    return pattern - (1 << shape.width) if shape.info.signed and pattern >> (shape.width - 1) else pattern
 
 
 def bits64(value: float) -> int:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, float_of_bits, half_away, quotient
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bound, Factor, Limit, Linear, Point, Special
+    from fieldscribe.model import Allowed, Bound, Factor, Limit, Linear, Point, Shape, Special
 
 Settings = Mapping[str, int]
 """Raw numbers of the points that a rule or a limit needs."""
@@ -117,9 +117,9 @@ class Oracle:
     def __init__(self, points: Mapping[str, Point]) -> None:
         self.points = points
 
-    def ratio(self, point: Point, settings: Settings) -> Ratio | str:
+    def ratio(self, shape: Shape, settings: Settings) -> Ratio | str:
         """The rule in force, or why there is none: `no_case`, `zero_factor`, `overflow`."""
-        for case in point.scale or ():
+        for case in shape.scale or ():
             if case.point is None or settings[case.point] == case.raw:
                 return self._with_factors(case.rule, settings) if case.rule.factors else fixed_ratio(case.rule)
         return "no_case"
@@ -138,27 +138,28 @@ class Oracle:
     def _is_code(self, name: str, raw: int) -> bool:
         """Whether a point holds a special code, so that rules cannot compute with it."""
         source = self.points.get(name)
-        return source is not None and code_of(source, raw) is not None
+        return source is not None and code_of(source.shape, raw) is not None
 
     def _numbers(self, settings: Settings) -> Numbers:
         return {name: self._value(name, raw) for name, raw in settings.items()}
 
     def _value(self, name: str, raw: int) -> Fraction | int:
         source = self.points.get(name)
-        if source is None or not source.info.floating:
+        if source is None or not source.shape.info.floating:
             return raw
-        value = float_of_bits(raw, source.width)
+        value = float_of_bits(raw, source.shape.width)
         return Fraction(value) if isfinite(value) else 0
 
     def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
         """Whether the raw number of an exponent lies in the range of its point."""
-        low, high = outer_bounds(self.points[factor.point])
+        source = self.points[factor.point]
+        low, high = outer_bounds(source.shape, source.allowed)
         return low <= settings[factor.point] <= high
 
-    def limits(self, point: Point, settings: Settings) -> list[tuple[int, int]] | str:
+    def limits(self, shape: Shape, allowed: Allowed, settings: Settings) -> list[tuple[int, int]] | str:
         """The intervals in force, or why a limit cannot be computed: `zero_factor`, `overflow`."""
         spans: list[tuple[int, int]] = []
-        for interval in point.allowed.intervals:
+        for interval in allowed.intervals:
             if isinstance(interval.low, int) and isinstance(interval.high, int):
                 spans.append((interval.low, interval.high))
                 continue
@@ -169,12 +170,12 @@ class Oracle:
             if isinstance(high, str):
                 return high
             spans.append((low, high))
-        return spans or [(point.least, point.greatest)]
+        return spans or [(shape.least, shape.greatest)]
 
     def _is_unusable(self, factor: Factor, numbers: Numbers) -> bool:
         """Whether a limit cannot be computed with the factor: a zero divisor, a floating-point zero or NaN."""
         source = self.points.get(factor.point)
-        matters = factor.power < 0 or (source is not None and source.info.floating)
+        matters = factor.power < 0 or (source is not None and source.shape.info.floating)
         return matters and not factor.ten_to and _number(factor, numbers) == 0
 
     def _bound(self, bound: Bound, settings: Settings, *, lower: bool) -> int | str:
@@ -191,40 +192,43 @@ class Oracle:
         return max(bound.least, number) if lower else min(bound.greatest, number)
 
 
-def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
+def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
     """Whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
 
     `by_value` says that it was computed from a value, which never means a special code.
     """
-    code = code_of(point, raw)
-    if code is not None:
+    if shape.specials and (code := code_of(shape, raw)) is not None:
         return "ok" if code.writable and not by_value else "special"
-    if any(low <= raw <= high for low, high in limits):
-        return "ok"
-    closed = point.form == "enum" and point.enum is not None and point.enum.closed
+    for low, high in limits:
+        if low <= raw <= high:
+            return "ok"
+    closed = shape.enum is not None and shape.enum.closed and shape.form == "enum"
     return "unknown_value" if closed else "out_of_range"
 
 
-def outer_bounds(point: Point) -> tuple[int, int]:
-    """The least and greatest raw number that may ever be written; without limits, those of the point's bits."""
-    lows = [
-        interval.low if isinstance(interval.low, int) else interval.low.least for interval in point.allowed.intervals
-    ]
+def outer_bounds(shape: Shape, allowed: Allowed) -> tuple[int, int]:
+    """The least and greatest raw number that may ever be written; without limits, those of the bits."""
+    if len(allowed.intervals) == 1:
+        low, high = allowed.intervals[0].low, allowed.intervals[0].high
+        if isinstance(low, int) and isinstance(high, int):
+            return low, high
+    lows = [interval.low if isinstance(interval.low, int) else interval.low.least for interval in allowed.intervals]
     highs = [
-        interval.high if isinstance(interval.high, int) else interval.high.greatest
-        for interval in point.allowed.intervals
+        interval.high if isinstance(interval.high, int) else interval.high.greatest for interval in allowed.intervals
     ]
-    return (min(lows), max(highs)) if lows else (point.least, point.greatest)
+    return (min(lows), max(highs)) if lows else (shape.least, shape.greatest)
 
 
-def code_of(point: Point, raw: int) -> Special | None:
+def code_of(shape: Shape, raw: int) -> Special | None:
     """The special code with that raw number, if there is one."""
-    hits = [special for special in point.specials if special.low <= raw <= special.high]
-    return hits[0] if hits else None
+    for special in shape.specials:
+        if special.low <= raw <= special.high:
+            return special
+    return None
 
 
-def quantity_at_most(point: Point, raw: int) -> int:
+def quantity_at_most(shape: Shape, raw: int) -> int:
     """The greatest raw number up to this one that is no special code."""
-    while (code := code_of(point, raw)) is not None:
+    while (code := code_of(shape, raw)) is not None:
         raw = code.low - 1
     return raw

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import gcd
 
-from fieldscribe.model import Factor, Limit, Point
+from fieldscribe.model import Allowed, Factor, Limit, Shape
+from fieldscribe.targets.vectors.meaning import MANY, Meaning
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
-from fieldscribe.targets.vectors.shapes import MANY
 
 Limits = Sequence[tuple[int, int]]
 
@@ -42,38 +42,38 @@ def limits_to_try(limits: Limits) -> Limits:
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
-def raws_to_decode(point: Point, limits: Limits, *, deep: bool) -> list[int]:
+def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
     """Raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
     if not deep:
-        return _held(point, (limits[0][0], limits[-1][1]))
+        return _held(shape, (limits[0][0], limits[-1][1]))
     raws = {raw: None for interval in limits for raw in interval}
-    raws.update(dict.fromkeys(codes(point)))
-    raws.update({point.least: None, point.greatest: None})
-    if point.least < 0:
+    raws.update(dict.fromkeys(codes(shape)))
+    raws.update({shape.least: None, shape.greatest: None})
+    if shape.least < 0:
         raws.update({-1: None, 0: None})
-    return _held(point, raws)
+    return _held(shape, raws)
 
 
-def raws_to_check(point: Point, limits: Limits, *, deep: bool) -> list[int]:
+def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
     """Raw numbers to check: limits and one beyond each; if `deep`, also special codes and the ends of the type."""
     raws = edges(limits)
     if not deep:
-        return _held(point, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
-    raws.update(dict.fromkeys(codes(point)))
-    raws.update({point.least: None, point.greatest: None})
-    return _held(point, raws)
+        return _held(shape, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
+    raws.update(dict.fromkeys(codes(shape)))
+    raws.update({shape.least: None, shape.greatest: None})
+    return _held(shape, raws)
 
 
-def codes(point: Point) -> list[int]:
+def codes(shape: Shape) -> list[int]:
     """The ends of the special codes and one beyond each, as far as the bits hold them."""
     return _held(
-        point,
-        (raw for special in point.specials for raw in (special.low, special.high, special.low - 1, special.high + 1)),
+        shape,
+        [raw for special in shape.specials for raw in (special.low, special.high, special.low - 1, special.high + 1)],
     )
 
 
-def _held(point: Point, numbers: Iterable[int]) -> list[int]:
-    least, greatest = point.least, point.greatest
+def _held(shape: Shape, numbers: Iterable[int]) -> list[int]:
+    least, greatest = shape.least, shape.greatest
     return [raw for raw in numbers if least <= raw <= greatest]
 
 
@@ -113,13 +113,6 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     return list(values)
 
 
-def just_outside(ratio: Ratio, limits: Limits) -> list[tuple[int, int]]:
-    """Values a quarter of a raw step beyond the outer limits, as exact quotients: they round to the limits."""
-    step = ratio.numerator(1) - ratio.numerator(0)
-    ends = ((limits[0][0], -1), (limits[-1][1], 1))
-    return [(4 * ratio.numerator(raw) + side * step, 4 * ratio.denominator) for raw, side in ends]
-
-
 @lru_cache(maxsize=4096)
 def raw_telling_division(ratio: Ratio) -> int | None:
     """The lowest raw number that shows a multiplication by the reciprocal where a division is right."""
@@ -128,51 +121,60 @@ def raw_telling_division(ratio: Ratio) -> int | None:
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
-def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[str, int]]:
+def settings(oracle: Oracle, meaning: Meaning, *, deep: bool = True) -> list[dict[str, int]]:
     """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
-    Unless `deep`, each argument has only one other number, which shows exchanged arguments, and each case is met once.
+    Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
+    which shows exchanged arguments, and each case is met once.
     """
-    names = point.arguments
-    base = {name: _typical(oracle, point, name) for name in names}
+    names = meaning.arguments
+    if not names:
+        return [{}]
+    base = {name: _typical(oracle, meaning, name) for name in names}
     if not deep:
-        cases = [(case.point, case.raw) for case in point.scale or () if case.point is not None]
-        last = [(name, raw) for name in names for raw in _choices(oracle, point, name)[-2:] if raw != base[name]]
+        cases = [(case.point, case.raw) for case in meaning.shape.scale or () if case.point is not None]
+        last = [(name, raw) for name in names for raw in _choices(oracle, meaning, name)[-2:] if raw != base[name]]
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
-    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
+    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, meaning, name))]
     # Each case with all choices of its own factors, not only those of the first case.
-    for case in point.scale or ():
+    for case in meaning.shape.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
-                raws = _choices(oracle, point, factor.point)
+                raws = _choices(oracle, meaning, factor.point)
                 chosen += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
     return list({tuple(setting.items()): setting for setting in chosen}.values())
 
 
-def _typical(oracle: Oracle, point: Point, name: str) -> int:
-    for case in point.scale or ():
+def _typical(oracle: Oracle, meaning: Meaning, name: str) -> int:
+    for case in meaning.shape.scale or ():
         if case.point == name and case.raw is not None:
             return case.raw
-    if (source := oracle.points.get(name)) is not None and source.info.floating:
+    if (source := oracle.points.get(name)) is not None and source.shape.info.floating:
         return _FIFTY
     low, high = _bounds(oracle, name)
     middle = low + (high - low) // 3
     return middle or min(high, 1)
 
 
-def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
+def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
     """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
-    bands = [band for limit in limits_of(point) for other, codes in limit.unless if other == name for band in codes[:4]]
+    bands = [
+        band
+        for limit in limits_of(meaning.allowed)
+        for other, codes in limit.unless
+        if other == name
+        for band in codes[:4]
+    ]
     lifting = [code for low, high in bands for code in (low, high, high + 1)]
     source = oracle.points.get(name)
-    lifting += [] if source is None else [special.low for special in source.specials[:4]]
-    if source is not None and source.info.floating:
-        return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.greatest]
+    lifting += [] if source is None else [special.low for special in source.shape.specials[:4]]
+    if source is not None and source.shape.info.floating:
+        return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.shape.greatest]
     low, high = _bounds(oracle, name)
-    cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
+    cases = [case.raw for case in meaning.shape.scale or () if case.point == name and case.raw is not None]
     raws = [*cases, max(cases) + 1] if cases else [low, high]
-    for factor in _factors(point):
+    for factor in _factors(meaning):
         if factor.point != name:
             continue
         if factor.ten_to:
@@ -180,27 +182,26 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
         elif factor.slope and factor.intercept % factor.slope == 0:
             raws.append(-factor.intercept // factor.slope)
     raws += lifting
-    if source is not None and any(factor.point == name for limit in limits_of(point) for factor in limit.rule.factors):
-        raws.append(max(source.least, 0) + 1)  # a computed limit beyond the outermost one
-    return [raw for raw in dict.fromkeys(raws) if source is None or source.least <= raw <= source.greatest]
+    if source is not None and any(
+        factor.point == name for limit in limits_of(meaning.allowed) for factor in limit.rule.factors
+    ):
+        raws.append(max(source.shape.least, 0) + 1)  # a computed limit beyond the outermost one
+    return [raw for raw in dict.fromkeys(raws) if source is None or source.shape.least <= raw <= source.shape.greatest]
 
 
-def _factors(point: Point) -> list[Factor]:
-    """All factors of a point's scale and limits."""
-    rules = [case.rule for case in point.scale or ()] + [limit.rule for limit in limits_of(point)]
+def _factors(meaning: Meaning) -> list[Factor]:
+    """All factors of the scale and the limits."""
+    rules = [case.rule for case in meaning.shape.scale or ()] + [limit.rule for limit in limits_of(meaning.allowed)]
     return [factor for rule in rules for factor in rule.factors]
 
 
-def limits_of(point: Point) -> list[Limit]:
-    """The limits of a point that depend on other points."""
+def limits_of(allowed: Allowed) -> list[Limit]:
+    """The limits that depend on other points."""
     return [
-        bound
-        for interval in point.allowed.intervals
-        for bound in (interval.low, interval.high)
-        if isinstance(bound, Limit)
+        bound for interval in allowed.intervals for bound in (interval.low, interval.high) if isinstance(bound, Limit)
     ]
 
 
 def _bounds(oracle: Oracle, name: str) -> tuple[int, int]:
     source = oracle.points.get(name)
-    return (1, 1) if source is None else outer_bounds(source)
+    return (1, 1) if source is None else outer_bounds(source.shape, source.allowed)

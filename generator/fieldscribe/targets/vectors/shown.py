@@ -12,8 +12,9 @@ from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, code_of, ou
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Point
+    from fieldscribe.model import Shape
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning
 
 _NEAR = range(-400, 401)
 """Where halves of the last decimal are looked for."""
@@ -22,72 +23,75 @@ _NO_NUMBERS = {32: (0x7F80_0000, 0xFF80_0000, 0x7FC0_0000), 64: (0x7FF0 << 48, 0
 """Patterns of infinities and of what is no number."""
 
 
-def shown(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
+def shown(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
     """The texts of the values of a point that says with how many decimals they are shown."""
-    if point.display is None:
+    shape = meaning.shape
+    if shape.display is None:
         return
-    for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
-        lines.set("with", settings)
-        if point.info.floating:
-            _told(lines, point, ((raw, *_of_float(point, raw)) for raw in _patterns(point)))
+    for settings in samples.settings(oracle, meaning, deep=deep):
+        if settings:
+            lines.set("with", settings)
+        if shape.info.floating:
+            _told(lines, meaning, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
             continue
-        ratio = oracle.ratio(point, settings) if point.scale else Ratio(1, 1, 0, 1)
-        raws = [0, 1] if isinstance(ratio, str) else _raws(point, ratio, deep=deep)
-        _told(lines, point, ((raw, *_of_number(point, ratio, raw)) for raw in raws))
+        ratio = oracle.ratio(shape, settings) if shape.scale else Ratio(1, 1, 0, 1)
+        raws = [0, 1] if isinstance(ratio, str) else _raws(meaning, ratio, deep=deep)
+        _told(lines, meaning, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
 
 
-def _told(lines: Lines, point: Point, rows: Iterable[tuple[int, str, str]]) -> None:
+def _told(lines: Lines, meaning: Meaning, rows: Iterable[tuple[int, str, str]]) -> None:
     """A line for each raw number, its status and its text; a special code is told by its name."""
-    unit = f" {point.unit.symbol}" if point.unit.symbol else ""
+    unit = f" {meaning.symbol}" if meaning.symbol else ""
     for raw, status, text in rows:
-        code = code_of(point, raw)
+        code = code_of(meaning.shape, raw)
         told = f"{text}{unit}" if code is None else code.name
         lines.add("told", raw, "ok" if code is not None else status, told if code is not None or text else None)
 
 
-def _raws(point: Point, ratio: Ratio, *, deep: bool) -> list[int]:
+def _raws(meaning: Meaning, ratio: Ratio, *, deep: bool) -> list[int]:
     """The limits of what may be written; in depth the ends of the type, small numbers, halves and special codes too."""
-    found = [*outer_bounds(point), 1]
+    shape = meaning.shape
+    found = [*outer_bounds(shape, meaning.allowed), 1]
     if deep:
-        found += [0, -1, 5, point.least, point.greatest, point.greatest - 1]
-        found += [*_halves(point, ratio), *samples.codes(point)]
-    return [raw for raw in dict.fromkeys(found) if point.least <= raw <= point.greatest]
+        found += [0, -1, 5, shape.least, shape.greatest, shape.greatest - 1]
+        found += [*_halves(shape, ratio), *samples.codes(shape)]
+    return [raw for raw in dict.fromkeys(found) if shape.least <= raw <= shape.greatest]
 
 
-def _halves(point: Point, ratio: Ratio) -> Iterator[int]:
+def _halves(shape: Shape, ratio: Ratio) -> Iterator[int]:
     """The raw numbers next to zero whose value lies in the middle of two texts, above and below zero."""
-    power, under = 10 ** (point.display or 0), ratio.denominator
+    power, under = 10 ** (shape.display or 0), ratio.denominator
     middle = [raw for raw in _NEAR if 2 * ratio.numerator(raw) * power % (2 * under) == under]
     yield from [raw for raw in middle if ratio.numerator(raw) > 0][:2]
     yield from [raw for raw in middle if ratio.numerator(raw) < 0][-2:]
 
 
-def _of_number(point: Point, ratio: Ratio | str, raw: int) -> tuple[str, str]:
+def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
     """The status of a raw number, and its text if there is one."""
     if isinstance(ratio, str):
         return ratio, ""
-    count = half_away(ratio.numerator(raw) * 10 ** (point.display or 0), ratio.denominator)
-    beyond = not -INT64 <= count < INT64 or (point.most_raw is not None and abs(raw) > point.most_raw)
-    return ("overflow", "") if point.scale_arguments and beyond else ("ok", _decimal(count, point.display or 0))
+    count = half_away(ratio.numerator(raw) * 10 ** (shape.display or 0), ratio.denominator)
+    beyond = not -INT64 <= count < INT64 or (shape.most_raw is not None and abs(raw) > shape.most_raw)
+    return ("overflow", "") if shape.scale_arguments and beyond else ("ok", _decimal(count, shape.display or 0))
 
 
-def _patterns(point: Point) -> Iterator[int]:
+def _patterns(shape: Shape) -> Iterator[int]:
     """Patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
-    half = 0.5 ** ((point.display or 0) + 1)
+    half = 0.5 ** ((shape.display or 0) + 1)
     numbers = (0.0, -0.0, 1.0, 0.1, half, -half, 3 * half, half / 2, -half / 2, 1.5e9, -12345678.0, 3e38)
     for number in numbers:
-        pattern = bits64(number) if point.width == 64 else bits32(number)
+        pattern = bits64(number) if shape.width == 64 else bits32(number)
         if pattern is not None:
             yield pattern
-    yield from _NO_NUMBERS[point.width]
+    yield from _NO_NUMBERS[shape.width]
 
 
-def _of_float(point: Point, raw: int) -> tuple[str, str]:
-    number = float_of_bits(raw, point.width)
+def _of_float(shape: Shape, raw: int) -> tuple[str, str]:
+    number = float_of_bits(raw, shape.width)
     if not isfinite(number):
         return "ok", str(number)
     over, under = number.as_integer_ratio()
-    decimals = point.display or 0
+    decimals = shape.display or 0
     return "ok", _decimal(half_away(over * 10**decimals, under), decimals)
 
 

@@ -9,72 +9,91 @@ from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, code_of, quantity_at_most
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point
+    from fieldscribe.model import Shape
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.meaning import Meaning
 
 
-def whole(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
+def whole(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
     """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
-    for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
-        limits = oracle.limits(point, settings)
-        lines.set("with", settings)
+    shape = meaning.shape
+    for settings in samples.settings(oracle, meaning, deep=deep):
+        limits = oracle.limits(shape, meaning.allowed, settings)
+        if settings:
+            lines.set("with", settings)
         if isinstance(limits, str):
-            raw = quantity_at_most(point, samples.limits_of(point)[0].greatest)
-            if point.writable:
+            raw = quantity_at_most(shape, samples.limits_of(meaning.allowed)[0].greatest)
+            if shape.writable:
                 lines.add("encode_count", raw, limits)
                 lines.add("check", raw, limits)
         else:
-            _sheet(lines, point, limits, deep=deep)
+            _sheet(lines, meaning, limits, deep=deep)
 
 
-def _sheet(lines: Lines, point: Point, limits: samples.Limits, *, deep: bool) -> None:
-    top = INT64 if point.width > 16 else 1 << 31
-    checked = _raws(point, samples.raws_to_check(point, limits, deep=deep), deep=deep)
-    decoded = _raws(point, samples.raws_to_decode(point, limits, deep=deep), deep=deep)
+def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool) -> None:
+    shape = meaning.shape
+    top = INT64 if shape.width > 16 else 1 << 31
+    checked = _raws(meaning, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
+    decoded = _raws(meaning, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
     if deep:
         checked = decoded = {**checked, **decoded}
-    if point.readable:
-        for raw in decoded:
-            if raw < INT64:
-                code = code_of(point, raw)
-                lines.add("decode_count", raw, *(("ok", raw) if code is None else ("special", None, code.name)))
-    if not point.writable:
+    if shape.readable:
+        lines.add_all("decode_count", [(raw, *_decoded(shape, raw)) for raw in decoded if raw < INT64])
+    if not shape.writable:
         return
-    ends = (point.least - 1, point.greatest + 1, top - 1, -top) if deep else ()
-    for count in {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}:
-        if -top <= count < top:
-            put = with_fixed(point, count)
-            status = admit(point, put, limits, by_value=True)
-            lines.add("encode_count", count, status, put if status == "ok" else None)
-    for raw in checked:
-        fits = with_fixed(point, raw) == raw or code_of(point, raw) is not None
-        lines.add("check", raw, admit(point, raw, limits) if fits else "out_of_range")
+    ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
+    counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
+    fitting = [count for count in counts if -top <= count < top]
+    lines.add_all("encode_count", [(count, *_encoded(meaning, count, limits)) for count in fitting])
+    lines.add_all("check", [(raw, _checked(meaning, raw, limits)) for raw in checked])
 
 
-def _raws(point: Point, raws: list[int], *, deep: bool) -> dict[int, None]:
+def _decoded(shape: Shape, raw: int) -> tuple[object, ...]:
+    """Status and count."""
+    code = code_of(shape, raw)
+    return ("ok", raw) if code is None else ("special", None, code.name)
+
+
+def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> tuple[object, ...]:
+    """The status of a count, and its raw number if it may be written."""
+    put = with_fixed(meaning, count)
+    status = admit(meaning.shape, put, limits, by_value=True)
+    return (status, put) if status == "ok" else (status,)
+
+
+def _checked(meaning: Meaning, raw: int, limits: samples.Limits) -> str:
+    """The status of a raw number that is written as it is."""
+    fits = with_fixed(meaning, raw) == raw or code_of(meaning.shape, raw) is not None
+    return admit(meaning.shape, raw, limits) if fits else "out_of_range"
+
+
+def _raws(meaning: Meaning, raws: list[int], *, deep: bool) -> dict[int, None]:
     """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    shape = meaning.shape
     raws_to_try = dict.fromkeys(raws)
-    raws_to_try.update({with_fixed(point, raw): None for raw in raws})
-    if point.enum is not None:
-        raws_to_try.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
-    raws_to_try.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
+    if shape.fixed is not None:
+        raws_to_try.update({with_fixed(meaning, raw): None for raw in raws})
+    if shape.enum is not None:
+        raws_to_try.update({entry.raw: None for entry in (shape.enum.entries if deep else shape.enum.entries[-1:])})
+    for flag in shape.flags:
+        raws_to_try[as_raw(shape, (1 << flag.width) - 1 << flag.low)] = None
     return raws_to_try
 
 
-def with_fixed(point: Point, raw: int) -> int:
+def with_fixed(meaning: Meaning, raw: int) -> int:
     """A raw number with the constant bits set; unchanged if the type cannot hold it."""
-    fixed = point.fixed
-    if fixed is None or point.bits is not None or not point.least <= raw <= point.greatest:
+    shape, fixed = meaning.shape, meaning.shape.fixed
+    if fixed is None or meaning.bits is not None or not shape.least <= raw <= shape.greatest:
         return raw
-    return as_raw(point, raw & ~fixed.mask | fixed.bits)
+    return as_raw(shape, raw & ~fixed.mask | fixed.bits)
 
 
-def names(lines: Lines, point: Point, *, deep: bool) -> None:
+def names(lines: Lines, shape: Shape, *, deep: bool) -> None:
     """Add vectors of the names of an enum, and of numbers without a name."""
-    enum = point.digits.enum if point.digits is not None else point.enum
+    enum = shape.digits.enum if shape.digits is not None else shape.enum
     if enum is None:
         return
-    least, greatest = (0, 9) if point.digits is not None else (point.least, point.greatest)
+    least, greatest = (0, 9) if shape.digits is not None else (shape.least, shape.greatest)
     named = {entry.raw: entry.name for entry in enum.entries if least <= entry.raw <= greatest}
     if not deep:
         for raw in dict.fromkeys((*named,)[:: max(1, len(named) - 1)]):
@@ -87,19 +106,19 @@ def names(lines: Lines, point: Point, *, deep: bool) -> None:
         lines.add("name", raw)
 
 
-def specials(lines: Lines, point: Point) -> None:
+def specials(lines: Lines, shape: Shape) -> None:
     """Add vectors of the special codes, and of raw numbers at their ends and beside them."""
-    for special in point.specials:
+    for special in shape.specials:
         lines.add("special", special.name, special.low, special.high)
-    for raw in dict.fromkeys(samples.codes(point)):
-        code = code_of(point, raw)
+    for raw in dict.fromkeys(samples.codes(shape)):
+        code = code_of(shape, raw)
         lines.add("special_name", raw, *(() if code is None else (code.name, int(code.no_value))))
 
 
-def flags(lines: Lines, point: Point) -> None:
+def flags(lines: Lines, shape: Shape) -> None:
     """Add vectors of flags: each flag alone, all others, and the named numbers of flags of several bits."""
-    full = (1 << point.width) - 1
-    for flag in point.flags:
+    full = (1 << shape.width) - 1
+    for flag in shape.flags:
         ones = (1 << flag.width) - 1
         mask = ones << flag.low
         words = [mask, full ^ mask, *(1 << bit for bit in range(flag.low, flag.low + flag.width))]
@@ -107,28 +126,29 @@ def flags(lines: Lines, point: Point) -> None:
         for word in dict.fromkeys(words):
             number = word >> flag.low & ones
             truth = int(number == flag.active) if flag.width == 1 else None
-            lines.add("flag", flag.name, as_raw(point, word), number, truth)
+            lines.add("flag", flag.name, as_raw(shape, word), number, truth)
         if flag.width > 1:
             for entry in flag.values:
                 lines.add("flag_name", flag.name, entry.raw, entry.name)
 
 
-def fixed(lines: Lines, point: Point) -> None:
+def fixed(lines: Lines, shape: Shape) -> None:
     """Add the vector of the bits that are always written as a constant."""
-    if point.fixed is not None:
-        lines.add("fixed", point.fixed.mask, point.fixed.bits)
+    if shape.fixed is not None:
+        lines.add("fixed", shape.fixed.mask, shape.fixed.bits)
 
 
-def bits(lines: Lines, point: Point) -> None:
+def bits(lines: Lines, meaning: Meaning) -> None:
     """Add vectors of a bit group: taken out of its word, and replaced in it."""
-    if point.bits is None:
+    shape = meaning.shape
+    if meaning.bits is None:
         return
-    low, ones = point.bits[1], (1 << point.width) - 1
+    low, ones = meaning.bits[1], (1 << shape.width) - 1
     patterns = (0, ones, 1, ones >> 1, ones ^ ones >> 1)
     tries = [(0, ones), (0xFFFF, 0), (0x5A3C, 0x5555 & ones), (0xA5C3, 0xAAAA & ones)]
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
     for word, put in dict.fromkeys(tries):
         raw, result = word >> low & ones, word & ~(ones << low) | put << low
-        if point.fixed is not None:
-            result = result & ~point.fixed.mask | point.fixed.bits
-        lines.add("bits", word, as_raw(point, raw), as_raw(point, put), result)
+        if shape.fixed is not None:
+            result = result & ~shape.fixed.mask | shape.fixed.bits
+        lines.add("bits", word, as_raw(shape, raw), as_raw(shape, put), result)

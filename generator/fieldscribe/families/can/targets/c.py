@@ -9,8 +9,9 @@ from fieldscribe.families.can.facts import identifier_bits, of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,
+    Frame,
+    Frames,
     Layouts,
-    aliases_of,
     exceptions_of,
     kind_of,
     lies,
@@ -24,11 +25,12 @@ from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Point, Telegram
+    from fieldscribe.targets.c.kinds import Placed
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, PointView
     from fieldscribe.targets.identifiers import Named
 
 _BYTES = 8
@@ -64,22 +66,6 @@ class TelegramView:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameView:
-    """The frames that read, write or receive one point, and the vectors that they are tested with."""
-
-    descriptor: Descriptor
-    function: str
-    macro: str
-    kind: str
-    raw_type: str
-    read: bool
-    write: bool
-    text: bool
-    shares: bool
-    lies: str
-
-
-@dataclass(frozen=True, slots=True)
 class GroupView:
     """The addresses that reading a group takes, each word once."""
 
@@ -107,31 +93,28 @@ class BusView:
     exceptions: tuple[tuple[str, str, str], ...]
     groups: tuple[GroupView, ...]
     layouts: tuple[Descriptor, ...]
-    parameters: tuple[FrameView, ...]
-    cyclic: tuple[FrameView, ...]
+    parameters: Frames
+    cyclic: Frames
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
     """The view of `<device>_can.h`."""
-    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated and point.addresses]
+    reached = [each for each in placed if each.point.addresses]
     messages = {message.name: message for message in device.messages}
     cyclic = {
         telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
     }
     reading, writing = _request_and_answer(device, writes=False), _request_and_answer(device, writes=True)
     layouts = Layouts(scope)
-    asked = (reading[0] is not None, writing[0] is not None)
-    parameters = [
-        _parameter(point, views[point.item], layouts, asked)
-        for point in points
-        if point.space == "parameter" and (point.words == 1 or point.text is not None)
-    ]
-    heard = tuple(
-        _cyclic(point, views[point.item], layouts)
-        for point in points
-        if point.telegram in cyclic and (point.words <= 2 or point.text is not None)
+    asked, answered = ([message is not None for message in messages] for messages in zip(reading, writing, strict=True))
+    parameters = Frames(
+        [each for each in reached if each.point.space == "parameter" and _fits(each.point, 1)],
+        lambda point, view: _parameter(point, view, layouts, asked, answered),
+    )
+    heard = Frames(
+        [each for each in reached if each.point.telegram in cyclic and _fits(each.point, 2)],
+        lambda point, view: _cyclic(point, view, layouts),
     )
     return BusView(
         guard=f"{scope.upper}_CAN_H",
@@ -151,9 +134,9 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         exceptions=exceptions_of(device, scope),
         groups=tuple(_groups(device, scope)),
         layouts=layouts.descriptors,
-        parameters=tuple(parameter for parameter in parameters if parameter is not None),
+        parameters=parameters,
         cyclic=heard,
-        aliases=aliases_of((reachable.descriptor for reachable in (*filter(None, parameters), *heard)), device, scope),
+        aliases=(*parameters.aliases(scope), *heard.aliases(scope)),
     )
 
 
@@ -168,32 +151,13 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
         yield Owner("group", group.title), (group.array, group.count_name)
-    yield from names_of(bus.layouts, (reachable.descriptor for reachable in (*bus.parameters, *bus.cyclic)))
+    yield from names_of(bus.layouts, [bus.parameters, bus.cyclic])
     yield from old_names_of(bus.aliases)
 
 
-def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """The code by which points of telegrams and parameters run the conformance vectors."""
-    for each in (*bus.parameters, *bus.cyclic):
-        if not each.text:
-            yield each.function, f"LIES({each.descriptor.name}, {each.lies})"
-    for heard in bus.cyclic:
-        name = heard.descriptor.name
-        how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
-        yield heard.function, f"RECEIVED{'_' if heard.text else ''}{how})"
-    for parameter in bus.parameters:
-        name = parameter.descriptor.name
-        read = parameter.read and bus.read_answer
-        how = (
-            f"{name}, {parameter.function}, {parameter.macro}"
-            if parameter.text
-            else f"{name}, {parameter.kind}, {parameter.raw_type}"
-        )
-        if read:
-            yield parameter.function, f"READ{'_TEXT' if parameter.text else ''}({how})"
-        if parameter.write and bus.write_answer and (read or not parameter.shares):
-            tail = "_TEXT" if parameter.text else "_SHARED" if parameter.shares else ""
-            yield parameter.function, f"WRITE{tail}({how})"
+def sections(bus: BusView) -> dict[str, Frames]:
+    """Parameters, and points of telegrams."""
+    return {"parameters": bus.parameters, "cyclic": bus.cyclic}
 
 
 def _array(message: Message | None, scope: HeaderScope) -> str:
@@ -252,40 +216,51 @@ def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
             yield GroupView(group.name, name, count, f"{len(addresses)}U", lines)
 
 
-def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[bool, bool]) -> FrameView | None:
+def _fits(point: Point, words: int) -> bool:
+    """Whether a point is a text, or has at most so many words."""
+    return point.text is not None or point.words <= words
+
+
+def _parameter(
+    point: Point, view: PointView, layouts: Layouts, asked: Sequence[bool], answered: Sequence[bool]
+) -> Frame | None:
     """The frames of a parameter, one for each word; None where the device has no message for it."""
     read, write = (asked[0] and point.readable), (asked[1] and point.writable)
     if not read and not write:
         return None
     text = point.text is not None
-    place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{hexadecimal(point.addresses[0])}}}"
+    place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{view.words.start}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
     ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
-    return _frame(point, view, ways, parts)
+    cases = _exchanges(point, view, read and answered[0], write and answered[1])
+    return _frame(point, view, ways, parts, cases)
 
 
-def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
+def _exchanges(point: Point, view: PointView, reads: bool, writes: bool) -> Iterator[str]:
+    """The macros by which a parameter runs the vectors of whole exchanges."""
+    text = point.text is not None
+    name = f"{view.function}_frame"
+    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{kind_of(point)}, {view.raw_type}")
+    if reads:
+        yield f"READ{'_TEXT' if text else ''}({what})"
+    if writes and (reads or not shares(point)):
+        yield f"WRITE{'_TEXT' if text else '_SHARED' if shares(point) else ''}({what})"
+
+
+def _cyclic(point: Point, view: PointView, layouts: Layouts) -> Frame:
     """Where a point stands in its telegram."""
+    name = f"{view.function}_frame"
     if point.text is not None:
-        return _frame(point, view, "h", [f"{{{view.function}_addresses, {point.words}U}}"])
-    where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
-    return _frame(point, view, "h", [layouts.of(point, range(point.words)), where])
+        parts, case = [f"{{{view.function}_addresses, {point.words}U}}"], f"RECEIVED_TEXT({name}, {view.macro})"
+    else:
+        parts = [layouts.of(point, range(point.words)), f"{{{view.words.start}, {view.words.end}}}"]
+        case = f"RECEIVED({name}, {kind_of(point)}, {view.raw_type})"
+    return _frame(point, view, "h", parts, [case])
 
 
-def _frame(point: Point, view: PointView, ways: str, parts: list[str]) -> FrameView:
+def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: Iterable[str]) -> Frame:
     """The frames of a point; the letters are r (read), w (write), u (update) and h (receive)."""
-    value, text = f"{{{', '.join(parts)}}}", point.text is not None
-    return FrameView(
-        descriptor=Descriptor(
-            f"fieldscribe_can_{'text_' if text else ''}{ways}", f"{view.function}_frame", value, view.item, "_frame"
-        ),
-        function=view.function,
-        macro=view.macro,
-        kind=kind_of(point),
-        raw_type=view.raw_type,
-        read="r" in ways,
-        write=ways[-1] in "wu",
-        text=text,
-        shares=shares(point),
-        lies=lies(point),
-    )
+    name, text = f"{view.function}_frame", point.text is not None
+    kind = f"fieldscribe_can_{'text_' if text else ''}{ways}"
+    lying = [] if text else [f"LIES({name}, {lies(point)})"]
+    return Frame((Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), (*lying, *cases))

@@ -263,7 +263,7 @@ class _Asking:
         self.lines.set("telegram", self.telegram.name, self.unit)
         shown = [(frame.id, frame.data) for frame in frames]
         self.lines.add(
-            "can_telegram", shown, taken, status, *((as_raw(self.point, pattern),) if status == "ok" else ())
+            "can_telegram", shown, taken, status, *((as_raw(self.point.shape, pattern),) if status == "ok" else ())
         )
 
 

@@ -10,8 +10,9 @@ from fieldscribe.families.modbus.functions import framings_of
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,
+    Frame,
+    Frames,
     Layouts,
-    aliases_of,
     exceptions_of,
     kind_of,
     lies,
@@ -26,11 +27,12 @@ from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from fieldscribe.model import Block, Command, Device, Point
+    from fieldscribe.targets.c.kinds import Placed
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, Define, DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, Define, PointView
     from fieldscribe.targets.identifiers import Named
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
@@ -65,22 +67,6 @@ class CommandView:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameView:
-    """The requests that read and write one point, and the vectors that they are tested with."""
-
-    descriptor: Descriptor
-    function: str
-    kind: str
-    raw_type: str
-    read: bool
-    write: bool
-    text: bool
-    shares: bool
-    lies: str
-    words: int
-
-
-@dataclass(frozen=True, slots=True)
 class BusView:
     """The Modbus header of a device."""
 
@@ -95,13 +81,13 @@ class BusView:
     block_most: Define
     """The items of the largest block."""
     layouts: tuple[Descriptor, ...]
-    frames: tuple[FrameView, ...]
+    frames: Frames
     commands: tuple[CommandView, ...]
     exceptions: tuple[tuple[str, str, str], ...]
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
     """The view of `<device>_modbus.h`."""
     bus = device.bus
     functions = tuple(
@@ -115,15 +101,10 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         if code.number in _MOST
     )
     numbers = frozenset(code.number for code in bus.functions)
-    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
     all_blocks = [block for blocks in device.blocks.values() for block in blocks]
-    frames = [
-        _frame(point, views[point.item], numbers, layouts)
-        for point in device.points
-        if point.generated and point.addresses
-    ]
+    frames = Frames(placed, lambda point, view: _frame(point, view, numbers, layouts) if point.addresses else None)
     return BusView(
         guard=f"{scope.upper}_MODBUS_H",
         functions=functions,
@@ -135,10 +116,10 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
         blocks=tuple(_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks),
         block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max((block.count for block in all_blocks), default=0))),
         layouts=layouts.descriptors,
-        frames=tuple(frame for frame in frames if frame is not None),
+        frames=frames,
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
-        aliases=aliases_of((frame.descriptor for frame in frames if frame is not None), device, scope),
+        aliases=tuple(frames.aliases(scope)),
     )
 
 
@@ -156,25 +137,27 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
             (command_view.descriptor.name, *(name for name, _ in command_view.defines)),
         )
     yield from names_of_exceptions(device, bus.exceptions)
-    yield from names_of(bus.layouts, (frame.descriptor for frame in bus.frames))
+    yield from names_of(bus.layouts, [bus.frames])
     yield from old_names_of(bus.aliases)
 
 
-def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """The code by which points run the vectors of whole exchanges."""
-    for frame in bus.frames:
-        name, what = frame.descriptor.name, f"{frame.descriptor.name}, {frame.kind}, {frame.raw_type}"
-        if not frame.text:
-            yield frame.function, f"LIES({name}, {frame.lies})"
-        if frame.read:
-            yield frame.function, f"READ_TEXT({name}, {frame.words}U)" if frame.text else f"READ({what})"
-        if frame.write and frame.text:
-            yield frame.function, f"WRITE_TEXT({name}, {frame.words}U)"
-        elif frame.write:
-            yield frame.function, f"{'UPDATE' if frame.shares else 'WRITE'}({what})"
+def sections(bus: BusView) -> dict[str, Frames]:
+    """The requests of points."""
+    return {"frames": bus.frames}
 
 
-def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
+def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
+    """The macros by which a point runs the vectors of whole exchanges."""
+    name, text = f"{view.function}_frame", point.text is not None
+    what = f"{name}, {point.words}U" if text else f"{name}, {kind_of(point)}, {view.raw_type}"
+    if not text:
+        yield f"LIES({name}, {lies(point)})"
+    for letter, way in (("r", "READ"), ("w", "WRITE"), ("u", "UPDATE")):
+        if letter in access:
+            yield f"{way}{'_TEXT' if text else ''}({what})"
+
+
+def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> Frame | None:
     """The requests of a point; None if no function of the device reaches it or its word must be read before a write."""
     read = _READS.get(point.space, 0) if point.readable else 0
     write = _writing(point, functions) if point.writable else 0
@@ -183,32 +166,20 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
         write = 0
     if not read and not write:
         return None
-    text = point.text is not None
-    parts = [_text(point, view) if text else layouts.of(point, places_of(point))]
-    parts += [_place(read, point.addresses, point.words)] if read else []
-    parts += [_place(write, point.written.addresses, point.words)] if write else []
+    address = view.words.address
+    to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
+    text = f"{{{view.function}_addresses, {address}, {point.words}U}}" if point.text is not None else ""
+    parts = [text or layouts.of(point, places_of(point))]
+    parts += [_place(read, address, point.words)] if read else []
+    parts += [_place(write, to, point.words)] if write else []
     access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
-    return FrameView(
-        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item, "_frame"),
-        function=view.function,
-        kind=kind_of(point),
-        raw_type=view.raw_type,
-        read=bool(read),
-        write=bool(write),
-        text=text,
-        shares=shares(point),
-        lies=lies(point),
-        words=point.words,
-    )
+    descriptor = Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", "_frame")
+    return Frame((descriptor,), tuple(_cases(point, view, access)))
 
 
-def _place(function: int, addresses: tuple[int, ...], words: int) -> str:
-    return f"{{{unsigned(function)}, {hexadecimal(min(addresses))}, {words}U}}"
-
-
-def _text(point: Point, view: PointView) -> str:
-    return f"{{{view.function}_addresses, {hexadecimal(min(point.addresses))}, {point.words}U}}"
+def _place(function: int, address: str, words: int) -> str:
+    return f"{{{unsigned(function)}, {address}, {words}U}}"
 
 
 def _writing(point: Point, functions: frozenset[int]) -> int:

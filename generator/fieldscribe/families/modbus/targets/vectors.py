@@ -31,6 +31,8 @@ KINDS = {
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
+_LAST = 0xFFFF
+"""The last address of every space."""
 
 
 _SPACES = {"coil": 0x01, "discrete": 0x02, "holding": 0x03, "input": 0x04}
@@ -45,6 +47,7 @@ class ModbusWire:
         low, _ = self.profile.units
         self.unit = low if low != self.profile.broadcast else low + 1
         self.framing = framing
+        self._first: dict[tuple[int, tuple[int, ...]], tuple[bytes, bytes] | None] = {}
 
     def opens(self, lines: Lines) -> None:
         """The unit and the framing."""
@@ -64,12 +67,34 @@ class ModbusWire:
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """One request for consecutive addresses and its answer; None where the device does not allow it."""
-        if max(addresses) - min(addresses) + 1 != len(words):
+        first, last = min(addresses), max(addresses)
+        if last - first + 1 != len(words) or last > _LAST:
             return None
-        reads = function in _READS
-        request = Request(self.unit, function, min(addresses), len(words), () if reads else words, self._transaction())
+        asked = function, words
+        if asked not in self._first:
+            self._first[asked] = self._exchange(*asked)
+        exchange = self._first[asked]
+        if exchange is None:
+            return None
+        sent, received = exchange
+        request = self._moved(sent, first)
+        if function in _READS:
+            return [(request, received)]
+        return [(request, request if received == sent else self._moved(received, first))]
+
+    def _exchange(self, function: int, words: tuple[int, ...]) -> tuple[bytes, bytes] | None:
+        """The request for the words from address 0 on, and its answer; None where the device does not allow it."""
+        values = () if function in _READS else words
+        request = Request(self.unit, function, 0, len(words), values, self._transaction())
         status, sent = build(self.profile, self.framing, request)
-        return [(sent, _frame(self.framing, request, answer_with(request, words)))] if status == "ok" else None
+        return (sent, _frame(self.framing, request, answer_with(request, words))) if status == "ok" else None
+
+    def _moved(self, data: bytes, address: int) -> bytes:
+        """The same frame for another address, which stands behind the function."""
+        if self.framing == "tcp":
+            return data[:8] + address.to_bytes(2, "big") + data[10:]
+        body = data[:2] + address.to_bytes(2, "big") + data[4:-2]
+        return body + crc16(body).to_bytes(2, "little")
 
     def _transaction(self) -> int:
         """The transaction number of the next request; every device object counts from 1."""

@@ -9,8 +9,9 @@ from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,
+    Frame,
+    Frames,
     Layouts,
-    aliases_of,
     kind_of,
     lies,
     names_of,
@@ -23,11 +24,12 @@ from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping, Sequence
 
     from fieldscribe.model import Bus, Code, Device, Point, Telegram
+    from fieldscribe.targets.c.kinds import Placed
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, DeviceView, PointView
+    from fieldscribe.targets.c.views import AliasView, PointView
     from fieldscribe.targets.identifiers import Named
 
 _READ = (1, 6)
@@ -54,37 +56,6 @@ class CodesView:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameView:
-    """The tasks that read and write one parameter, and their vectors; `eeprom` is the task that keeps a value."""
-
-    descriptors: tuple[Descriptor, ...]
-    function: str
-    kind: str
-    raw_type: str
-    read: bool
-    ram: bool
-    eeprom: bool
-    shares: bool
-    lies: str
-
-
-@dataclass(frozen=True, slots=True)
-class WordView:
-    """A point in the words of process data."""
-
-    descriptor: Descriptor
-    function: str
-    macro: str
-    kind: str
-    raw_type: str
-    telegram: str
-    words_name: str
-    read: bool
-    write: bool
-    lies: str
-
-
-@dataclass(frozen=True, slots=True)
 class BusView:
     """The USS header of a device."""
 
@@ -96,27 +67,24 @@ class BusView:
     tasks: tuple[tuple[str, str, str], ...]
     codes: tuple[CodesView, ...]
     layouts: tuple[Descriptor, ...]
-    frames: tuple[FrameView, ...]
-    words: tuple[WordView, ...]
+    frames: Frames
+    """The tasks that read and write parameters."""
+    words: Frames
+    """The points in the words of process data."""
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
     """The view of `<device>_uss.h`."""
     bus = device.bus
-    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    points = [point for point in device.points if point.generated and point.addresses and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
-    layouts = Layouts(scope)
-    frames = [
-        _frame(point, views[point.item], frozenset(tasks), layouts) for point in points if point.space == "parameter"
-    ]
     telegrams = {telegram.name: telegram for telegram in device.telegrams}
-    words = tuple(
-        _word(point, views[point.item], telegrams[point.telegram or ""], layouts, scope)
-        for point in points
-        if point.telegram in telegrams and point.words <= 2
-    )
+    numbers = [each for each in placed if each.point.addresses and each.point.text is None]
+    parameters = [each for each in numbers if each.point.space == "parameter"]
+    heard = [each for each in numbers if each.point.telegram in telegrams and each.point.words <= 2]
+    layouts = Layouts(scope)
+    frames = Frames(parameters, lambda point, view: _frame(point, view, frozenset(tasks), layouts))
+    words = Frames(heard, lambda point, view: _word(point, view, telegrams[point.telegram or ""], layouts, scope))
     return BusView(
         guard=f"{scope.upper}_USS_H",
         units=bus.units,
@@ -137,16 +105,9 @@ def bus_view(device: Device, view: DeviceView, scope: HeaderScope) -> BusView:
             if codes
         ),
         layouts=layouts.descriptors,
-        frames=tuple(frame for frame in frames if frame is not None),
+        frames=frames,
         words=words,
-        aliases=aliases_of(
-            (
-                *(descriptor for frame in frames if frame is not None for descriptor in frame.descriptors),
-                *(word.descriptor for word in words),
-            ),
-            device,
-            scope,
-        ),
+        aliases=(*frames.aliases(scope), *words.aliases(scope)),
     )
 
 
@@ -159,41 +120,13 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     for codes_view in bus.codes:
         for code, (name, _, _, _) in zip(lists[codes_view.kind], codes_view.entries, strict=True):
             yield Owner(_KINDS[codes_view.kind], code.name), (name,)
-    frames = (descriptor for frame in bus.frames for descriptor in frame.descriptors)
-    yield from names_of(bus.layouts, (*frames, *(word.descriptor for word in bus.words)))
+    yield from names_of(bus.layouts, [bus.frames, bus.words])
     yield from old_names_of(bus.aliases)
 
 
-def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
-    """The code by which parameters and process data run the vectors of whole exchanges."""
-    for frame in bus.frames:
-        yield from ((frame.function, case) for case in _cases(frame))
-    for word in bus.words:
-        yield from ((word.function, case) for case in _word_cases(word))
-
-
-def _cases(frame: FrameView) -> Iterator[str]:
-    name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
-    yield from (f"LIES({descriptor.name}, {frame.lies})" for descriptor in frame.descriptors)
-    if frame.read:
-        yield f"READ({name}, {what})"
-    for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):
-        if there and frame.shares and frame.read:
-            yield f'UPDATE("{kind}", {name}.read, {to}, {what})'
-        elif there and not frame.shares:
-            yield f'WRITE("{kind}", {to}, {what})'
-
-
-def _word_cases(word: WordView) -> Iterator[str]:
-    name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
-    yield f"LIES({name}, {word.lies})"
-    if word.write:
-        yield f"SEND({name}, {what})"
-        yield f"PUT({name}, {what}, {word.macro}, {word.words_name})"
-    if word.read:
-        yield f"TAKE({name}, {what}, {word.macro}, {word.words_name})"
-    if word.read and not word.write:
-        yield f"HEAR({name}, {what})"
+def sections(bus: BusView) -> dict[str, Frames]:
+    """Parameters and process data."""
+    return {"frames": bus.frames, "words": bus.words}
 
 
 def _lists(bus: Bus) -> tuple[tuple[Code, ...], ...]:
@@ -209,8 +142,8 @@ def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: HeaderScope) -
     return CodesView(title, kind, f"{scope.prefix}_{kind}_name", tuple(entries))
 
 
-def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
-    """The tasks of a point; None if no task of the device reaches it."""
+def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> Frame | None:
+    """The tasks of a parameter; None if no task of the device reaches it."""
     width = 2 if point.info.bits == 32 else 1
     if point.info.bits > 32:
         return None
@@ -226,40 +159,50 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     descriptors = [_descriptor(point, view, "_frame", layout, ways)] if ways else []
     if eeprom is not None:
         descriptors.append(_descriptor(point, view, "_eeprom_frame", layout, [(eeprom, changes)]))
-    return FrameView(
-        descriptors=tuple(descriptors),
-        function=view.function,
-        kind=kind_of(point),
-        raw_type=view.raw_type,
-        read=read is not None,
-        ram=ram is not None,
-        eeprom=eeprom is not None,
-        shares=shares(point),
-        lies=lies(point),
-    )
+    writes = {"write": (ram, "_frame"), "store": (eeprom, "_eeprom_frame")}
+    tails = {kind: tail for kind, (task, tail) in writes.items() if task is not None}
+    lying = [f"LIES({descriptor.name}, {lies(point)})" for descriptor in descriptors]
+    return Frame(tuple(descriptors), (*lying, *_cases(point, view, read is not None, tails)))
+
+
+def _cases(point: Point, view: PointView, reads: bool, writes: Mapping[str, str]) -> Iterator[str]:
+    """The macros by which a parameter runs the vectors of whole exchanges."""
+    name, what = f"{view.function}_frame", f"{kind_of(point)}, {view.raw_type}"
+    if reads:
+        yield f"READ({name}, {what})"
+    for kind, tail in writes.items():
+        if shares(point) and reads:
+            yield f'UPDATE("{kind}", {name}.read, {view.function}{tail}, {what})'
+        elif not shares(point):
+            yield f'WRITE("{kind}", {view.function}{tail}, {what})'
 
 
 def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[int, str]]) -> Descriptor:
     """The descriptor of a parameter: how its value lies in words, and the tasks that read and write it."""
     width = 2 if point.info.bits == 32 else 1
-    places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
+    places = [f"{{{task}U, {view.words.number}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
-    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item, tail)
+    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", tail)
 
 
-def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: HeaderScope) -> WordView:
-    position = f"{{{min(point.addresses)}U, {point.words}U}}"
+def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: HeaderScope) -> Frame:
+    """The place of a point in the words of process data."""
+    position = f"{{{view.words.number}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
-    return WordView(
-        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item, "_frame"),
-        function=view.function,
-        macro=view.macro,
-        kind=kind_of(point),
-        raw_type=view.raw_type,
-        telegram=telegram.name,
-        words_name=f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
-        read=point.readable,
-        write=point.writable,
-        lies=lies(point),
-    )
+    descriptor = Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, "_frame")
+    words = f"{view.macro}, {scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS"
+    return Frame((descriptor,), tuple(_word_cases(point, view, words)))
+
+
+def _word_cases(point: Point, view: PointView, words: str) -> Iterator[str]:
+    """The macros by which process data runs the vectors of telegrams."""
+    name, what = f"{view.function}_frame", f"{kind_of(point)}, {view.raw_type}"
+    yield f"LIES({name}, {lies(point)})"
+    if point.writable:
+        yield f"SEND({name}, {what})"
+        yield f"PUT({name}, {what}, {words})"
+    if point.readable:
+        yield f"TAKE({name}, {what}, {words})"
+    if point.readable and not point.writable:
+        yield f"HEAR({name}, {what})"

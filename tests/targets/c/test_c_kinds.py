@@ -1,0 +1,155 @@
+"""Points of one kind share their text: the key of the kind has all that the text depends on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.existence import Comparison, Condition
+from fieldscribe.model import Enum, Erratum, Place, Special
+from fieldscribe.pipeline import device_files_below
+from fieldscribe.plain import for_code
+from fieldscribe.render import render
+from fieldscribe.resources import descriptions_dir
+from fieldscribe.targets import c
+from fieldscribe.targets.c import kinds
+from fieldscribe.targets.c.scope import scope_of
+from support.described import DEVICES, loaded
+from support.models import HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device, Point
+    from fieldscribe.targets.c.scope import HeaderScope
+
+FILES = [*device_files_below(descriptions_dir()), *device_files_below(DEVICES)]
+LONG = "a_name_so_long_that_lines_break_where_they_do_not_break_for_its_neighbour"
+MODES = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "slow")), False)
+FAULT = (Special(65535, 65535, "fault", titles("Fault"), True, own=False),)
+OFF = Erratum("E1", ("two",), "", SOURCE, "1", "2", "", "sure", (("scale", "1"),))
+
+
+def pair(second: dict[str, Any], first: dict[str, Any] | None = None, type_name: str = "u16") -> tuple[Point, Point]:
+    """Two points that differ in little more than their words."""
+    return point("one", 1, type_name, **(first or {})), point("two", 3, type_name, **second)
+
+
+PAIRS = {
+    "number": pair({"type": "s16", "width": 16, "allowed": allowed((0, 9))}, {"allowed": allowed((0, 9))}),
+    "terms": pair({"space": "input"}),
+    "form": pair({"allowed": allowed((0, 65534))}),
+    "first_names": pair({"enum": MODES}, {"enum": MODES}),
+    "first_codes": pair({"specials": FAULT, "specials_of": "u16"}, {"specials": FAULT, "specials_of": "u16"}),
+    "widths": (point("one", 1), point(LONG, 3)),
+    "order": pair({"order": (4, 3)}, type_name="u32"),
+    "references": (point("one", 1), replace(point("two", 3), place=Place((3,), {"manual": 4}))),
+    "index": pair({"index": 2}),
+    "errata": pair({"errata": ("E1",)}),
+}
+BITS = {"width": 4, "allowed": allowed((0, 9))}
+TERMS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "space": ({}, {"space": "input"}),
+    "bits": ({**BITS, "bits": (3, 0)}, {**BITS, "bits": (7, 4)}),
+    "steps": (
+        {"unit": HERTZ, "scale": scaled(10), "decimals": 1},
+        {"unit": HERTZ, "scale": scaled(10), "decimals": 1, "steps": ((0, 5),)},
+    ),
+    "when": ({}, {"when": Condition(((Comparison("voltage_class", "==", ("200V",)),),))}),
+    "telegram": ({}, {"telegram": "fast"}),
+}
+"""Facts of a first and a second point that differ in a part of their terms."""
+SAID = ("space", "shown", "bits", "steps", "keeps", "when", "telegram", "untyped")
+"""The parts of what terms say in C, in their order."""
+PARTS = ("number", "terms", "form", "first_names", "first_codes", "widths", "order", "references", "index", "errata")
+"""The parts of a key, in its order."""
+
+
+class Cut(dict[Any, Any]):
+    """Kinds whose keys lack a part; without a part to leave out it forgets every kind."""
+
+    def __init__(self, part: int | None) -> None:
+        super().__init__()
+        self.part = part
+
+    def get(self, key: Any, default: Any = None) -> Any:
+        """The kind with the rest of the key."""
+        return default if self.part is None else super().get((*key[: self.part], *key[self.part + 1 :]), default)
+
+    def __setitem__(self, key: Any, kind: Any) -> None:
+        if self.part is not None:
+            super().__setitem__((*key[: self.part], *key[self.part + 1 :]), kind)
+
+
+def cut(monkeypatch: pytest.MonkeyPatch, part: int | None) -> None:
+    """Leave out a part of every key from now on."""
+
+    class Cutting(kinds.Kinds):
+        def __init__(self, scope: HeaderScope) -> None:
+            super().__init__(scope)
+            self._kinds = Cut(part)
+
+    monkeypatch.setattr(kinds, "Kinds", Cutting)
+
+
+def texts(device: Device) -> dict[str, str]:
+    """The generated files."""
+    return dict(c.outputs(device, render))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.parent.name)
+def test_sharing_changes_no_text(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    device = for_code(loaded(file))
+    shared = texts(device)
+    names = list(c.identifiers(device))
+    cut(monkeypatch, None)
+    assert texts(device) == shared
+    assert list(c.identifiers(device)) == names
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_every_part_of_a_key_decides(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    device = for_code(device_of("pair", PAIRS[part], errata=(OFF,)))
+    right = texts(device)
+    with monkeypatch.context() as patch:
+        cut(patch, None)
+        assert texts(device) == right
+    cut(monkeypatch, PARTS.index(part))
+    assert texts(device) != right
+
+
+def test_a_key_has_the_parts_that_are_tested(monkeypatch: pytest.MonkeyPatch) -> None:
+    device = for_code(device_of("pair", PAIRS["terms"]))
+    sorted_points = kinds.Kinds(scope_of(device))
+    for each in device.points:
+        sorted_points.placed(each)
+    keys: Any = sorted_points._kinds
+    assert {len(key) for key in keys} == {len(PARTS)}
+
+
+class CutTerms(dict[Any, Any]):
+    """Numbers of terms of which a part is left out."""
+
+    def __init__(self, part: int) -> None:
+        super().__init__()
+        self.part = part
+
+    def setdefault(self, said: Any, default: Any = None) -> Any:
+        """The number of terms that say the rest."""
+        return super().setdefault((*said[: self.part], *said[self.part + 1 :]), default)
+
+
+@pytest.mark.parametrize("part", TERMS)
+def test_every_part_of_the_terms_decides(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = TERMS[part]
+    device = for_code(device_of("pair", pair(second, first)))
+    right = texts(device)
+
+    class Cutting(kinds.Kinds):
+        def __init__(self, scope: HeaderScope) -> None:
+            super().__init__(scope)
+            self._said = CutTerms(SAID.index(part))
+
+    monkeypatch.setattr(kinds, "Kinds", Cutting)
+    assert texts(device) != right
