@@ -287,15 +287,12 @@ def test_computed_ends_as_expressions() -> None:
         ("0, 1, 2, 5", [0, 1, 2, 5]),
         ("0, 1, b", None),
         ("0, 1, 5..7", None),
-        (", ".join(map(str, range(4096))), list(range(4096))),
-        (", ".join(map(str, range(4097))), None),
         ("0..7", None),
         ("0 | 5..7", None),
     ],
-    ids=lambda value: str(value)[:12],
 )
 def test_numbers_that_the_author_listed(written: str, values: list[int] | None, tmp_path: Path) -> None:
-    """One by one, as far as they are numbers and not too many; else the intervals alone say them."""
+    """One by one, where they are numbers; else the intervals alone say them."""
     points = f"- {{name: a, at: 0, range: '{written}'}}\n- {{name: b, at: 1, range: 5..100}}\n"
     exported = export_model(loaded_in(tmp_path, described(points)))
     assert exported["points"][0]["raw"]["values"] == values
