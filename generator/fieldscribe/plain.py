@@ -5,8 +5,6 @@ Titles and notes change often. They reach only the documentation, so that vendor
 
 from __future__ import annotations
 
-import hashlib
-from dataclasses import fields, replace
 from functools import lru_cache
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -27,6 +25,7 @@ from fieldscribe.model import (
     Terms,
     Titles,
 )
+from fieldscribe.records import names_of, replace, values_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,8 +37,8 @@ _SHARED = ("source", "shape", "terms")
 """What many points have in common, so that its text is written once."""
 _common = attrgetter(*_SHARED)
 _identity = attrgetter(
-    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
-    *[f"place.{field.name}" for field in fields(Place)],
+    *[field for field in names_of(Point) if field not in (*_SHARED, "allowed", "place")],
+    *[f"place.{name}" for name in names_of(Place)],
 )
 
 
@@ -87,8 +86,10 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device) -> tuple[Device, Device]:
     """The device with its digest, and the same as code may know it."""
+    from hashlib import sha256
+
     plain = replace(for_code(device), digest="")
-    checksum = hashlib.sha256()
+    checksum = sha256()
     for text in _texts(plain):
         checksum.update(text.encode("utf-8", "surrogatepass"))
     digest = checksum.hexdigest()
@@ -115,7 +116,7 @@ def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
 
 def _own(own: Own) -> Own:
     """The facts of one family, with names as the titles of their codes."""
-    held = {fact.name: getattr(own, fact.name) for fact in fields(own)}
+    held = values_of(own)
     codes = {
         name: value
         for name, value in held.items()

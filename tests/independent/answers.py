@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from independent.reader import Description, Row
 
+YES = ("yes", "true")
+
 Settings = dict[str, int]
 """Raw numbers of other points, by item."""
 
@@ -43,7 +45,7 @@ class Point:
         """Whether address, type and scale are known and the point can be reached at all."""
         unsettled = any(self.row.get(key) in NOTHING for key in ("at", "type", "scale") if key in self.row)
         unsettled = unsettled or "untyped" in self.row
-        closed = self.row.get("access") == "none" or self.row.get("reserved") == "true"
+        closed = self.row.get("access") == "none" or self.row.get("reserved") in YES
         return "at" in self.row and not unsettled and not closed
 
     @cached_property
@@ -163,7 +165,7 @@ class Point:
                 for one in _parts(self.row["range_in_units"])
             ]
             return [(min(pair), max(pair)) for pair in ends]
-        if self.entries and self.row.get("open") != "true":
+        if self.entries and self.row.get("open") not in YES:
             return [(raw, raw) for raw in sorted(self.entries)]
         return [self.outer]
 
@@ -226,7 +228,7 @@ class Point:
             name = "" if entry in NOTHING else _name(entry)
             found = {one: told for one, told in found.items() if one != span and told[0] != name}
             if name and self.outer[0] <= span[0] and span[1] <= self.outer[1]:
-                found[span] = name, isinstance(entry, dict) and entry.get("writable") in ("yes", "true")
+                found[span] = name, isinstance(entry, dict) and entry.get("writable") in YES
         return found
 
     def _layers(self) -> list[Row]:

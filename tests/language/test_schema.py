@@ -18,9 +18,9 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys_page import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.shape import check_shape
-from fieldscribe.language.shape_checks import compiled_pattern
+from fieldscribe.language.shape import check_of, check_shape
 from fieldscribe.language.source import SourceFile, read_source
+from fieldscribe.language.value_checks import compiled_pattern
 from jsonschema import Draft7Validator, validators
 from support.descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from support.places import ROOT
@@ -203,3 +203,38 @@ def test_frames_in_examples_have_their_own_checksum() -> None:
     texts = set(re.findall(r"\b[0-9A-F]{2}(?: [0-9A-F]{2}){7}\b", keys_markdown()))
     assert texts == {"05 06 10 28 01 F4 0C 91"}
     assert crc16(bytes.fromhex("05 06 10 28 01 F4")).to_bytes(2, "little") == bytes.fromhex("0C 91")
+
+
+def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Plans are made for lists of keys and used again: a file has the findings that it has as the first of a run."""
+    from fieldscribe.language import shape
+
+    for file in sorted((ROOT / "tests" / "bad").glob("*.yaml")):
+        source = read_source(file, Report())
+        if source is None:
+            continue
+        reports = Report(), Report()
+        for report, made in zip(reports, (shape._made, {}), strict=True):
+            monkeypatch.setattr(shape, "_made", made)
+            for root in load(source, Report()):
+                if root is not None:
+                    check_shape(root, DEVICE if "device" in root else PART, report)
+            monkeypatch.undo()
+        assert reports[0].findings == reports[1].findings, file.name
+
+
+def test_a_plan_of_other_keys_would_be_noticed() -> None:
+    """Were plans not told apart by all their keys, a mapping that lacks one would pass or end in an exception."""
+    from fieldscribe.language.shape_checks import KeysCheck
+
+    text = "group: a\ntitle: A\nspace: holding\naccess: r\nsource: {document: m, section: x}\npoints: []\n"
+    check = KeysCheck(PART, check_of)
+    whole, wrong = (load(SourceFile("a.yaml", part), Report())[0] for part in (text, text.replace("title", "titel")))
+    assert whole is not None
+    assert wrong is not None
+    assert check(whole, whole, None, Report())
+    assert check.fits(whole)
+    assert not check.fits(wrong)
+    check.plans[tuple(wrong)] = check.plans[tuple(whole)]
+    with pytest.raises(KeyError, match="title"):
+        check.fits(wrong)

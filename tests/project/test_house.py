@@ -23,7 +23,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        "__init__ asked hexadecimal text names patterns diagnostics kinds reading report resources render",
+        "__init__ asked hexadecimal text names patterns diagnostics kinds reading records report resources render",
     ),
     ("the neutral model", "existence model plain"),
     ("exact arithmetic", "arithmetic"),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = False
 NEEDS_FAMILY = False
+KEEPS_NAMES = False
 
 _LONGEST = 8
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
+
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

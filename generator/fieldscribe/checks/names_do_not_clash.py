@@ -35,10 +35,10 @@ def _compare_targets(subject: Subject, told_pairs: set[frozenset[Thing]]) -> Non
 
     owners, device = Owners(subject), subject.sound
     kinds = Kinds(device)
-    for identifiers in [target(name).identifiers for name in TARGETS if knows(name, device)]:
-        if kinds.proves(identifiers):
+    for language in [target(name) for name in TARGETS if knows(name, device)]:
+        if language.KEEPS_NAMES and kinds.proves(language.identifiers):
             continue
-        for clash in clashes(identifiers(device)):
+        for clash in clashes(language.identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
@@ -10,6 +9,7 @@ from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.meanings import meaning_of, raw_text, rounding_remarks
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
+from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording import label
 

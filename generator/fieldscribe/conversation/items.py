@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.meanings import meaning_of, range_remark, raw_text, unchecked_remark
 from fieldscribe.conversation.selection import absence, same_meaning
 from fieldscribe.families.answers import Item
+from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 

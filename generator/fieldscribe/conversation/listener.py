@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.conversation import oddities
@@ -13,6 +12,7 @@ from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
 from fieldscribe.families.directory import Directory
 from fieldscribe.families.spoken import Course, Element, Masks, Piece, ProcessData, Span, Word
+from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.hexadecimal import number_of
+from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.buses import word_text
 from fieldscribe.wording.exact import hex_text

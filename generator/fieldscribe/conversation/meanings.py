@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.words import words_of
 from fieldscribe.conversation.refusals import amount_with_unit, failure, names_text, refusal
 from fieldscribe.conversation.texts import shown, text_of
+from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text, rounded
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, split
@@ -10,6 +9,7 @@ from fieldscribe.conversation.hearing import odd_item
 from fieldscribe.conversation.items import named_item, without_variants
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families.answers import Item
+from fieldscribe.records import replace
 from fieldscribe.wording import address_text, fixed_text
 from fieldscribe.wording.buses import counted, element_text, words_text
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of
@@ -10,6 +9,7 @@ from fieldscribe.conversation.items import named_item
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.answers import Item
+from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.buses import span_text, word_text

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.items import named_item, value_with_raw
 from fieldscribe.families.answers import Item
+from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
 if TYPE_CHECKING:

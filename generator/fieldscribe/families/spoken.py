@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from fieldscribe.families.answers import Item
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 Place = tuple[int, int]
 """Line and column, counted from 1."""
+KeyPlaces = tuple[int, int, int, int]
+"""Line and column of a key, then of its value."""
 
 
 class Map(dict[str, Any]):
@@ -21,21 +23,30 @@ class Map(dict[str, Any]):
     aliases repeat: one copy for each shape that is expected of it, and whether it has that shape.
     """
 
-    __slots__ = ("at", "broken", "file", "places", "uses")
+    __slots__ = ("_places", "at", "broken", "file", "uses")
 
     def __init__(self, file: SourceFile, at: Place) -> None:
         super().__init__()
         self.file = file
         self.at = at
-        self.places: dict[str, tuple[int, int, int, int]] = {}
+        self._places: dict[str, KeyPlaces] | None = {}
         self.broken: tuple[str, ...] = ()
         self.uses: dict[object, tuple[Map, bool]] | None = None
+
+    @property
+    def places(self) -> dict[str, KeyPlaces]:
+        """Where each key and its value stand; in a plain file they are looked for when a finding first asks."""
+        if self._places is None:
+            from fieldscribe.language.positions import places_of_keys
+
+            self._places = places_of_keys(self.file.text, self.file.offset(self.at), self.at)
+        return self._places
 
     def copied(self) -> Map:
         """A copy from which keys can be dropped; the values are shared with the original."""
         copy = Map(self.file, self.at)
         copy.update(self)
-        copy.places = self.places
+        copy._places = self.places
         return copy
 
     def span(self, key: str | None = None) -> Span:
@@ -53,20 +64,29 @@ class Map(dict[str, Any]):
 class Seq(list[Any]):
     """A YAML sequence. `item_at` gives places by index; `uses` as in `Map`."""
 
-    __slots__ = ("at", "file", "item_at", "uses")
+    __slots__ = ("_item_at", "at", "file", "uses")
 
     def __init__(self, file: SourceFile, at: Place) -> None:
         super().__init__()
         self.file = file
         self.at = at
-        self.item_at: list[Place] = []
+        self._item_at: list[Place] | None = []
         self.uses: dict[object, tuple[Seq, bool]] | None = None
+
+    @property
+    def item_at(self) -> list[Place]:
+        """Where each item stands, as in `Map`."""
+        if self._item_at is None:
+            from fieldscribe.language.positions import places_of_items
+
+            self._item_at = places_of_items(self.file.text, self.file.offset(self.at), self.at)
+        return self._item_at
 
     def copied(self) -> Seq:
         """A copy from which items can be dropped; they are shared with the original."""
         copy = Seq(self.file, self.at)
         copy.extend(self)
-        copy.item_at = list(self.item_at)
+        copy._item_at = list(self.item_at)
         return copy
 
     def span(self, index: int | None = None) -> Span:
@@ -74,6 +94,29 @@ class Seq(list[Any]):
         line, column = self.at if index is None else self.item_at[index]
         return Span(self.file.name, line, column)
 
+
+def unplaced_map(file: SourceFile, at: Place) -> Map:
+    """A mapping of a plain file, in which places are looked for when a finding asks."""
+    result = _new_map(Map)
+    result.file = file
+    result.at = at
+    result._places = None
+    result.broken = ()
+    result.uses = None
+    return result
+
+
+def unplaced_seq(file: SourceFile, at: Place) -> Seq:
+    """As `unplaced_map`."""
+    result = _new_seq(Seq)
+    result.file = file
+    result.at = at
+    result._item_at = None
+    result.uses = None
+    return result
+
+
+_new_map, _new_seq = Map.__new__, Seq.__new__
 
 Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 

@@ -132,49 +132,46 @@ def _said(hint: str) -> Callable[[re.Match[str]], str]:
     return lambda _: hint
 
 
-_REFUSED: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], str]], ...] = tuple(
-    (re.compile(pattern, re.DOTALL), message, hint)
-    for pattern, message, hint in (
-        (r"", "a number is missing", _said("write a number, for example 4136, 0.1, 1028h or 0b0101")),
-        (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _said("write -")),
-        (r"[+-]?[0-9]{1,3}(?:,[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
-        (r"[+-]?[0-9]+,[0-9]+", "a decimal comma, or a separator of thousands", _comma_hint),
-        (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
-        (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
-        (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _said("as in 0b0101; hexadecimal ends in h")),
-        (r"[+-]?0B[01]*", "binary is marked with a small b", _said("write 0b0101 for binary, 0B01h for hexadecimal")),
-        (r"([134])[xX]([0-9]{4,5})", "a number for people, counted from 1", _modicon_hint),
-        (
-            r"(?:\$|#|&[hH]|16#|[xX]')\s*([0-9A-Fa-f]+)'?|([0-9A-Fa-f]+)\s*(?:hex|HEX|Hex)",
-            "hexadecimal in another notation",
-            _other_hex_hint,
-        ),
-        (
-            r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
-            "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",
-            _said("write 1028h, 0x1028 or H'1028"),
-        ),
-        (r"([+-]?)([0-9A-Fa-f]+)", "hexadecimal digits without a marker", _hex_hint),
-        (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _said("write 0.5")),
-        (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _said("write 5 or 5.0")),
-        (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _said("write the sign directly before it")),
-        (
-            r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",
-            "a blank stands inside the number",
-            _said("write it without blanks; a unit is not part of a number"),
-        ),
-        (
-            r"[+-]?[0-9]+(?:\.[0-9]+)?\s*(?:[^\W\d_][^\d]*|[%\u00b0\u2030\u00b5\u2126].*)",
-            "a unit is not part of a number",
-            _said("write the number alone; the unit has its own key"),
-        ),
-    )
+_REFUSED: tuple[tuple[str, str, Callable[[re.Match[str]], str]], ...] = (
+    (r"", "a number is missing", _said("write a number, for example 4136, 0.1, 1028h or 0b0101")),
+    (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _said("write -")),
+    (r"[+-]?[0-9]{1,3}(?:,[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
+    (r"[+-]?[0-9]+,[0-9]+", "a decimal comma, or a separator of thousands", _comma_hint),
+    (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
+    (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
+    (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _said("as in 0b0101; hexadecimal ends in h")),
+    (r"[+-]?0B[01]*", "binary is marked with a small b", _said("write 0b0101 for binary, 0B01h for hexadecimal")),
+    (r"([134])[xX]([0-9]{4,5})", "a number for people, counted from 1", _modicon_hint),
+    (
+        r"(?:\$|#|&[hH]|16#|[xX]')\s*([0-9A-Fa-f]+)'?|([0-9A-Fa-f]+)\s*(?:hex|HEX|Hex)",
+        "hexadecimal in another notation",
+        _other_hex_hint,
+    ),
+    (
+        r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
+        "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",
+        _said("write 1028h, 0x1028 or H'1028"),
+    ),
+    (r"([+-]?)([0-9A-Fa-f]+)", "hexadecimal digits without a marker", _hex_hint),
+    (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _said("write 0.5")),
+    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _said("write 5 or 5.0")),
+    (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _said("write the sign directly before it")),
+    (
+        r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",
+        "a blank stands inside the number",
+        _said("write it without blanks; a unit is not part of a number"),
+    ),
+    (
+        r"[+-]?[0-9]+(?:\.[0-9]+)?\s*(?:[^\W\d_][^\d]*|[%\u00b0\u2030\u00b5\u2126].*)",
+        "a unit is not part of a number",
+        _said("write the number alone; the unit has its own key"),
+    ),
 )
 
 
 def _diagnosis(text: str) -> NumberError:
     """The error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
-        if match := pattern.fullmatch(text):
+        if match := re.fullmatch(pattern, text, re.DOTALL):
             return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(match)))
     return NumberError(f"`{shown(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")

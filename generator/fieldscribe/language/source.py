@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.reading import shown_path
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,24 +23,39 @@ MOST_BYTES = 16 * 1024 * 1024
 
 @cache
 def _no_yaml() -> re.Pattern[str]:
-    """The characters that YAML forbids. Compiled on first use, for that takes as long as all other imports."""
+    """The characters that YAML forbids. Compiled on first use, for that takes as long as many imports."""
     return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class SourceFile:
     """A file's text; `name` is its path as shown to people, relative to where they called from if possible.
 
-    `lost` collects names in dropped values, so that they are not reported as unknown too.
+    `lost` collects names in dropped values, so that they are not reported as unknown too. In a `printable` text is no
+    character that YAML forbids, or takes for a line break of another kind.
     """
 
     name: str
     text: str
-    lost: set[str] = field(default_factory=set, compare=False)
+    lost: set[str] = field(default_factory=set)
+    printable: bool = False
+    _starts: list[int] = field(default_factory=list, repr=False)
+
+    def __post_init__(self) -> None:
+        self.printable = self.text.replace("\n", "").isprintable()
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
         """A place in this file."""
         return Span(self.name, line, column, width)
+
+    def offset(self, place: tuple[int, int]) -> int:
+        """How many characters stand before a line and column."""
+        line, column = place
+        if not self._starts:
+            self._starts.extend(
+                accumulate(map(len, self.text.split("\n")), lambda start, width: start + width + 1, initial=0)
+            )
+        return self._starts[line - 1] + column - 1
 
 
 def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
@@ -53,7 +69,7 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
         return None
     if inputs is not None:
         inputs.note(path, content)
-    return _decoded(name, content.data, report)
+    return decoded(name, content.data, report)
 
 
 def _content(path: Path, start: Span, report: Report) -> Content | None:
@@ -74,7 +90,8 @@ def _content(path: Path, start: Span, report: Report) -> Content | None:
     return None
 
 
-def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
+def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
+    """The text of these bytes, or None and a finding."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -88,7 +105,7 @@ def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
     source = SourceFile(name, text)
-    strange = _no_yaml().search(text)
+    strange = None if source.printable else _no_yaml().search(text)
     if strange is None:
         return source
     start = strange.start()

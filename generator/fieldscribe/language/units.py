@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -13,12 +12,13 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Unit
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 LISTED = "`fieldscribe units` lists what is known"
-_STEPPED = re.compile(r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)")
+_STEPPED = r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)"
 """A resolution, such as `0.1 Hz`."""
 _NO_UNIT = frozenset({"", "-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
 _SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})
@@ -69,7 +69,7 @@ def unit_hint(typed: str, declared: Iterable[str]) -> str:
     """The hint for an unknown unit. A unit of another size or quantity is never the only suggestion."""
     if typed.casefold() in _NO_UNIT:
         return "a plain number has no unit: leave `unit` out"
-    stepped = _STEPPED.fullmatch(typed)
+    stepped = re.fullmatch(_STEPPED, typed)
     if stepped is not None and (shipped_unit(stepped[2]) or stepped[2] in declared):
         scale = f"`scale: value = raw * {stepped[1].replace(',', '.')}`"
         return f"write `unit: {stepped[2]}`; what one raw step is worth belongs to the scale: {scale}"

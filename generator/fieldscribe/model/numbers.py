@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from fieldscribe.records import dataclass
 
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always present."""

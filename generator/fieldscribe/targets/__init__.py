@@ -24,6 +24,9 @@ if TYPE_CHECKING:
         NEEDS_FAMILY: bool
         """Whether it can say only devices whose family has a part for it."""
 
+        KEEPS_NAMES: bool
+        """Whether what it calls a thing of a point holds the point's name whole: checks need not list all of them."""
+
         def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
             """The files of a device: path relative to the output folder, and text."""
 

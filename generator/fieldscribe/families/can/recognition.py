@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.frames import LENGTH, CanFrame, Difference, carried, carries, differences, places, unit_of
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
@@ -12,6 +11,7 @@ from fieldscribe.families.can.notation import read_frames
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Recognised, recognise, senders
 from fieldscribe.families.spoken import Piece, Speech, Spoken, Word
+from fieldscribe.records import replace
 from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE
+from fieldscribe.records import dataclass
 
 _LEAST = {"rtu": 4, "tcp": 8}
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard, Item
@@ -14,6 +13,7 @@ from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
 from fieldscribe.families.spoken import Span, Spoken
 from fieldscribe.hexadecimal import rejoined, typed_bytes
+from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
@@ -24,6 +23,7 @@ from fieldscribe.families.uss.parts import (
 )
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, request_in, unwrap
 from fieldscribe.hexadecimal import rejoined, typed_bytes
+from fieldscribe.records import replace
 from fieldscribe.wording.buses import element_text, no_answer_text
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
@@ -19,6 +18,7 @@ from fieldscribe.families.uss.parts import (
     part_of,
     split,
 )
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = False
 NEEDS_FAMILY = True
+KEEPS_NAMES = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
 from fieldscribe.names import upper
+from fieldscribe.records import dataclass, field
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:

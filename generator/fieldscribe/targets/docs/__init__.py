@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 FOR_PEOPLE = True
 
 NEEDS_FAMILY = False
+KEEPS_NAMES = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from fieldscribe.records import dataclass
 from fieldscribe.text import markdown
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.model import Named
+from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.targets.docs.points import GroupView, group_views, reference_heads

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code
 from fieldscribe.text import csv_cell
 

@@ -24,6 +24,7 @@ FOR_PEOPLE = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
+KEEPS_NAMES = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -21,6 +21,7 @@ _SOURCES = ("points", "enums", "flags", "with")
 _RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
 
 NEEDS_FAMILY = True
+KEEPS_NAMES = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = False
 NEEDS_FAMILY = False
+KEEPS_NAMES = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

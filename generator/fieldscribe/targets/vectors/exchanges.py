@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.meaning import ascending
 from fieldscribe.targets.vectors.numbers import as_raw, bits32, bits64

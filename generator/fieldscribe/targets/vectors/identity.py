@@ -67,25 +67,25 @@ class Identities:
         self._lines.include(part, pattern.filled(words))
 
     def _form(self, point: Point) -> Form:
-        shape, elsewhere = point.shape, point.write_place
-        special = point.index is not None or point.telegram is not None or shape.text is not None
+        shape, terms, elsewhere = point.shape, point.terms, point.write_place
+        special = point.index is not None or terms.telegram is not None or shape.text is not None
         return Form(
             shape.type,
             shape.words,
             shape.decimals if shape.form == "scaled" else None,
             shape.display,
-            point.space if point.addresses else None,
+            terms.space if point.addresses else None,
             point.code is not None,
             shape.form not in _WITHOUT_LIMITS,
             tuple(point.references),
-            (point.addresses, point.index, point.telegram) if special else None,
-            point.unit.symbol,
+            (point.addresses, point.index, terms.telegram) if special else None,
+            terms.unit.symbol,
             None if point.default is None else float(point.default),
-            None if point.changes == "always" else point.changes,
-            point.changes_with,
+            None if terms.changes == "always" else terms.changes,
+            terms.changes_with,
             None if point.variant is None else str(point.variant),
-            None if point.when is None else _only_for(point.when, self._variants),
-            None if elsewhere is None else (point.space, elsewhere.addresses),
+            None if terms.when is None else _only_for(terms.when, self._variants),
+            None if elsewhere is None else (terms.space, elsewhere.addresses),
             tuple([item_of(old, point.variant) for old in point.was]) if point.was else (),
         )
 

@@ -5,10 +5,10 @@ The first of all that are computed alike is tried in depth, the others only with
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Limit
+from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -50,13 +50,13 @@ class Meanings:
 
     def of(self, point: Point) -> Meaning:
         """The meaning of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
-        shape = point.shape
+        shape, terms = point.shape, point.terms
         order = ascending(shape, point.addresses) if point.addresses else None
-        symbol = point.unit.symbol if shape.display is not None else ""
-        key = id(shape), id(point.allowed), point.bits, order, symbol
+        symbol = terms.unit.symbol if shape.display is not None else ""
+        key = id(shape), id(point.allowed), terms.bits, order, symbol
         meaning = self._met.get(key)
         if meaning is None:
-            meaning = self._met[key] = Meaning(shape, point.allowed, point.bits, order, symbol)
+            meaning = self._met[key] = Meaning(shape, point.allowed, terms.bits, order, symbol)
         return meaning
 
     def is_new(self, meaning: Meaning) -> bool:
