@@ -17,6 +17,8 @@ _UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
 """A line that is its own text between double quotes, in most languages."""
 _BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
 """What most codes and names are made of, and no language escapes."""
+_CELL = re.compile(r"[0-9A-Za-z.:/(][0-9A-Za-z_ .:/()%°;=+-]*")
+"""What most cells are made of: CSV quotes nothing of it, and only more than single spaces inside are folded."""
 _SPACES = re.compile(r"\s+")
 _QUERIES = re.compile(r"\?(?=\?)")
 _NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
@@ -119,6 +121,8 @@ def markdown(text: str) -> str:
 
 def csv_cell(text: str) -> str:
     """A cell for CSV, quoted where needed; what a spreadsheet would run as a formula starts with an apostrophe."""
+    if not text or (_CELL.fullmatch(text) and "  " not in text and text[-1] != " "):
+        return text
     cleaned = line(text)
     if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
         cleaned = "'" + cleaned

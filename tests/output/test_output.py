@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.output.manifests import Manifests, read_manifest
 from fieldscribe.output.plan import Plan, changed_since, plan_of
-from fieldscribe.output.spool import kept
+from fieldscribe.output.spool import Spool, kept
 from fieldscribe.output.writing import carry_out
 from support.strange_files import KINDS, put
 
@@ -102,7 +102,7 @@ def test_a_runtime_that_two_devices_share_may_be_changed_by_either(tmp_path: Pat
     for device in ("drive", "pump"):
         generate(tmp_path, device, {"c": {"c/runtime.h": b"old\n"}})
     generate(tmp_path, "drive", {"c": {"c/runtime.h": b"new\n"}})
-    assert generate(tmp_path, "pump", {"c": {"c/runtime.h": b"newer\n"}}).write["c/runtime.h"].read() == b"newer\n"
+    assert generate(tmp_path, "pump", {"c": {"c/runtime.h": b"newer\n"}}).write["c/runtime.h"].data == b"newer\n"
     assert generate(tmp_path, "drive", {"c": {"c/runtime.h": b"newest\n"}}).remove == []
 
 
@@ -260,3 +260,12 @@ def test_a_manifest_with_a_conflict_of_git_is_still_ours(tmp_path: Path) -> None
     place = tmp_path / "manifest/drive.json"
     place.write_text(place.read_text().replace("    }", "<<<<<<< HEAD\n    }", 1))
     assert generate(tmp_path, "drive", FILES).stale == ["manifest/drive.json"]
+
+
+def test_a_long_text_waits_on_disk_and_comes_back_whole() -> None:
+    texts = ["é" * (3 << 20) + "end\n", "short\n", "x" * (1 << 20)]
+    with Spool() as spool:
+        contents = [spool.keep(text) for text in texts]
+        assert [b"".join(one.pieces()).decode() for one in contents] == texts
+        assert [one.digest for one in contents] == [sha256(text.encode()).hexdigest() for text in texts]
+        assert [bool(one.data) for one in contents] == [False, True, False]

@@ -34,10 +34,10 @@ def _put(place: Path, data: bytes) -> None:
     try:
         status = os.stat(place)
     except FileNotFoundError:
-        replace(place, data, f".{place.name}.new")
+        replace(place, (data,), f".{place.name}.new")
         return
     if stat.S_ISREG(status.st_mode):
-        replace(place, data, f".{place.name}.new")
+        replace(place, (data,), f".{place.name}.new")
     elif stat.S_ISCHR(status.st_mode):
         place.write_bytes(data)  # a device such as /dev/null cannot be replaced
     else:

@@ -82,7 +82,7 @@ class Memory:
             "outputs": {path: {"state": state, "sha256": digests[path]} for path, state in states.items()},
         }
         with suppress(OSError, ValueError):
-            replace(self._place, json.dumps(document).encode(), f"{self._place.stem}.new")
+            replace(self._place, (json.dumps(document).encode(),), f"{self._place.stem}.new")
 
 
 def _is_as_left(path: str, left: list[int], settled: int) -> bool:

@@ -7,6 +7,7 @@ from os import SEEK_END
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import IO, Self
 
 _LARGE = 1 << 20
@@ -21,12 +22,14 @@ class Kept(NamedTuple):
     spool: IO[bytes] | None = None
     start: int = 0
 
-    def read(self) -> bytes:
-        """All bytes."""
+    def pieces(self) -> Iterator[bytes]:
+        """All bytes, a piece after the other."""
         if self.spool is None:
-            return self.data
+            yield self.data
+            return
         self.spool.seek(self.start)
-        return self.spool.read(self.size)
+        for at in range(0, self.size, _LARGE):
+            yield self.spool.read(min(_LARGE, self.size - at))
 
 
 def kept(data: bytes) -> Kept:

@@ -10,6 +10,7 @@ from fieldscribe.output.plan import inside
 from fieldscribe.reading import state_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
     from fieldscribe.output.manifests import Manifests
@@ -29,23 +30,23 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
     states = dict(plan.unchanged)
     record = manifest_path(plan.device)
     if record in plan.write:
-        replace(inside(out, record), plan.pending)
+        replace(inside(out, record), (plan.pending,))
     for path, contents in plan.write.items():  # the manifest comes last
-        states[path] = replace(inside(out, path), contents.read())
+        states[path] = replace(inside(out, path), contents.pieces())
     for path in plan.remove:
         inside(out, path).unlink(missing_ok=True)
     manifests.settle(plan.device, plan.targets)
     return states
 
 
-def replace(place: Path, data: bytes, by_way_of: str = _NEW) -> State:
+def replace(place: Path, pieces: Iterable[bytes], by_way_of: str = _NEW) -> State:
     """Replace a file atomically by way of a temporary file beside it; returns its state. Raises OSError."""
     place.parent.mkdir(parents=True, exist_ok=True)
     new = place.parent / by_way_of
     new.unlink(missing_ok=True)
     try:
         with open(os.open(new, _FLAGS, 0o666), "wb") as stream:
-            stream.write(data)
+            stream.writelines(pieces)
         os.replace(new, place)
     except BaseException:
         new.unlink(missing_ok=True)

@@ -68,7 +68,7 @@ def title_text(titles: Titles) -> str:
     """A title in all its languages, English first: `Base frequency / Basisfrequenz`."""
     if len(titles) == 1:
         return titles["en"]
-    return " / ".join(dict.fromkeys((titles["en"], *(title for key, title in titles.items() if key != "en"))))
+    return " / ".join(dict.fromkeys([titles["en"], *titles.values()]))
 
 
 def type_text(point: Point) -> str:

@@ -22,11 +22,13 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.docs.page import page_of
     from fieldscribe.targets.docs.sheet import sheet_of
     from fieldscribe.targets.docs.special_codes import sheet_of_codes
+    from fieldscribe.targets.docs.subjects import scope_of
 
-    yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(device)}).rstrip("\n") + "\n"
-    yield f"docs/{device.id}.csv", render("docs/device.csv.j2", {"rows": sheet_of(device)})
+    scope = scope_of(device)
+    yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
+    yield f"docs/{device.id}.csv", sheet_of(scope)
     if codes := sheet_of_codes(device):
-        yield f"docs/{device.id}_special_codes.csv", render("docs/device.csv.j2", {"rows": codes})
+        yield f"docs/{device.id}_special_codes.csv", codes
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:

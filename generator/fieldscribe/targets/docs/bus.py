@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.records import dataclass
-from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, link, paragraph, source_text, target
+from fieldscribe.targets.docs.cells import by_rows, cell, code, link, paragraph, source_cell, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
 
@@ -21,16 +21,9 @@ class BusView:
     """The bus section of the page."""
 
     note: str
-    facts: Table | None
-    functions: Table | None
-    function_heading: str
-    responses: Table | None
-    exceptions: Table | None
-    messages: Table | None
-    telegrams: Table | None
-    serial: Table | None
-    timing: Table | None
-    commands: Table | None
+    facts: str
+    sections: tuple[tuple[str, str], ...]
+    """Headings with their tables."""
 
 
 def bus_view(device: Device) -> BusView:
@@ -44,18 +37,21 @@ def bus_view(device: Device) -> BusView:
         for setting, codes in bus.serial.items()
         for number, meaning in codes.items()
     ]
+    responses = _linked_codes(bus.codes("responses"), "Tasks")
+    sections = (
+        ("" if asks is None else f"{asks.kind.capitalize()}s", _answered(bus) if answered else _functions(bus, part)),
+        ("Responses", responses),
+        ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks")),
+        ("Messages", _messages(device)),
+        ("Telegrams", _telegrams(device)),
+        ("Serial settings", by_rows(("Setting", "Code", "Meaning"), serial)),
+        ("Timing", by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()])),
+        ("Commands", _commands(device)),
+    )
     return BusView(
-        note=paragraph(title_text(bus.note)) if bus.note else "",
-        facts=by_rows(("Fact", "Value"), [*part.facts(bus)]),
-        functions=_answered(bus) if answered else _functions(bus, part),
-        function_heading="" if asks is None else f"{asks.kind.capitalize()}s",
-        responses=_linked_codes(bus.codes("responses"), "Tasks"),
-        exceptions=_linked_codes(bus.exceptions, "Tasks"),
-        messages=_messages(device),
-        telegrams=_telegrams(device),
-        serial=by_rows(("Setting", "Code", "Meaning"), serial),
-        timing=by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()]),
-        commands=_commands(device),
+        paragraph(title_text(bus.note)) if bus.note else "",
+        by_rows(("Fact", "Value"), [*part.facts(bus)]),
+        tuple((heading, table) for heading, table in sections if table),
     )
 
 
@@ -77,12 +73,12 @@ def span(ends: tuple[int, int]) -> str:
     return f"{ends[0]}..{ends[1]}"
 
 
-def _answered(bus: Bus) -> Table | None:
+def _answered(bus: Bus) -> str:
     rows = [(*_code(function), _numbers(function.answers), _numbers(function.refusals)) for function in bus.functions]
     return by_rows(("Code", "Name", "Title", "Response", "Response when refused"), rows)
 
 
-def _linked_codes(codes: tuple[Code, ...], head: str) -> Table | None:
+def _linked_codes(codes: tuple[Code, ...], head: str) -> str:
     return by_rows(("Code", "Name", "Title", head), [(*_code(listed), _numbers(listed.answers)) for listed in codes])
 
 
@@ -90,7 +86,7 @@ def _numbers(numbers: tuple[int, ...]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def _messages(device: Device) -> Table | None:
+def _messages(device: Device) -> str:
     """The table of messages, with a column for each byte."""
     rows = [
         (
@@ -100,7 +96,7 @@ def _messages(device: Device) -> Table | None:
             link("message", message.answers) if message.answers else "",
             hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else ""),
             *(_role(role) for role in message.roles),
-            cell(source_text(message.source, len(device.documents) > 1)),
+            source_cell(message.source, len(device.documents) > 1),
         )
         for message in device.messages
     ]
@@ -122,7 +118,7 @@ def _role(role: Role) -> str:
     return hex_text(role.number, 2) if role.kind == "constant" else role.kind
 
 
-def _telegrams(device: Device) -> Table | None:
+def _telegrams(device: Device) -> str:
     rows = [
         (
             target("telegram", telegram.name),
@@ -130,14 +126,14 @@ def _telegrams(device: Device) -> Table | None:
             cell(telegram.direction),
             str(telegram.words),
             link("message", telegram.message) if telegram.message else "",
-            cell(source_text(telegram.source, len(device.documents) > 1)),
+            source_cell(telegram.source, len(device.documents) > 1),
         )
         for telegram in device.telegrams
     ]
     return by_rows(("Name", "Title", "Direction", "Words", "Message", "Source"), rows)
 
 
-def _functions(bus: Bus, part: OfFamily) -> Table | None:
+def _functions(bus: Bus, part: OfFamily) -> str:
     """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
     heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
     rows = [(*_code(function), "" if function.most is None else str(function.most)) for function in bus.functions]
@@ -154,7 +150,7 @@ def _code(listed: Code) -> tuple[str, str, str]:
     return f"{hex_text(listed.number, 2)} ({listed.number})", code(listed.name), cell(title_text(listed.title))
 
 
-def _commands(device: Device) -> Table | None:
+def _commands(device: Device) -> str:
     rows = [
         (
             target("command", command.name),
@@ -166,7 +162,7 @@ def _commands(device: Device) -> Table | None:
             "" if command.wears is None else f"{command.wears} writes",
             cell(command.busy or ""),
             cell(title_text(command.note)) if command.note else "",
-            cell(source_text(command.source, len(device.documents) > 1)),
+            source_cell(command.source, len(device.documents) > 1),
         )
         for command in device.commands
     ]

@@ -6,47 +6,47 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
+from fieldscribe.model import Source
 from fieldscribe.text import markdown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from fieldscribe.model import Source
-
+_BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
+"""What most cells are made of, and Markdown escapes nothing of it."""
 _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9]))*")
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _NUMBERED = re.compile(r"^([0-9]+)([.)])")
+_ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table whose cells are finished Markdown."""
-
-    heads: tuple[str, ...]
-    rules: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-def table(columns: Iterable[tuple[str, Sequence[str]]]) -> Table | None:
-    """A table from columns of equal length, without empty columns; None if none is left."""
+def table(columns: Iterable[tuple[str, Iterable[str]]]) -> str:
+    """The lines of a table whose columns are finished Markdown, without empty columns; empty if none is left."""
     kept = [(head, cells) for head, cells in columns if any(cells)]
     if not kept:
-        return None
-    heads = tuple(head for head, _ in kept)
-    return Table(heads, ("---",) * len(kept), tuple(zip(*(cells for _, cells in kept), strict=True)))
+        return ""
+    heads, columns_kept = zip(*kept, strict=True)
+    rows = [" | ".join(row) for row in (heads, ("---",) * len(kept), *zip(*columns_kept, strict=True))]
+    return "| " + " |\n| ".join(rows) + " |\n"
 
 
-def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table | None:
-    """A table from rows, without empty columns; None without rows."""
-    return table(zip(heads, zip(*rows, strict=True), strict=True)) if rows else None
+def by_rows(heads: Iterable[str], rows: Sequence[Sequence[str]]) -> str:
+    """The lines of a table of these rows, without empty columns; empty without rows."""
+    return table(zip(heads, zip(*rows, strict=True), strict=True)) if rows else ""
 
 
-@lru_cache(maxsize=65536)
 def cell(text: str) -> str:
     """Plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
-    return text.strip() if _PLAIN.fullmatch(text) and "://" not in text and "www." not in text else markdown(text)
+    if not text or text.isalnum():
+        return text
+    plain = (_BARE.fullmatch(text) or _PLAIN.fullmatch(text)) and "://" not in text and "www." not in text
+    return text.strip() if plain else markdown(text)
+
+
+def number_cell(number: int | str) -> str:
+    """A number of the manual, which may have letters, as a table cell."""
+    return cell(number) if isinstance(number, str) else str(number)
 
 
 def paragraph(text: str) -> str:
@@ -54,31 +54,26 @@ def paragraph(text: str) -> str:
     return _NUMBERED.sub(r"\1\\\2", markdown(text))
 
 
-@lru_cache(maxsize=65536)
 def code(text: str) -> str:
     """A name or bytes as a code span; as escaped text when it holds anything unusual."""
     return f"`{text}`" if _CODE.fullmatch(text) else markdown(text)
 
 
-@lru_cache(maxsize=65536)
 def anchor(kind: str, name: str) -> str:
     """The anchor that a link and its target share."""
-    return f"{kind}-{_NO_ANCHOR.sub('-', name.lower())}"
+    return f"{kind}-{name if _ANCHOR.fullmatch(name) else _NO_ANCHOR.sub('-', name.lower())}"
 
 
-@lru_cache(maxsize=65536)
 def target(kind: str, name: str) -> str:
     """A name in a cell, as the target of links."""
     return f'<a id="{anchor(kind, name)}"></a>{code(name)}'
 
 
-@lru_cache(maxsize=65536)
 def link(kind: str, name: str) -> str:
     """A name as a link to its target."""
     return f"[{code(name)}](#{anchor(kind, name)})"
 
 
-@lru_cache(maxsize=65536)
 def source_text(source: Source, with_document: bool) -> str:
     """The place of a fact in the manual, as plain text."""
     parts = [source.document] if with_document else []
@@ -86,3 +81,16 @@ def source_text(source: Source, with_document: bool) -> str:
     parts += [f"page {source.page}"] if source.page else []
     parts += [f"line {source.line}"] if source.line is not None else []
     return ", ".join(parts)
+
+
+def source_cell(source: Source, with_document: bool) -> str:
+    """The place of a fact in the manual; what facts of the same page share is worked out once."""
+    if source.line is None:
+        return cell(source_text(source, with_document))
+    return f"{_before_line(source.document, source.section, source.page, with_document)}{source.line}"
+
+
+@lru_cache(maxsize=256)
+def _before_line(document: str, section: str | None, page: str | None, with_document: bool) -> str:
+    numbered = cell(source_text(Source(document, section, page, 0), with_document))
+    return numbered.removesuffix("0")

@@ -2,61 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.patterns import blanks
+from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.records import dataclass
-from fieldscribe.targets.docs.alike import Alike
 from fieldscribe.targets.docs.cells import (
-    Table,
     anchor,
     by_rows,
     cell,
     code,
-    link,
+    number_cell,
     paragraph,
+    source_cell,
     source_text,
-    table,
     target,
 )
-from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, own_remarks, remarks
+from fieldscribe.targets.docs.subjects import reference_heads
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
-    from fieldscribe.model import Device, Group, Point
-
-_INLINE_NAMES = 4
-"""An enum with at most so many names is shown in the point's row; a longer one is linked."""
-
-_KEEPS = {
-    "no": "lost when switched off",
-    "yes": "kept, each write wears the memory",
-    "choice": "kept when written to the EEPROM",
-}
-
-
-[_BITS] = blanks("?")
-"""Where the link to the table of its bits stands in the remarks on a point."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Meaning:
-    """The cells of a point that follow from more than its identity."""
-
-    type: str
-    access: str
-    range: str
-    raw_range: str
-    scale: str
-    default: str
-    remarks: str
-    """With a blank for the link to the bits of a word."""
-
-    def remarks_on(self, point: Point) -> str:
-        """The remarks with the point's own links."""
-        return self.remarks.replace(_BITS, link("bits", point.item)) if point.shape.flags else self.remarks
+    from fieldscribe.model import Group, Point
+    from fieldscribe.targets.docs.subjects import Scope, Subject
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +33,7 @@ class FlagsView:
     """The bits of one word."""
 
     point: str
-    rows: Table
+    rows: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,167 +45,110 @@ class GroupView:
     name: str
     note: str
     facts: str
-    points: Table | None
+    points: str
     flags: tuple[FlagsView, ...]
 
 
-def group_views(device: Device) -> Iterator[GroupView]:
+class _Kin(NamedTuple):
+    """The cells that points have alike."""
+
+    space: str
+    meaning: tuple[str, str]
+    scale: str
+
+
+def group_views(scope: Scope) -> Iterator[GroupView]:
     """All groups that have points or a note, in the author's order."""
-    members: dict[str, list[Point]] = {}
-    for point in device.points:
-        members.setdefault(point.group, []).append(point)
-    by_name = {point.name: point for point in device.points}
-    meanings = Alike(lambda point: _meaning(device, point, by_name))
-    for group in device.groups:
+    members: dict[str, list[Subject]] = {}
+    for subject in scope.subjects:
+        members.setdefault(subject.point.terms.group, []).append(subject)
+    rows = _Rows(scope)
+    for group in scope.device.groups:
         if group.name in members or group.note:
-            yield _group_view(device, group, members.get(group.name, []), meanings)
+            yield _group_view(group, members.get(group.name, []), rows)
 
 
-def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
-    """The numberings of the manual that some of the points have, in the order of their first use."""
-    return tuple(dict.fromkeys(key for point in points for key in point.references))
-
-
-def _group_view(device: Device, group: Group, points: list[Point], meanings: Alike[_Meaning]) -> GroupView:
-    spaces = {point.space for point in points}
-    several = len(device.documents) > 1
-    source = source_text(group.source, several)
-    facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
+def _group_view(group: Group, subjects: list[Subject], rows: _Rows) -> GroupView:
+    spaces = {subject.point.terms.space for subject in subjects}
+    source = source_text(group.source, rows.scope.several)
+    facts = [f"{len(subjects)} point{'' if len(subjects) == 1 else 's'}"]
     facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
     facts += [f"source: {source}"] if source else []
-    flags = (FlagsView(target("bits", point.item), _flag_table(point)) for point in points if point.flags)
     return GroupView(
         anchor=anchor("group", group.name),
         heading=cell(wording.title_text(group.title)),
         name=code(group.name),
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
-        points=_point_table(points, meanings, len(spaces) > 1, several) if points else None,
-        flags=tuple(flags),
+        points=rows.table(subjects, with_space=len(spaces) > 1),
+        flags=tuple(rows.flags(subjects)),
     )
 
 
-def _point_table(points: list[Point], meanings: Alike[_Meaning], with_space: bool, several: bool) -> Table | None:
-    references = [
-        (cell(key.capitalize()), [cell(str(point.references.get(key, ""))) for point in points])
-        for key in reference_heads(points)
-    ]
-    said = [meanings.of(point) for point in points]
-    return table(
-        [
-            ("Code", [cell(point.code or "") for point in points]),
-            ("Name", [target("point", point.item) for point in points]),
-            ("Title", [cell(wording.title_text(point.title)) for point in points]),
-            ("Space", [cell(point.space) if with_space else "" for point in points]),
-            ("Wire address", [wording.words_text(point) for point in points]),
-            ("Index", ["" if point.index is None else str(point.index) for point in points]),
-            *references,
-            ("Type", [meaning.type for meaning in said]),
-            ("Access", [meaning.access for meaning in said]),
-            ("Range", [meaning.range for meaning in said]),
-            ("Raw range", [meaning.raw_range for meaning in said]),
-            ("Scale", [meaning.scale for meaning in said]),
-            ("Default", [meaning.default for meaning in said]),
-            ("Remarks", [meaning.remarks_on(point) for meaning, point in zip(said, points, strict=True)]),
-            ("Source", [cell(source_text(point.source, several)) for point in points]),
-        ]
-    )
+class _Rows:
+    """The rows of points: what points say alike is laid out once, what each says of itself fills it."""
+
+    def __init__(self, scope: Scope) -> None:
+        self.scope = scope
+        self._kins: dict[int, _Kin] = {}
+        self._remarks: dict[tuple[int, tuple[bool, ...]], Pattern] = {}
+        self._flags: dict[int, str] = {}
+
+    def table(self, subjects: Sequence[Subject], *, with_space: bool) -> str:
+        """The table of a group."""
+        references = reference_heads(point for point, *_ in subjects)
+        heads = (
+            *("Code", "Name", "Title", "Space", "Wire address", "Index"),
+            *(cell(key.capitalize()) for key in references),
+            *("Type", "Access", "Range", "Raw range", "Scale", "Default", "Remarks", "Source"),
+        )
+        return by_rows(heads, [self._row(subject, references, with_space) for subject in subjects])
+
+    def flags(self, subjects: Sequence[Subject]) -> Iterator[FlagsView]:
+        """The tables of bits of those points that have named ones."""
+        for point, kin, _ in subjects:
+            if point.shape.flags:
+                rows = self._flags.get(kin)
+                if rows is None:
+                    rows = self._flags[kin] = _flag_table(point)
+                yield FlagsView(target("bits", point.item), rows)
+
+    def _row(self, subject: Subject, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
+        point, number, limits = subject
+        kin = self._kins.get(number)
+        if kin is None:
+            kin = self._kins[number] = self._kin(point)
+        return (
+            cell(point.code) if point.code else "",
+            target("point", point.item if point.variant else point.name),
+            cell(wording.title_text(point.title)),
+            kin.space if with_space else "",
+            wording.words_text(point),
+            "" if point.index is None else str(point.index),
+            *[number_cell(point.place.references.get(key, "")) for key in references],
+            *kin.meaning,
+            *limits.page,
+            kin.scale,
+            "" if point.default is None and point.default_raw is None else cell(wording.default_text(point)),
+            self._remarks_cell(point, number),
+            source_cell(point.source, self.scope.several),
+        )
+
+    def _kin(self, point: Point) -> _Kin:
+        scale = cell(wording.scale_text(point, self.scope.by_name))
+        return _Kin(cell(point.space), (wording.type_text(point), point.access), scale)
+
+    def _remarks_cell(self, point: Point, kin: int) -> str:
+        own = own_remarks(point)
+        form = form_of(own)
+        pattern = self._remarks.get((kin, form))
+        if pattern is None:
+            shown = remarks(self.scope, point, OwnRemarks(*blanks(own)))
+            pattern = self._remarks[kin, form] = Pattern("; ".join(filter(None, shown)))
+        return pattern.filled(own)
 
 
-def _meaning(device: Device, point: Point, by_name: Mapping[str, Point]) -> _Meaning:
-    return _Meaning(
-        wording.type_text(point),
-        point.access,
-        "" if point.flags else cell(wording.range_text(point, by_name)),
-        cell(wording.raw_range_text(point)) if _has_rule(point) else "",
-        cell(wording.scale_text(point, by_name)),
-        cell(wording.default_text(point)),
-        "; ".join(_remarks(device, point, by_name)),
-    )
-
-
-def _has_rule(point: Point) -> bool:
-    return point.scale is not None or fixed_rule(point) is None or any(not isinstance(end, int) for end in _ends(point))
-
-
-def _ends(point: Point) -> Iterator[object]:
-    for interval in point.allowed.intervals:
-        yield interval.low
-        yield interval.high
-
-
-def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
-    """Everything that has no column of its own: short facts first, errata last."""
-    if point.variant:
-        yield cell(f"only {point.variant}")
-    yield from _repeated(point)
-    yield from _names(point)
-    yield from (cell(wording.special_text(special, point.width)) for special in point.specials if special.own)
-    if point.specials_of:
-        yield f"special codes of {link('codes', point.specials_of)}"
-    if point.steps:
-        yield cell("steps: " + wording.steps_text(point))
-    if point.display is not None:
-        yield cell(wording.display_text(point))
-    if point.write_place is not None:
-        yield cell(f"written at {wording.write_place_text(point)}")
-    yield from map(cell, wording.width_texts(point))
-    yield from _conditions(device, point, by_name)
-    if point.note:
-        yield cell(wording.title_text(point.note).rstrip("."))
-    yield from (f"erratum {link('erratum', erratum)}" for erratum in point.errata)
-    if not point.generated:
-        yield cell(f"not generated: {point.reason or 'no reason given'}")
-
-
-def _repeated(point: Point) -> Iterator[str]:
-    if point.record:
-        yield cell(f"record {point.record}")
-    if point.set is not None:
-        yield f"set {point.set}"
-    if point.telegram is not None:
-        yield cell(f"telegram {point.telegram}")
-
-
-def _names(point: Point) -> Iterator[str]:
-    if point.flags:
-        yield f"bits: {_BITS}"
-    if point.fixed is not None:
-        yield cell(wording.fixed_text(point))
-    if point.digits is not None:
-        yield f"names of each digit: {link('names', point.digits.enum.name)}"
-    if point.enum is None:
-        return
-    if len(point.enum.entries) <= _INLINE_NAMES:
-        yield ", ".join(cell(wording.entry_text(entry)) for entry in point.enum.entries)
-    else:
-        yield f"names: {link('names', point.enum.name)}"
-
-
-def _conditions(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
-    if point.keeps in _KEEPS:
-        yield _KEEPS[point.keeps]
-    elif point.keeps is not None:
-        known = any(point.keeps == command.name for command in device.commands)
-        yield f"kept after {link('command', point.keeps) if known else code(point.keeps)}"
-    if point.conditions:
-        yield cell("write only when: " + ", ".join(point.conditions))
-    if point.when:
-        yield cell(f"exists when {wording.condition_text(point.when, by_name)}")
-    if point.since:
-        yield cell(f"since {point.since}")
-    if point.until:
-        yield cell(f"until {point.until}")
-    if point.changes:
-        yield cell(f"changes {point.changes}")
-    if point.changes_with:
-        yield f"read it again after writing {', '.join(link('point', name) for name in point.changes_with)}"
-    yield from (f"was {code(old)}" for old in point.was)
-    if point.reserved:
-        yield "reserved"
-
-
-def _flag_table(point: Point) -> Table:
+def _flag_table(point: Point) -> str:
     rows = [
         (
             wording.flag_bits(flag, point),
@@ -247,6 +159,4 @@ def _flag_table(point: Point) -> Table:
         )
         for flag in point.flags
     ]
-    table = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
-    assert table is not None, "a word with flags has rows"
-    return table
+    return by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)

@@ -3,34 +3,18 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe import text, wording
-from fieldscribe.targets.docs.alike import Alike
-from fieldscribe.targets.docs.points import reference_heads
+from fieldscribe import wording
+from fieldscribe.targets.docs.subjects import reference_heads
+from fieldscribe.text import csv_cell
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
+    from collections.abc import Iterable, Iterator
 
-_cell = lru_cache(maxsize=65536)(text.csv_cell)
-
-
-def sheet_of(device: Device) -> list[str]:
-    """The lines of the table, its head first."""
-    languages = tuple(dict.fromkeys(key for point in device.points for key in point.title))
-    references = reference_heads(device.points)
-    by_name = {point.name: point for point in device.points}
-    heads = ("code", "name", "variant", "group", *(f"title_{key}" for key in languages), *_PLACE, *references, *_FACTS)
-    meanings = Alike(lambda point: _meaning(device, point, by_name))
-    lines = [",".join(map(_cell, heads))]
-    for point in device.points:
-        titles = [_cell(point.title.get(key, "")) for key in languages]
-        printed = [_cell(str(point.references.get(key, ""))) for key in references]
-        meaning, reason = meanings.of(point)
-        lines.append(",".join((*_identity(point), *titles, *_place(point), *printed, meaning, *_source(point), reason)))
-    return lines
-
+    from fieldscribe.model import Place, Point, Source
+    from fieldscribe.targets.docs.subjects import Scope
 
 _PLACE = ("space", "wire_hex", "wire", "words_high_first", "other_places", "index", "telegram")
 _FACTS = (
@@ -41,53 +25,98 @@ _FACTS = (
 )
 
 
-def _identity(point: Point) -> tuple[str, ...]:
-    return _cell(point.code or ""), _cell(point.name), _cell(str(point.variant or "")), _cell(point.group)
+class _Kin(NamedTuple):
+    """The cells that points have alike, those side by side as one text."""
+
+    group: str
+    space: str
+    telegram: str
+    meaning: str
+    scale: str
+    behaviour: str
+    generated: str
 
 
-def _place(point: Point) -> tuple[str, ...]:
-    addresses = point.addresses
-    beside = "" if point.index is None else str(point.index), _cell(point.telegram or "")
-    if not addresses:
-        return _cell(point.space), "", "", "", "", *beside
-    lowest = min(addresses)
-    others = "" if point.write_place is None else f"write: {point.space} {_hexes(point.write_place.addresses)}"
-    words = _hexes(addresses) if len(addresses) > 1 else ""
-    return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else "", *beside
+def sheet_of(scope: Scope) -> str:
+    """The lines of the table, its head first."""
+    points = scope.device.points
+    languages = tuple(dict.fromkeys(key for point in points for key in point.title))
+    references = reference_heads(points)
+    heads = ("code", "name", "variant", "group", *(f"title_{key}" for key in languages), *_PLACE, *references, *_FACTS)
+    lines = [_joined(heads), *_lines(scope, languages, references)]
+    return "\n".join(lines) + "\n"
 
 
-def _hexes(addresses: tuple[int, ...]) -> str:
-    return " ".join(map(hex_text, addresses))
+def _lines(scope: Scope, languages: tuple[str, ...], references: tuple[str, ...]) -> Iterator[str]:
+    kins: dict[int, _Kin] = {}
+    for point, number, limits in scope.subjects:
+        kin = kins.get(number)
+        if kin is None:
+            kin = kins[number] = _kin(scope, point)
+        titles, printed = point.title, point.place.references
+        cells = (
+            csv_cell(point.code) if point.code else "",
+            csv_cell(point.name),
+            csv_cell(str(point.variant)) if point.variant else "",
+            kin.group,
+            *[csv_cell(titles.get(key, "")) for key in languages],
+            kin.space,
+            _place(point.place),
+            "" if point.write_place is None else _written(point, point.write_place),
+            "" if point.index is None else str(point.index),
+            kin.telegram,
+            *[_number(printed.get(key, "")) for key in references],
+            kin.meaning,
+            limits.sheet,
+            kin.scale,
+            "" if point.default is None and point.default_raw is None else _default(point),
+            kin.behaviour,
+            _own(point),
+            _source(point.source),
+            kin.generated,
+        )
+        yield ",".join(cells)
 
 
-def _meaning(device: Device, point: Point, by_name: dict[str, Point]) -> tuple[str, str]:
-    """The cells before and behind the place in the manual."""
-    cells = (
-        *_numbers(point, by_name),
-        *_names(point),
-        *_behaviour(device, point, by_name),
-        _cell("; ".join(point.errata)),
+def _kin(scope: Scope, point: Point) -> _Kin:
+    return _Kin(
+        csv_cell(point.group),
+        csv_cell(point.space),
+        csv_cell(point.telegram or ""),
+        _joined(_meaning(point)),
+        _joined((point.unit.symbol, wording.scale_text(point, scope.by_name), wording.resolution_text(point))),
+        _joined((wording.steps_text(point), *_names(point), *_behaviour(scope, point))),
+        _joined(("yes" if point.generated else "no", point.reason or "")),
     )
-    return ",".join(cells), f"{'yes' if point.generated else 'no'},{_cell(point.reason or '')}"
 
 
-def _numbers(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
-    outer = None if point.info.floating else wording.outer_raw(point)
-    return (
-        point.type if point.untyped is None else _cell(wording.type_text(point)),
-        str(point.words),
-        f"{point.bits[0]}..{point.bits[1]}" if point.bits else "",
-        point.access,
-        str(outer[0]) if outer else "",
-        str(outer[1]) if outer else "",
-        _cell(wording.raw_range_text(point)),
-        _cell(wording.range_text(point, by_name)),
-        _cell(point.unit.symbol),
-        _cell(wording.scale_text(point, by_name)),
-        _cell(wording.resolution_text(point)),
-        _cell(wording.default_text(point, unit=False)),
-        _cell(wording.steps_text(point)),
-    )
+def _joined(texts: Iterable[str]) -> str:
+    return ",".join(map(csv_cell, texts))
+
+
+def _number(number: int | str) -> str:
+    return csv_cell(number) if isinstance(number, str) else str(number)
+
+
+def _place(place: Place) -> str:
+    """The lowest address in both notations, and all if there are several."""
+    addresses = place.addresses
+    if len(addresses) == 1:
+        return f"{hex_text(addresses[0])},{addresses[0]},"
+    return f"{hex_text(min(addresses))},{min(addresses)},{_hexes(place)}" if addresses else ",,"
+
+
+def _written(point: Point, place: Place) -> str:
+    return csv_cell(f"write: {point.space} {_hexes(place)}") if point.addresses else ""
+
+
+def _hexes(place: Place) -> str:
+    return " ".join(map(hex_text, place.addresses))
+
+
+def _meaning(point: Point) -> tuple[str, ...]:
+    bits = f"{point.bits[0]}..{point.bits[1]}" if point.bits else ""
+    return point.type if point.untyped is None else wording.type_text(point), str(point.words), bits, point.access
 
 
 def _names(point: Point) -> tuple[str, ...]:
@@ -96,26 +125,40 @@ def _names(point: Point) -> tuple[str, ...]:
     flags = "; ".join(wording.flag_text(flag, point) for flag in point.flags)
     codes = [wording.special_text(special, point.width) for special in point.specials if special.own]
     specials = "; ".join((*codes, f"those of {point.specials_of}") if point.specials_of else codes)
-    return _cell(names), _cell(flags), _cell(specials), _cell(wording.fixed_text(point))
+    return names, flags, specials, wording.fixed_text(point)
 
 
-def _behaviour(device: Device, point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
+def _behaviour(scope: Scope, point: Point) -> tuple[str, ...]:
     return (
-        _cell(wording.keeps_text(device, point)),
-        _cell("; ".join(point.conditions)),
-        _cell(wording.condition_text(point.when, by_name)),
-        _cell(point.since or ""),
-        _cell(point.until or ""),
-        _cell(point.changes or ""),
-        _cell(" ".join(point.changes_with)),
-        _cell(point.record or ""),
-        "" if point.set is None else str(point.set),
-        _cell("; ".join(point.was)),
-        _cell(wording.title_text(point.note)) if point.note else "",
+        wording.keeps_text(scope.device, point),
+        "; ".join(point.conditions),
+        wording.condition_text(point.when, scope.by_name),
+        point.since or "",
+        point.until or "",
+        point.changes or "",
+        " ".join(point.changes_with),
     )
 
 
-def _source(point: Point) -> tuple[str, ...]:
-    source = point.source
-    line = "" if source.line is None else str(source.line)
-    return _cell(source.document), _cell(source.section or ""), _cell(source.page or ""), line
+def _default(point: Point) -> str:
+    return csv_cell(wording.default_text(point, unit=False))
+
+
+def _own(point: Point) -> str:
+    """What tells few points from others of their kin: record, set, former names, note and errata."""
+    if not (point.record or point.was or point.note or point.errata) and point.set is None:
+        return ",,,,"
+    number = "" if point.set is None else str(point.set)
+    note = wording.title_text(point.note) if point.note else ""
+    return _joined((point.record or "", number, "; ".join(point.was), note, "; ".join(point.errata)))
+
+
+def _source(source: Source) -> str:
+    page = _page(source.document, source.section or "", source.page or "")
+    return page if source.line is None else f"{page}{source.line}"
+
+
+@lru_cache(maxsize=256)
+def _page(*parts: str) -> str:
+    """Where in which document, up to the number of the line."""
+    return f"{_joined(parts)},"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.records import dataclass
-from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code
+from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code
 from fieldscribe.text import csv_cell
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ class CodesView:
     anchor: str
     heading: str
     users: str
-    rows: Table
+    rows: str
 
 
 def code_views(device: Device) -> Iterator[CodesView]:
@@ -41,16 +41,14 @@ def code_views(device: Device) -> Iterator[CodesView]:
             if not special.own
         ]
         table = by_rows(("Raw", "Name", "Title", "Remarks"), rows)
-        assert table is not None, "who shares codes has some"
         count = f"{len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
         yield CodesView(anchor("codes", name), cell(name), count, table)
 
 
-def sheet_of_codes(device: Device) -> list[str]:
+def sheet_of_codes(device: Device) -> str:
     """The lines of the table of all codes, its head first; shared codes have one row, not one for each point."""
-    languages = tuple(
-        dict.fromkeys(key for point in device.points for special in point.specials for key in special.title)
-    )
+    coded = [point for point in device.points if point.shape.specials]
+    languages = tuple(dict.fromkeys(key for point in coded for special in point.specials for key in special.title))
     shared = [(name, points[0], False) for name, points in _sharing(device).items()]
     owners = [*shared, *((point.item, point, True) for point in device.points)]
     rows = [
@@ -60,7 +58,7 @@ def sheet_of_codes(device: Device) -> list[str]:
         if special.own == own
     ]
     heads = (*_HEADS, *(f"title_{key}" for key in languages))
-    return [",".join(map(csv_cell, row)) for row in (heads, *rows)] if rows else []
+    return "".join(f"{','.join(map(csv_cell, row))}\n" for row in (heads, *rows)) if rows else ""
 
 
 def _row(name: str, point: Point, special: Special, languages: tuple[str, ...]) -> tuple[str, ...]:
@@ -81,6 +79,6 @@ def _sharing(device: Device) -> dict[str, list[Point]]:
     """The points that share codes, by the type, group or format that declares the codes."""
     points_of_codes: dict[str, list[Point]] = {}
     for point in device.points:
-        if point.specials_of:
+        if point.shape.specials_of:
             points_of_codes.setdefault(point.specials_of, []).append(point)
     return points_of_codes

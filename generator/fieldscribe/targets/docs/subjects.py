@@ -1,0 +1,104 @@
+"""The points as rows of the page and of the sheet: what points that are alike say, and what each says of itself."""
+
+from __future__ import annotations
+
+from operator import attrgetter
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe import wording
+from fieldscribe.model import Shape
+from fieldscribe.targets.docs.cells import cell
+from fieldscribe.text import csv_cell
+from fieldscribe.wording.exact import fixed_rule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from fieldscribe.model import Device, Point
+
+_UNNAMED = attrgetter(*(name for name in Shape.__annotations__ if name != "enum"))
+"""All facts of a shape but its enum: rows say the names of numbers, and only links say the name of the enum."""
+
+
+class Limits(NamedTuple):
+    """What rows say of limits: the page range and raw range, the sheet the outermost raw numbers and both ranges."""
+
+    page: tuple[str, str]
+    sheet: str
+
+
+class Subject(NamedTuple):
+    """A point; `kin` is the number of all points that differ only in words of their identity and in limits."""
+
+    point: Point
+    kin: int
+    limits: Limits
+
+
+class Scope(NamedTuple):
+    """What all rows of a device share."""
+
+    device: Device
+    by_name: Mapping[str, Point]
+    subjects: tuple[Subject, ...]
+    several: bool
+    """Whether facts come from several documents, so that each source names its own."""
+
+
+def scope_of(device: Device) -> Scope:
+    """The points of a device for its rows."""
+    by_name = {point.name: point for point in device.points}
+    return Scope(device, by_name, tuple(_subjects(device.points, by_name)), len(device.documents) > 1)
+
+
+def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
+    """The numberings of the manual that some of the points have, in the order of their first use."""
+    heads: dict[str, None] = {}
+    for point in points:
+        heads |= dict.fromkeys(point.place.references)
+    return tuple(heads)
+
+
+def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator[Subject]:
+    shapes, kins = dict[int, object](), dict[object, int]()
+    known_limits: dict[object, Limits] = {}
+    for point in points:
+        shape = shapes.get(id(point.shape))
+        if shape is None:
+            shape = shapes[id(point.shape)] = alike(point.shape)
+        kin = kins.setdefault(kin_of(point, shape), len(kins))
+        key = limits_of(point, kin)
+        limits = known_limits.get(key)
+        if limits is None:
+            limits = known_limits[key] = _limits(point, by_name)
+        yield Subject(point, kin, limits)
+
+
+def alike(shape: Shape) -> object:
+    """What two shapes of which rows say the same have in common."""
+    return tuple(map(id, (*_UNNAMED(shape), shape.enum and shape.enum.entries)))
+
+
+def kin_of(point: Point, shape: object) -> object:
+    """All that decides about the row of a point, but for the words of its identity and its limits."""
+    return shape, id(point.terms), len(point.place.addresses)
+
+
+def limits_of(point: Point, kin: int) -> object:
+    """All that decides about the words of limits."""
+    return kin, id(point.allowed)
+
+
+def _limits(point: Point, by_name: Mapping[str, Point]) -> Limits:
+    span, raw = wording.range_text(point, by_name), wording.raw_range_text(point)
+    outer = None if point.info.floating else wording.outer_raw(point)
+    ends = f"{outer[0]},{outer[1]}" if outer else ","
+    return Limits(
+        ("" if point.flags else cell(span), cell(raw) if _has_rule(point) else ""),
+        f"{ends},{csv_cell(raw)},{csv_cell(span)}",
+    )
+
+
+def _has_rule(point: Point) -> bool:
+    """Whether the raw range says more than the range."""
+    return point.scale is not None or point.allowed.moves or fixed_rule(point) is None
