@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
-    from fieldscribe.reading import Inputs
 
 FOLDER = TESTS / "transcripts"
 TRANSCRIPTS = sorted(FOLDER.glob("*/*.txt"))
@@ -32,9 +31,7 @@ LOADED: dict[Path, Device] = {}
 def _loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     load = pipeline.load_device
 
-    def load_once(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
-        if inputs is not None:
-            return load(device_file, report, inputs)
+    def load_once(device_file: Path, report: Report) -> Device | None:
         device = LOADED.get(device_file.resolve()) or load(device_file, report)
         if device is not None and not report.findings:
             LOADED[device_file.resolve()] = device

@@ -294,5 +294,5 @@ def test_computed_ends_as_expressions() -> None:
 def test_numbers_that_the_author_listed(written: str, values: list[int] | None, tmp_path: Path) -> None:
     """One by one, where they are numbers; else the intervals alone say them."""
     points = f"- {{name: a, at: 0, range: '{written}'}}\n- {{name: b, at: 1, range: 5..100}}\n"
-    exported = export_model(loaded_in(tmp_path, described(points)))
+    exported: Any = export_model(loaded_in(tmp_path, described(points)))
     assert exported["points"][0]["raw"]["values"] == values

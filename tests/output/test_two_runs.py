@@ -52,8 +52,8 @@ def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.M
     """But not at once: most runs are over before anybody has read that."""
     told: list[float] = []
     hours = iter(at / 4 for at in range(1000))
-    monkeypatch.setattr(lock.time, "monotonic", lambda: next(hours))
-    monkeypatch.setattr(lock.time, "sleep", lambda _: None)
+    monkeypatch.setattr(time, "monotonic", lambda: next(hours))
+    monkeypatch.setattr(time, "sleep", lambda _: None)
     monkeypatch.setattr(lock, "_tried", lambda _: None)
     with (
         pytest.raises(TimeoutError, match="for 60 seconds"),
