@@ -154,6 +154,12 @@ def test_what_is_read_is_opened_so_that_nothing_hangs(project: Path, monkeypatch
     monkeypatch.setattr(os, "open", noting)
     assert main(["check"]) == 0
     assert flags["device.yaml"] == os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place.unlink()
+    os.mkfifo(place)
+    flags.clear()
+    assert main(["check"]) == 1
+    assert place.name not in flags, "what can be seen to be no file is not even opened"
 
 
 def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(

@@ -14,6 +14,7 @@ from fieldscribe.reading import state_of
 from support.places import TESTS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
     from fieldscribe.reading import State
@@ -194,7 +195,7 @@ def test_a_full_disk_of_the_cache_is_ignored(place: Path, monkeypatch: pytest.Mo
 
     replace = writing.replace
 
-    def full(path: Path, data: bytes, *by_way_of: str) -> State:
+    def full(path: Path, data: Iterable[bytes], *by_way_of: str) -> State:
         if path.is_relative_to(place / "cache"):
             raise OSError(28, "No space left on device")
         return replace(path, data, *by_way_of)
