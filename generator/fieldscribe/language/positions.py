@@ -33,17 +33,20 @@ def places_of_items(text: str, start: int, at: Place) -> list[Place]:
 
 
 class _Where:
-    """Line and column of what stands behind a place."""
+    """Line and column of what stands behind a place. Goes on where it was asked last, so that all keys cost one pass."""
 
     def __init__(self, text: str, start: int, at: Place) -> None:
-        self.text, self.start, self.at = text, start, at
+        self.text, self.known, self.at = text, start, at
+        self.first = start, at
 
     def __call__(self, offset: int) -> Place:
-        breaks = self.text.count("\n", self.start, offset)
+        if offset < self.known:
+            self.known, self.at = self.first
+        breaks = self.text.count("\n", self.known, offset)
         line, column = self.at
-        if not breaks:
-            return line, column + offset - self.start
-        return line + breaks, offset - self.text.rfind("\n", 0, offset)
+        column = offset - self.text.rfind("\n", 0, offset) if breaks else column + offset - self.known
+        self.known, self.at = offset, (line + breaks, column)
+        return self.at
 
 
 def _keys_in_braces(text: str, start: int) -> Iterator[tuple[int, int, int]]:
