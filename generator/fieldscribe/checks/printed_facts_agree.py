@@ -67,7 +67,7 @@ def _is_plainly(value: object, number: int | str | None) -> bool:
         return False
     hexadecimal = f"{number:04X}h"
     for printed in value if isinstance(value, Seq) else (value,):
-        if printed != hexadecimal and printed != number and plain_number(printed) != number:
+        if printed not in (number, hexadecimal) and plain_number(printed) != number:
             return False
     return True
 
