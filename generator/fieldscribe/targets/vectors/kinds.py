@@ -246,3 +246,11 @@ class Row:
                 raise ValueError(f"{self.name} lacks {key}")
         while words and words[-1] == ABSENT:
             words.pop()
+
+
+ROWS = {name: Row(name, kind) for name, kind in KINDS.items()}
+
+
+def line_of(kind: str, *values: object) -> str:
+    """The line of a vector that every family can have."""
+    return ROWS[kind].line(values)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.kinds import KINDS, SETS, Row, table
+from fieldscribe.targets.vectors.kinds import ROWS, SETS, Row, table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -17,7 +16,7 @@ FORMAT = 2
 
 def rows(further: Mapping[str, str] = MappingProxyType({})) -> dict[str, Row]:
     """What writes the lines of each kind; `further` are the kinds that only the device's family has."""
-    return {name: Row(name, kind) for name, kind in (KINDS | table(further)).items()}
+    return ROWS | {name: Row(name, kind) for name, kind in table(further).items()}
 
 
 _SETS = {name: Row(name, kind) for name, kind in SETS.items()}
@@ -35,6 +34,7 @@ class Lines:
         self._open: list[str] = []
         self._chunks: list[str] = []
         self._included: list[Lines] = []
+        self._joined: str | None = None
 
     def set(self, name: str, *values: object) -> None:
         """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
@@ -51,10 +51,14 @@ class Lines:
 
     def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
         """Add vectors of one kind."""
-        if self._wanted and rows_of_fields:
+        self.add_written(kind, [*map(self._rows[kind].line, rows_of_fields)])
+
+    def add_written(self, kind: str, lines: list[str]) -> None:
+        """Add vectors of one kind whose lines are finished."""
+        if self._wanted and lines:
             self._settle()
-        self._open += map(self._rows[kind].line, rows_of_fields)
-        self._kinds += [kind] * len(rows_of_fields)
+        self._open += lines
+        self._kinds += [kind] * len(lines)
 
     def apart(self) -> Lines:
         """No lines yet, of the same kinds: for vectors that are included in several places."""
@@ -71,12 +75,13 @@ class Lines:
             self._held.update(part._held)
             self._wanted.update(part._wanted)
 
-    @cached_property
+    @property
     def joined(self) -> str:
         """The lines of a part that is complete."""
-        text = "\n".join(self._open)
-        self._open.clear()
-        return text
+        if self._joined is None:
+            self._joined = "\n".join(self._open)
+            self._open.clear()
+        return self._joined
 
     def _counts(self) -> Counter[str]:
         """How many vectors of each kind there are."""
