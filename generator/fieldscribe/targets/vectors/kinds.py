@@ -199,7 +199,8 @@ def _frames(value: object) -> str:
     return ",".join([f"{number}={data.hex()}" for number, data in value]) or ABSENT
 
 
-def _script(value: object) -> str:
+def script_text(value: object) -> str:
+    """Requests with their answers."""
     if not isinstance(value, (tuple, list)):
         return _other(value, "list")
     return ",".join([f"{sent.hex()}={received.hex()}" for sent, received in value]) or ABSENT
@@ -216,7 +217,7 @@ FORMS: dict[str, Callable[[object], str]] = {
     "names": _names,
     "pairs": _pairs,
     "frames": _frames,
-    "script": _script,
+    "script": script_text,
 }
 """The notation of each form of field: lists with commas; `pairs`, `frames` and `script` have items of two parts."""
 
