@@ -28,7 +28,7 @@ class Lines:
 
     def __init__(self, rows_of_kinds: Mapping[str, Row] | None = None) -> None:
         self._rows = rows() if rows_of_kinds is None else rows_of_kinds
-        self._kinds: list[str] = []
+        self._numbers: Counter[str] = Counter()
         self._held: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._open: list[str] = []
@@ -47,7 +47,7 @@ class Lines:
         if self._wanted:
             self._settle()
         self._open.append(self._rows[kind].line(values))
-        self._kinds.append(kind)
+        self._numbers[kind] += 1
 
     def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
         """Add vectors of one kind."""
@@ -58,7 +58,7 @@ class Lines:
         if self._wanted and lines:
             self._settle()
         self._open += lines
-        self._kinds += [kind] * len(lines)
+        self._numbers[kind] += len(lines)
 
     def apart(self) -> Lines:
         """No lines yet, of the same kinds: for vectors that are included in several places."""
@@ -72,6 +72,9 @@ class Lines:
             self._open.append(part.joined if text is None else text)
             self._included.append(part)
         if part._held or part._wanted:
+            for name in part._held:
+                for key in _BEHIND[name]:
+                    self._held.pop(key, None)
             self._held.update(part._held)
             self._wanted.update(part._wanted)
 
@@ -85,10 +88,10 @@ class Lines:
 
     def _counts(self) -> Counter[str]:
         """How many vectors of each kind there are."""
-        counts = Counter(self._kinds)
+        counts = self._numbers.copy()
         for part, times in Counter(self._included).items():
-            for kind in part._kinds:
-                counts[kind] += times
+            for kind, number in part._numbers.items():
+                counts[kind] += number * times
         return counts
 
     def _settle(self) -> None:
