@@ -1,6 +1,7 @@
 """Raw numbers, values and counts of one shape under one ratio: each is worked out once, however many limits there are.
 
-So are the lines that tell them, as far as they follow from them. Nothing here knows limits: what may be written is asked anew for every sheet.
+So are the lines that tell them, as far as they follow from them.
+Nothing here knows limits: what may be written is asked anew for every sheet.
 """
 
 from __future__ import annotations
@@ -51,11 +52,11 @@ class Conversions:
         if self._is_too_large(raw):
             return line_of("decode", raw, "overflow")
         if ratio.divides_exactly(raw) or not (shape.scale_arguments and shape.encodes_values):
-            return line_of("decode", raw, "ok", ratio.numerator(raw) / ratio.denominator)
+            return f"decode\t{raw}\tok\t{real(ratio.numerator(raw) / ratio.denominator)}"
         return ""
 
     def encode_anew(self, value: float) -> Encoding:
-        """The lines of a finite value; there is no raw number if a step overflows. To a cache, 0 and -0 are the same."""
+        """The lines of a finite value, without a raw number if a step overflows. To a cache, 0 and -0 are the same."""
         told, raw = f"encode\t{real(value)}\t", self.ratio.raw_of_float(value)
         return told, raw, f"{told}ok\t{raw}"
 
@@ -69,7 +70,7 @@ class Conversions:
             return line_of("decode_count", raw, "special", None, code.name)
         count = self.count(raw)
         fits = -INT64 <= count < INT64 and not self._is_too_large(raw)
-        return line_of("decode_count", raw, *(("ok", count) if fits else ("overflow",)))
+        return f"decode_count\t{raw}\tok\t{count}" if fits else line_of("decode_count", raw, "overflow")
 
     def _encoded_count(self, count: int) -> Encoding:
         """The lines of a count."""

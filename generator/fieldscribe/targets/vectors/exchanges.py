@@ -13,9 +13,9 @@ from fieldscribe.targets.vectors.whole import with_fixed
 from fieldscribe.targets.vectors.words import words_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Code, Device, Place, Point, Shape
+    from fieldscribe.model import Code, Point, Shape
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.meaning import Meaning, Meanings
 
@@ -63,9 +63,10 @@ class _Usual(NamedTuple):
 class Exchanges:
     """The exchanges of one device."""
 
-    def __init__(self, lines: Lines, oracle: Oracle, meanings: Meanings, device: Device, wire: Wire) -> None:
-        self.lines, self.oracle, self.meanings, self.wire = lines, oracle, meanings, wire
-        self.points = {point.item: point for point in device.points if point.generated}
+    def __init__(
+        self, lines: Lines, oracle: Oracle, meanings: Meanings, points: Mapping[str, Point], wire: Wire
+    ) -> None:
+        self.lines, self.oracle, self.meanings, self.points, self.wire = lines, oracle, meanings, points, wire
         self.spoiled: set[tuple[str, str]] = set()
         """The kinds and spaces that have vectors with bad answers already."""
         self._usual: dict[Meaning, _Usual | None] = {}
@@ -76,10 +77,16 @@ class Exchanges:
 
     def of_each_space(self) -> None:
         """Add exchanges for the first readable and the first writable point of each space."""
+        complete: set[tuple[str, str]] = set()
         for point in self.points.values():
+            access, space = point.shape.access, point.terms.space
+            if (access, space) in complete:
+                continue
             kinds = (("read", point.readable), ("write", point.writable))
-            new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
-            if new and point.bits is None and point.text is None and not point.arguments:
+            new = {(kind, space) for kind, does in kinds if does} - self.spoiled
+            if not new:
+                complete.add((access, space))
+            elif point.bits is None and point.text is None and not point.arguments:
                 self.lines.set("point", point.item)
                 self.of(point, self.meanings.of(point))
 
@@ -93,13 +100,18 @@ class Exchanges:
         if usual.settings:
             self.lines.set("with", usual.settings)
         if usual.read is not None:
-            self._add(usual.read, point, usual, self.wire.reads(point, usual.read.words))
+            script = self.wire.reads(point, usual.read.words)
+            if script is not None:
+                self._add(usual.read, point, usual, script)
         for exchange in usual.written:
-            words = exchange.words if point.write_place is None else _words_elsewhere(point.write_place, meaning, exchange)
-            script = self.wire.writes(point, words, keep=exchange.kind == "store")
+            kind, raw, words, _ = exchange
+            if point.write_place is not None:  # where the words may lie in another order
+                words = words_of(meaning, ascending(meaning.shape, point.write_place.addresses), raw)
+            script = self.wire.writes(point, words, keep=kind == "store")
             if script is not None and meaning.bits is not None:
-                script = self._beside(point, meaning, exchange.raw, script)
-            self._add(exchange, point, usual, script)
+                script = self._beside(point, meaning, raw, script)
+            if script is not None:
+                self._add(exchange, point, usual, script)
 
     def _of_meaning(self, meaning: Meaning) -> _Usual | None:
         """What exchanges with this meaning carry; None without an address, or if what it needs cannot be read."""
@@ -144,9 +156,7 @@ class Exchanges:
             script += read
         return script
 
-    def _add(self, exchange: _Exchange, point: Point, usual: _Usual, script: Script | None) -> None:
-        if script is None:
-            return
+    def _add(self, exchange: _Exchange, point: Point, usual: _Usual, script: Script) -> None:
         kind, raw, _, result = exchange
         self.lines.add_written(kind, [f"{kind}\t{script_text(script)}{result}"])
         if not usual.alone or (kind, point.terms.space) in self.spoiled:
@@ -157,11 +167,6 @@ class Exchanges:
 
 
 _WRITING = ("write", "store")
-
-
-def _words_elsewhere(place: Place, meaning: Meaning, exchange: _Exchange) -> tuple[int, ...]:
-    """The words that are written at a place, which may lie in another order than those that are read."""
-    return words_of(meaning, ascending(meaning.shape, place.addresses), exchange.raw)
 
 
 def _result(shape: Shape, raw: int, words: tuple[int, ...], needs: Script) -> str:

@@ -106,9 +106,9 @@ class Lines:
                     self._held.pop(key, None)
         wanted.clear()
 
-    def gather(self) -> None:
-        """Join the new lines: one long string takes less memory."""
-        if self._open:
+    def gather(self, least: int = 1) -> None:
+        """Join the new lines and parts if there are so many: one long string takes less memory."""
+        if len(self._open) >= least:
             self._chunks.append("\n".join(self._open))
             self._open.clear()
 

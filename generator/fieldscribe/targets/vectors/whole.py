@@ -52,7 +52,9 @@ def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool
 def _decoded(shape: Shape, raw: int) -> str:
     """The line that tells status and count."""
     code = code_of(shape, raw) if shape.specials else None
-    return f"decode_count\t{raw}\tok\t{raw}" if code is None else line_of("decode_count", raw, "special", None, code.name)
+    if code is not None:
+        return line_of("decode_count", raw, "special", None, code.name)
+    return f"decode_count\t{raw}\tok\t{raw}"
 
 
 def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> str:
