@@ -9,7 +9,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.audit.manual import Manual, tokens_of
+from fieldscribe.audit.manual import Manual, has_word, tokens_of
 from fieldscribe.cli import main
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
@@ -577,3 +577,37 @@ def test_what_a_frame_says_stands_where_it_is_cited(
     text = f"{MANUAL}\nThe frequency of {value}\n01 06 10 01 01 90 {check}\n"
     _, found = audit(tmp_path, capsys, text, DEVICE + FRAME.replace("CRC", check))
     assert [f"{one['subject']} {one['fact']} {one['wanted']}" for one in found["missing"]] == missing
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "stands"),
+    [
+        ("A1", "A1", True),
+        ("see A1.", "A1", True),
+        ("XA1", "A1", False),
+        ("A1X", "A1", False),
+        ("A12", "A1", False),
+        ("XA1 A1", "A1", True),
+        ("A1A1 A1", "A1", True),
+        ("4.2.10", "4.2.1", False),
+        ("4.2.10 4.2.1", "4.2.1", True),
+        ("", "A1", False),
+    ],
+)
+def test_a_word_stands_by_itself(text: str, word: str, stands: bool) -> None:
+    assert has_word(text, word) is stands
+
+
+def test_a_section_ends_before_the_next_that_is_not_its_own() -> None:
+    manual = Manual("1.1 A\n\ntext\n1.1.1 B\ntext\n1.2 C\ntext\n")
+    assert {number: manual.end_of_section(number) for number in manual.numbered} == {"1.1": 5, "1.1.1": 5, "1.2": 7}
+
+
+@pytest.mark.parametrize(("distance", "missing"), [(1, []), (400, []), (401, [("far", "section")])])
+def test_a_section_without_a_number_is_searched_above(
+    distance: int, missing: list[tuple[str, str]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines = [*MANUAL.splitlines(), "Appendix", *["A line."] * (distance - 1), "ID 1234"]
+    points = f"- {{name: far, at: 1234, section: Appendix, line: {len(lines)}}}\n"
+    _, found = audit(tmp_path, capsys, "\n".join(lines) + "\n", DEVICE + points)
+    assert [(one["subject"], one["fact"]) for one in found["missing"]] == missing

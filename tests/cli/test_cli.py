@@ -376,11 +376,15 @@ class _Screen(StringIO):
         return True
 
 
-@pytest.mark.parametrize(("no_colour", "coloured"), [("", True), ("1", False)])
-def test_colour_is_for_terminals(monkeypatch: pytest.MonkeyPatch, small: Path, no_colour: str, coloured: bool) -> None:
+@pytest.mark.parametrize(
+    ("no_colour", "term", "coloured"), [("", "xterm", True), ("1", "xterm", False), ("", "dumb", False)]
+)
+def test_colour_is_for_terminals(
+    monkeypatch: pytest.MonkeyPatch, small: Path, no_colour: str, term: str, coloured: bool
+) -> None:
     screen = _Screen()
     monkeypatch.setenv("NO_COLOR", no_colour)
-    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("TERM", term)
     monkeypatch.setattr(sys, "stdout", screen)
     assert main(["explain", "small_drive", "P1"]) == 0
     (small / "empty").mkdir()

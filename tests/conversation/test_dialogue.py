@@ -11,6 +11,7 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
+from fieldscribe.families.answers import refused
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
@@ -258,3 +259,36 @@ def test_requests_to_write() -> None:
     slow = replace(DEVICE, bus=replace(DEVICE.bus, functions=()))
     with pytest.raises(RefusedError, match="no function"):
         write_request(slow, named(DEVICE, "base_frequency"), 500, 1, None)
+
+
+@pytest.mark.parametrize(
+    ("status", "why"),
+    [
+        ("bad_framing", "the device does not speak this framing"),
+        ("bad_unit", "the device cannot have this unit number"),
+        ("bad_function", "the device allows no function that writes it"),
+        ("bad_count", "it has more words than the device takes in one request"),
+        ("bad_address", "it lies beyond the last address"),
+        ("bad_link", "the device knows no such link"),
+        ("bad_task", "over this link there is no task that writes it"),
+        ("bad_parameter", "its number cannot be sent"),
+        ("bad_index", "its index cannot be sent"),
+        ("bad_value", "its value does not fit into the parameter part of this link"),
+        ("no_message", "the manual gives no message that writes it"),
+        ("something_new", "something_new"),
+    ],
+)
+def test_why_no_frame_writes_a_point(status: str, why: str) -> None:
+    error = refused(DEVICE.bus, named(DEVICE, "base_frequency"), status)
+    assert (error.status, error.message) == (status, f"A020 base_frequency: {why}")
+    assert error.hint == ("units are 1 to 32" if status == "bad_unit" else "")
+    assert refused(DEVICE.bus, named(DEVICE, "base_frequency"), status, "Do so.").hint == "Do so."
+
+
+def test_what_a_person_says_is_a_request_is_read_as_one_whatever_came_before() -> None:
+    """An echo looks like its request: with --request it is the request."""
+    frame = rtu("05 06 10 28 01 F4")
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE))
+    assert listening.hear(frame).kind == "request_or_reply"
+    assert listening.expect_reply_to(frame).kind == "request_or_reply"
+    assert listening.hear(frame).kind == "reply"

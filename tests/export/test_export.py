@@ -15,6 +15,7 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
+from support.described import described, loaded_in
 from support.models import linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
@@ -278,3 +279,20 @@ def test_computed_ends_as_expressions() -> None:
     assert bound_of(Limit(moved, (), -32768, 32767), True, limited) == "(d.raw + 3) / 10 ** (e.raw - 2) + 1 / 2"
     alone = linear("1/3", 4, value_of("f", -1, slope=5))
     assert bound_of(Limit(alone, (), -32768, 32767), True, limited) == "1 / (f.raw * 5) / 3 + 4"
+
+
+@pytest.mark.parametrize(
+    ("written", "values"),
+    [
+        ("0, 1, 2, 5", [0, 1, 2, 5]),
+        ("0, 1, b", None),
+        ("0, 1, 5..7", None),
+        ("0..7", None),
+        ("0 | 5..7", None),
+    ],
+)
+def test_numbers_that_the_author_listed(written: str, values: list[int] | None, tmp_path: Path) -> None:
+    """One by one, where they are numbers; else the intervals alone say them."""
+    points = f"- {{name: a, at: 0, range: '{written}'}}\n- {{name: b, at: 1, range: 5..100}}\n"
+    exported: Any = export_model(loaded_in(tmp_path, described(points)))
+    assert exported["points"][0]["raw"]["values"] == values

@@ -5,9 +5,14 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import pytest
+from fieldscribe import targets
+from fieldscribe.families import family
 from support.described import group, head, together, write
+from support.models import sample_device
 from support.places import TESTS
 
 if TYPE_CHECKING:
@@ -86,3 +91,26 @@ def test_what_people_ask(tmp_path: Path) -> None:
     assert "frames of the family bell are not known here" in run(folder, "decode", "carillon", "31 42").stderr
     exported = json.loads(run(folder, "export", "json", "carillon").stdout)
     assert (exported["family"], exported["points"][1]["space"]) == ("bell", "tone")
+
+
+def test_a_part_that_is_missing_is_none_and_one_that_breaks_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "choir/targets").mkdir(parents=True)
+    for name, text in {
+        "__init__": "",
+        "facts": "VOICES = 4",
+        "speech": "import nowhere_at_all",
+        "targets/c": "",
+    }.items():
+        (tmp_path / f"choir/{name}.py").write_text(text, "utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    choir = replace(family("modbus"), folder="choir")
+    assert choir.part("facts").VOICES == 4
+    assert (choir.part("frames"), choir.part("targets.docs"), choir.part("checks.one")) == (None, None, None)
+    with pytest.raises(ModuleNotFoundError, match="nowhere_at_all"):
+        choir.part("speech")
+    monkeypatch.setattr(targets, "family", lambda _: choir)
+    knowing = {name: targets.knows(name, sample_device()) for name in targets.TARGETS}
+    assert knowing == {"c": True, "python": False, "rust": False, "docs": True, "vectors": True}
+    assert list(knowing) == ["c", "python", "rust", "docs", "vectors"]

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.families.uss.facts import UssBus, of_bus
+from fieldscribe.families.uss.links import default_link
 from fieldscribe.families.uss.parts import Link, parameter_words
 from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_byte, parse, telegram
 from fieldscribe.model import Bus, Code
@@ -162,7 +163,39 @@ def test_a_broadcast_sets_the_bit_of_the_address_and_carries_masks() -> None:
     status, data = broadcast(BUS, Link(127, 2), words("0006 FFFF 0000 0000"), words("047F 3333"))
     assert (status, data[2], data[3:-1].hex()) == ("ok", 0x20, "0006ffff00000000047f3333")
     assert check_byte(data) == 0
-    assert broadcast(BUS, Link(127, 2), words("0006 FFFF"), (0, 0)) == ("bad_link", b"")
+
+
+@pytest.mark.parametrize(
+    ("bus", "pzd", "mask", "data", "status"),
+    [
+        (BUS, 2, "0006 FFFF", "0 0", "bad_link"),
+        (BUS, 2, "0006 FFFF 0 0", "0", "bad_link"),
+        (BUS, 8, "0006 FFFF 0 0", "0 0 0 0 0 0 0 0", "ok"),
+        (BUS, 9, "0006 FFFF 0 0", "0 0 0 0 0 0 0 0 0", "bad_link"),
+        (replace(BUS, broadcast=None), 2, "0006 FFFF 0 0", "0 0", "bad_link"),
+        (BUS, 2, "0006 10000 0 0", "0 0", "bad_value"),
+        (BUS, 2, "0006 FFFF 0 0", "0 10000", "bad_value"),
+        (BUS, 2, "0006 FFFF 0 0", "0 -1", "bad_value"),
+    ],
+)
+def test_what_must_not_be_broadcast(bus: Bus, pzd: int, mask: str, data: str, status: str) -> None:
+    made = broadcast(bus, Link(127, pzd), words(mask), words(data))
+    assert (made[0], made[1] == b"") == (status, status != "ok")
+
+
+@pytest.mark.parametrize(
+    ("pkw", "pzd", "link"),
+    [
+        ((0, 3, 4, 127), (0, 8), Link(127, 2)),
+        ((0, 3, 4), (0, 8), Link(4, 2)),
+        ((), (0, 2), Link(127, 2)),
+        ((127,), (0, 1), Link(127, 1)),
+        ((3,), (4, 8), Link(3, 4)),
+    ],
+)
+def test_the_link_if_nobody_says_another(pkw: tuple[int, ...], pzd: tuple[int, int], link: Link) -> None:
+    """Variable length where the device has it, else the longest; two words of process data, or what comes near."""
+    assert default_link(replace(BUS, own=UssBus(pkw=pkw, pzd=pzd))) == link
 
 
 @given(st.binary(max_size=40), st.sampled_from([VARIABLE, FIXED, SHORT, NONE]))

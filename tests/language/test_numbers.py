@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from fractions import Fraction
 from time import perf_counter
 
 import pytest
 from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number, plain_number
+from fieldscribe.language.scalars import scalar
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -160,3 +162,30 @@ def test_most_addresses_are_plain() -> None:
         *(0, 4136, 0x1028, 15),
         *(None, None, None),
     ]
+
+
+@pytest.mark.parametrize(
+    ("texts", "value"),
+    [
+        (("", "~", "null", "Null", "NULL"), None),
+        (("true", "True", "TRUE"), True),
+        (("false", "False", "FALSE"), False),
+        (("10", "010", "+10", "0xA", "0xa", "0o12"), 10),
+        (("-10", "-010"), -10),
+        (("1.5", "+1.5", "15e-1", "1.50", "0.15e1", "0.15E+01"), Decimal("1.5")),
+        ((".5", "0.5", "5e-1"), Decimal("0.5")),
+    ],
+)
+def test_plain_scalars(texts: tuple[str, ...], value: object) -> None:
+    for text in texts:
+        found = scalar(text)
+        assert (type(found), found) == (type(value), value), text
+
+
+TEXTS = "on off yes no On NO y tRue nULL nil none 12:30 1_000 0b11 0x 0o8 1e9999 1.2.3 --1 +-1 .inf .nan - + . 1h"
+
+
+@pytest.mark.parametrize("text", [*TEXTS.split(), "9" * 65, "0x" + "F" * 63, "1." + "0" * 63])
+def test_what_is_text(text: str) -> None:
+    assert scalar(text) == text
+    assert isinstance(scalar(text), str)

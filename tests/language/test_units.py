@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.conversation.units import find_units
 from fieldscribe.language.units import factor_between, shipped, shipped_unit, unit_hint
+from fieldscribe.model import Unit
+from support.models import point, sample_device
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -133,3 +136,13 @@ def test_explain_tells_of_a_unit(capsys: pytest.CaptureFixture[str]) -> None:
     assert "frequency_controller_ramp" not in capsys.readouterr().out
     assert main(["explain", "hitachi_l200", "unit:hz"]) == 2
     assert "write `Hz`" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("count", "rest"), [(0, ""), (1, ""), (20, ""), (21, " and 1 more"), (30, " and 10 more")])
+def test_a_unit_names_its_first_points(count: int, rest: str) -> None:
+    hertz = Unit("Hz", "hertz", "frequency")
+    points = (*(point(f"p_{at}", at, unit=hertz) for at in range(count)), point("other", 99))
+    ((reading, heading, rows),) = find_units(sample_device(points), "Hz")
+    assert (reading, heading) == ("unit Hz", "Hz: hertz")
+    assert dict(rows)["Quantity"] == "frequency"
+    assert dict(rows)["Points"] == (", ".join(f"p_{at}" for at in range(min(count, 20))) + rest or "none")

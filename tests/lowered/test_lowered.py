@@ -62,6 +62,26 @@ def test_widths(type_name: str, ratio: str, decimals: int, wide: tuple[bool, boo
     assert (plan.count_wide, plan.encode_wide, plan.decode_wide) == wide
 
 
+@pytest.mark.parametrize(
+    ("type_name", "ratio", "fits"),
+    [
+        ("u16", "10", True),
+        ("s16", "1/100", True),
+        ("u16", "1/256", True),
+        ("u16", "1/257", False),
+        ("s16", "1/512", True),
+        ("s16", "1/513", False),
+        ("u16", f"{1 << 24}", True),
+        ("u16", f"{(1 << 24) + 2}", False),
+        ("s32", "10", False),
+    ],
+)
+def test_what_binary32_holds(type_name: str, ratio: str, fits: bool) -> None:
+    """Every whole number up to 2^24 and no more: the constants of a rule, and all that it meets of any raw number."""
+    subject = point("subject", 0, type_name, scale=scaled(ratio), decimals=0)
+    assert plan_of(subject, 0, 100).fits_float is fits
+
+
 def test_nothing_that_a_plan_meets_is_wider_than_it_says() -> None:
     for type_name in ("u8", "s16", "u16", "s32", "u32"):
         for ratio, offset in (("10", 0), ("-1/7", 3), ("65537/10", "1/2"), ("1/1000000", -5)):

@@ -98,7 +98,8 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
     from mutants.noticing import devices
 
     inputs = [ROOT / part for part in ("generator/fieldscribe", "templates", "descriptions", "tests/devices")]
-    tests = _digest([*sorted(ROOT.glob("tests/*.py")), ROOT / "tests/bad", HERE / "generator.py"])
+    told = [ROOT / "tests/bad", ROOT / "tests/transcripts"]
+    tests = _digest([*sorted(ROOT.glob("tests/**/*.py")), *told, HERE / "generator.py"])
     results = Results(CACHE / f"generator-{seed}-{_digest(inputs)}.jsonl")
     files = sorted(ROOT.glob("tests/**/test_*.py"))
     table, judge = Table("generator"), cache(lambda: GeneratorJudge(CACHE / "generator", devices(), files))
@@ -111,7 +112,7 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
             results.put(f"{mutant.key} {tests}" if known.outcome == SURVIVED else mutant.key, known)
         return known
 
-    equivalent, told = named(), time.monotonic()
+    equivalent, printed = named(), time.monotonic()
     while draws:
         for room, draw in list(draws.items()):
             mutant = next(draw, None) if table.judged_of(room) < count else None
@@ -119,8 +120,8 @@ def _generator(chosen: list[str], seed: str, count: int) -> Table:
                 del draws[room]
                 continue
             table.add(mutant, judged(mutant), equivalent=entry("generator", mutant) in equivalent)
-        if time.monotonic() - told > PROGRESS:
-            told = time.monotonic()
+        if time.monotonic() - printed > PROGRESS:
+            printed = time.monotonic()
             survived = len(table.survivors)
             print(f"generator: {table.judged} in {len(table.counts)} rooms, {survived} survived", flush=True)
     return table

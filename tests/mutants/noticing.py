@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 TESTS = ROOT / "tests"
 TARGETS = ("c", "python", "rust", "docs", "vectors")
+_TOLD = {"test_bad.py": "bad", "test_transcripts.py": "transcripts"}
+"""Files whose tests stand in a folder beside them."""
 MEASURED = 120
 """Seconds of a processor for which a file of tests is measured; what comes later is no judge."""
 
@@ -103,7 +105,8 @@ def measured_output(device: str, target: str, folder: Path) -> tuple[Witness, di
 def measured_tests(path: Path, folder: Path) -> FileOfTests:
     """What the tests of a file enter, those of the core suite that pass."""
     shared = [*TESTS.glob("*.py"), *(TESTS / "support").glob("*.py")]
-    file = folder / f"{path.stem}-{_digest([path, *shared], _names())}.json"
+    told = _TOLD.get(path.name)
+    file = folder / f"{path.stem}-{_digest([path, *shared, *([TESTS / told] if told else [])], _names())}.json"
     rows = _kept(file, lambda: _measured(path))
     tests = [Witness(row["name"], row["seconds"], frozenset(row["enters"])) for row in rows if row.get("name")]
     return FileOfTests(path, tuple(tests), frozenset(one for row in rows for one in row["enters"]))

@@ -15,6 +15,10 @@ Rewriting = tuple[str, ast.expr, str]
 
 _COMPARISONS: dict[type[ast.cmpop], str] = {ast.In: "not in", ast.NotIn: "in", ast.Is: "is not", ast.IsNot: "is"}
 _OTHERS = {"min": "max", "max": "min", "any": "all", "all": "any"}
+_IN_ANY_ORDER = ("gcd", "lcm", "min", "max")
+"""Functions whose arguments may change places."""
+_LAID_OUT = ("binding", "assignment", "arm", "signature", "comparison", "calls", "called", "fields_of")
+"""Functions that break lines; the column that they get first is held against rustfmt, where a line is that long."""
 
 
 def rewritten(text: str) -> Iterator[tuple[str, int, int, str]]:
@@ -45,9 +49,14 @@ def _stated_impossible(node: ast.AST) -> ast.stmt | ast.expr | None:
         return node.value
     if isinstance(node, ast.Assign) and _is_type(node.value):
         return node.value
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "cast":
-        return node.args[0]
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.args:
+        first_is_for_others = node.func.id == "cast" or (node.func.id in _LAID_OUT and _is_number(node.args[0]))
+        return node.args[0] if first_is_for_others else None
     return node if isinstance(node, ast.Assert) else None
+
+
+def _is_number(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) is int
 
 
 _GENERIC = (
@@ -81,7 +90,7 @@ def _is_there(found: str, node: ast.expr) -> bool:
 def _rewritings(node: ast.AST) -> Iterator[Rewriting]:
     match node:
         case ast.Return(value=ast.expr() as value) if not (isinstance(value, ast.Constant) and value.value is None):
-            yield "return", value, "None"
+            yield "return", value, "'?'" if _is_empty_text(value) else "None"
             if isinstance(value, ast.Compare | ast.BoolOp):
                 yield "return", value, f"not ({ast.unparse(value)})"
         case ast.Compare(left=left, ops=[operator], comparators=[right]) if type(operator) in _COMPARISONS:
@@ -99,10 +108,17 @@ def _rewritings(node: ast.AST) -> Iterator[Rewriting]:
             yield from _calls(node)
 
 
+def _is_empty_text(value: ast.expr) -> bool:
+    """`""`: None in its place is no less false, and the type checker tells."""
+    return isinstance(value, ast.Constant) and value.value == ""
+
+
 def _calls(node: ast.Call) -> Iterator[Rewriting]:
     """Two neighbouring arguments change places, and a function gives way to its opposite."""
     if isinstance(node.func, ast.Name) and node.func.id in _OTHERS:
         yield "function", node.func, _OTHERS[node.func.id]
+    if isinstance(node.func, ast.Name) and node.func.id in _IN_ANY_ORDER and not node.keywords:
+        return
     for first, second in zip(node.args, node.args[1:], strict=False):
         if not any(isinstance(one, ast.Starred) for one in (first, second)) and not _alike(first, second):
             swapped = [ast.unparse(one) for one in _exchanged(node.args, first, second)]

@@ -7,7 +7,8 @@ import os
 import shutil
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -15,9 +16,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import find_devices
 from support.places import ROOT
 from support.strange_files import KINDS, put
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DOCS = [
     *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
@@ -127,12 +125,41 @@ def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
     place.parent.mkdir(parents=True)
     place.write_text("precious")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1
-    assert "made/docs/hitachi_l200.csv" in (said := capsys.readouterr().err)
-    assert "--force" in said
+    said = capsys.readouterr().err
+    assert "error[foreign-file]: a file is in the way: " in said
+    assert " --> made/docs/hitachi_l200.csv:1:1\n" in said
+    assert "hint: move it away, or replace it with `--force`; nothing of hitachi_l200 was written\n" in said
     assert place.read_text() == "precious"
     assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
     assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
     assert main(["generate", "--target", "docs", "--out", "made", "--check"]) == 0
+
+
+def test_a_folder_in_the_way_is_not_taken_over(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (project / "made/docs/hitachi_l200.csv").mkdir(parents=True)
+    for force in ([], ["--force"]):
+        assert main(["generate", "--target", "docs", "--out", "made", *force]) == 1
+        assert "hint: move it away; nothing of hitachi_l200 was written\n" in capsys.readouterr().err
+
+
+def test_what_is_read_is_opened_so_that_nothing_hangs(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pipe does not wait for a writer, a terminal does not take over, and no child inherits the file."""
+    flags: dict[str, int] = {}
+    opened = os.open
+
+    def noting(path: Any, how: int, *more: Any, **named: Any) -> int:
+        flags[Path(path).name] = how
+        return opened(path, how, *more, **named)
+
+    monkeypatch.setattr(os, "open", noting)
+    assert main(["check"]) == 0
+    assert flags["device.yaml"] == os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place.unlink()
+    os.mkfifo(place)
+    flags.clear()
+    assert main(["check"]) == 1
+    assert place.name not in flags, "what can be seen to be no file is not even opened"
 
 
 def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
@@ -212,6 +239,20 @@ def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path,
     (folder / "standard_a.yaml").unlink()
     (folder / "standard_a.yaml").symlink_to(tmp_path / "outside.txt")
     assert main(["check"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("put", "said"), [("link", "it is a link that leads nowhere"), ("nothing", "there is no file")]
+)
+def test_a_part_that_is_not_there_is_told_from_a_link_that_leads_nowhere(
+    project: Path, put: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place.unlink()
+    if put == "link":
+        place.symlink_to("nowhere.yaml")
+    assert main(["check"]) == 1
+    assert said in capsys.readouterr().out
 
 
 def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:

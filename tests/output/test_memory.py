@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.output.cache import cache_dir
 from fieldscribe.reading import state_of
 from support.places import TESTS
 
@@ -151,6 +152,33 @@ def test_without_a_private_cache_everything_works(place: Path, kind: str) -> Non
         (place / "cache").symlink_to("nowhere/at/all")
     assert main(COMMAND) == 0
     assert main([*COMMAND, "--check"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("found", "fits"),
+    [
+        ((0o700, 0, True), True),
+        ((0o755, 0, True), True),
+        ((0o720, 0, True), False),
+        ((0o702, 0, True), False),
+        ((0o777, 0, True), False),
+        ((0o700, 1, True), False),
+        ((0o700, 0, False), False),
+    ],
+)
+def test_a_cache_belongs_to_its_user_alone(
+    found: tuple[int, int, bool], fits: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who could write into it could make stale outputs pass for unchanged."""
+    mode, owner, writable = found
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    place = tmp_path / "fieldscribe/runs"
+    place.mkdir(parents=True)
+    place.chmod(mode)
+    user = os.getuid() + owner
+    monkeypatch.setattr(os, "getuid", lambda: user)
+    monkeypatch.setattr(os, "access", lambda *_: writable)
+    assert cache_dir("runs") == (place if fits else None)
 
 
 def test_a_relative_place_of_caches_is_none(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
+from fieldscribe.reading import UnfitFileError
 from support.places import TESTS
 
 if TYPE_CHECKING:
@@ -45,6 +46,22 @@ def holder(out: Path) -> subprocess.Popen[str]:
 
 def nobody() -> None:
     raise AssertionError("nobody else has the lock")
+
+
+def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """But not at once: most runs are over before anybody has read that."""
+    told: list[float] = []
+    hours = iter(at / 4 for at in range(1000))
+    monkeypatch.setattr(time, "monotonic", lambda: next(hours))
+    monkeypatch.setattr(time, "sleep", lambda _: None)
+    monkeypatch.setattr(lock, "_tried", lambda _: None)
+    with (
+        pytest.raises(TimeoutError, match="for 60 seconds"),
+        only_run(tmp_path, lambda: told.append(next(hours)), 60.0),
+    ):
+        raise AssertionError("locked")
+    assert len(told) == 1
+    assert 0.5 < told[0] <= 1.25
 
 
 def test_a_second_run_waits_says_so_and_gives_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -131,7 +148,7 @@ def test_a_folder_that_takes_no_files_is_no_other_run(tmp_path: Path, monkeypatc
 )
 def test_what_is_no_lock_is_refused_and_left(tmp_path: Path, put: Callable[[Path], object]) -> None:
     put(tmp_path / NAME)
-    with pytest.raises(OSError, match="move it away"), only_run(tmp_path, nobody, 1.0):
+    with pytest.raises(UnfitFileError, match="move it away"), only_run(tmp_path, nobody, 1.0):
         raise AssertionError("taken for a lock")
     assert os.path.lexists(tmp_path / NAME)
 

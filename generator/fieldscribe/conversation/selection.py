@@ -72,7 +72,9 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
             "give " + " or ".join(f"--variant {variant}" for variant in variants),
         )
     if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
-        choices = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
+        plain = len({point.index for point in points}) == len(points)  # else they are in several sets
+        names = (f"{line(point.code or asked)}[{point.index}]" if plain else point.item for point in points[:8])
+        choices = " or ".join(f"`{name}`" for name in names)
         raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {choices}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
     raise UnclearError(

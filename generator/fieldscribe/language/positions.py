@@ -33,7 +33,7 @@ def places_of_items(text: str, start: int, at: Place) -> list[Place]:
 
 
 class _Where:
-    """Line and column of what stands behind a place. Goes on where it was asked last, so that all keys cost one pass."""
+    """Line and column of what stands behind a place. It goes on where it was asked last: all keys cost one pass."""
 
     def __init__(self, text: str, start: int, at: Place) -> None:
         self.text, self.known, self.at = text, start, at

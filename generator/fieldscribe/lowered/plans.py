@@ -53,7 +53,7 @@ class _Unlimited(NamedTuple):
     numerator: int
     beyond: tuple[int, int] | None
     largest: int
-    """The largest integer for values, but for the raw numbers next to the limits."""
+    """The largest integer for values."""
 
 
 @lru_cache(maxsize=4096)
@@ -77,7 +77,7 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
         numerator=numerator,
         counts=counts,
         beyond=beyond,
-        fits_float=max(largest, abs(low) + 1, abs(high) + 1) <= EXACT_FLOAT,
+        fits_float=largest <= EXACT_FLOAT,
     )
 
 

@@ -128,7 +128,7 @@ class Allowed:
             for bound in (interval.low, interval.high):
                 if isinstance(bound, Limit):
                     names.update(dict.fromkeys(factor.point for factor in bound.rule.factors))
-                    names.update(dict.fromkeys(name for name, codes in bound.unless if codes))
+                    names.update(dict.fromkeys(name for name, _ in bound.unless))
         return tuple(names)
 
     def holds(self, raw: int) -> bool:

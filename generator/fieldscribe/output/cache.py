@@ -17,7 +17,7 @@ def cache_dir(name: str) -> Path | None:
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
         status = place.lstat()
-    except (OSError, ValueError):
+    except OSError:
         return None
     # a cache that others wrote could make stale outputs pass for unchanged, but do no more harm
     private = not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)

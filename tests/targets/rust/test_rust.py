@@ -21,6 +21,7 @@ from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.identity import KnownLimits, words_of
 from fieldscribe.targets.rust.layout import Item, assignment, binding, calls, chain, chained, comparison, filled
+from fieldscribe.targets.rust.literals import nearest_float
 from fieldscribe.targets.rust.subjects import scope_of
 from support.described import kitchen_sink, made, shipped
 from support.made_once import made_once
@@ -149,6 +150,20 @@ def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Runs cargo without the network, and with it where something was never fetched."""
     done = run([tool("cargo"), "--offline", *words], cwd=workspace)
     return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
+
+
+@pytest.mark.parametrize(
+    ("number", "bits", "nearest"),
+    [
+        (0.1, 64, 0.1),
+        (0.1, 32, 0.10000000149011612),
+        (1e300, 64, 1e300),
+        (1e39, 32, 3.4028234663852886e38),
+        (-1e39, 32, -3.4028234663852886e38),
+    ],
+)
+def test_a_limit_is_the_nearest_number_of_its_type(number: float, bits: int, nearest: float) -> None:
+    assert nearest_float(number, bits) == nearest
 
 
 def test_long_lines_break_as_rustfmt_breaks_them() -> None:

@@ -18,10 +18,11 @@ from fieldscribe.targets.vectors import outputs
 from fieldscribe.targets.vectors.kinds import KINDS, table
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.numbers import bits32, half_away, quotient
-from fieldscribe.targets.vectors.oracle import fixed_ratio
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, fixed_ratio
 from fieldscribe.targets.vectors.samples import halves
 from hypothesis import given as property_of
 from hypothesis import strategies as st
+from support.described import described, loaded_in
 from support.models import (
     allowed,
     changed,
@@ -39,6 +40,7 @@ from support.vector_file import Vector, counts_of, plain, vectors_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
 
 def text_of(device: Device) -> str:
@@ -787,3 +789,46 @@ def test_names_cannot_break_the_file() -> None:
     found = vectors(device)
     assert {"kind": "name", "point": "a", "raw": 1, "name": 'a"b\n'} in found
     assert {"kind": "special", "point": "b", "special": "\\", "low": 3, "high": 3} in found
+
+
+FACTORS = """\
+- {name: a, at: 0, range: 0..100, special: {0FFFFh: {name: nothing, no_value: yes}}}
+- {name: b, at: 1, range: 0..100, special: {0FFFFh: {name: nothing, no_value: yes}}}
+- {name: e, at: 2, type: s16, range: -3..3}
+- {name: product, at: 3, scale: value = raw * a.raw * b.raw}
+- {name: quotient, at: 4, scale: value = raw * a.raw / b.raw}
+- {name: power, at: 5, scale: value = raw * a.raw * 10 ** e}
+- {name: below, at: 6, range: 0..1000 / a.raw}
+- {name: tens, at: 7, range: 0..10 ** e}
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "answer"),
+    [
+        ("product", {"a": 5, "b": 7}, Ratio(1, 35, 0, 1)),
+        ("product", {"a": 0xFFFF, "b": 7}, "zero_factor"),
+        ("product", {"a": 5, "b": 0xFFFF}, "zero_factor"),
+        ("product", {"a": 5, "b": 0}, "zero_factor"),
+        ("quotient", {"a": 5, "b": 7}, Ratio(7, 5, 0, 1)),
+        ("quotient", {"a": 5, "b": 0}, "zero_factor"),
+        ("quotient", {"a": 0, "b": 5}, "zero_factor"),
+        ("power", {"a": 5, "e": 2}, Ratio(1, 500, 0, 1)),
+        ("power", {"a": 5, "e": -2}, Ratio(100, 5, 0, 1)),
+        ("power", {"a": 5, "e": 4}, "overflow"),
+        ("power", {"a": 0, "e": 2}, "zero_factor"),
+        ("below", {"a": 8}, [(0, 125)]),
+        ("below", {"a": 0}, "zero_factor"),
+        ("tens", {"e": 3}, [(0, 1000)]),
+        ("tens", {"e": 4}, "overflow"),
+    ],
+)
+def test_what_the_oracle_answers_for_factors(
+    name: str, settings: dict[str, int], answer: object, tmp_path: Path
+) -> None:
+    points = {one.name: one for one in loaded_in(tmp_path, described(FACTORS)).points}
+    oracle = Oracle(points)
+    one = points[name]
+    limited = name in ("below", "tens")
+    found = oracle.limits(one.shape, one.allowed, settings) if limited else oracle.ratio(one.shape, settings)
+    assert (found if isinstance(found, str | Ratio) else list(found)) == answer

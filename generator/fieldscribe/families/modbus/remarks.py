@@ -122,7 +122,7 @@ def data_said(data: bytes) -> str:
 
 def data_fault(request: Request, here: int, due: int) -> str:
     """That a reply brings another number of bytes than its request asks for."""
-    return f"it brings {here} bytes, the request asks for {due} ({request.count} items)"
+    return f"it brings {counted(here, 'byte')}, the request asks for {due} ({counted(request.count, 'item')})"
 
 
 def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
@@ -130,7 +130,9 @@ def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
     problem = flaw_text(flaw)
     if pdu[0] not in READS or len(pdu) < 2:
         return problem
-    return f"as a request: {problem}; as a reply: it says that {pdu[1]} bytes of data follow, here are {len(pdu) - 2}"
+    here = "is" if len(pdu) == 3 else "are"
+    follow = f"{counted(pdu[1], 'byte')} of data {'follows' if pdu[1] == 1 else 'follow'}"
+    return f"as a request: {problem}; as a reply: it says that {follow}, here {here} {len(pdu) - 2}"
 
 
 def function_text(function: int) -> str:
@@ -156,7 +158,7 @@ def span_said(request: Request) -> str:
     if request.function == 0x08:
         return f"sub-function {hex_text(request.address)}"
     space = SPACE_OF[request.function]
-    where = span_text(request.address, request.address + request.count - 1)
+    where = span_text(request.address, request.address + max(request.count, 1) - 1)
     return f"{space} {where}, {counted(request.count, FAMILY.spaces[space])}"
 
 
