@@ -126,7 +126,7 @@ class Exchanges:
         switch = shape.type == "bit" and outer_bounds(shape, meaning.allowed) == (0, 1)
         sent = [(put, words_of(meaning, order, put)) for put in ((raw, 0) if switch else (raw,))]
         told = [(put, words, _result(shape, put, words, needs)) for put, words in sent]
-        received = words_of(meaning, order, raw, received=True)
+        received = sent[0][1] if shape.fixed is None else words_of(meaning, order, raw, received=True)
         return _Usual(
             settings,
             _Exchange("read", raw, received, told[0][2]) if shape.readable else None,
@@ -203,7 +203,7 @@ def typical(oracle: Oracle, meaning: Meaning, settings: dict[str, int]) -> int |
     limits = oracle.limits(shape, meaning.allowed, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
-    low, high = max(limits, key=lambda limit: limit[1] - limit[0])
+    low, high = limits[0] if len(limits) == 1 else max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     for raw in (upper | 1, upper, *(raw for interval in limits for raw in interval)):
         put = with_fixed(meaning, raw)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ class Lines:
 
     def __init__(self, rows_of_kinds: Mapping[str, Row] | None = None) -> None:
         self._rows = rows() if rows_of_kinds is None else rows_of_kinds
-        self._numbers: Counter[str] = Counter()
+        self._numbers: defaultdict[str, int] = defaultdict(int)
         self._held: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._open: list[str] = []
@@ -88,7 +88,7 @@ class Lines:
 
     def _counts(self) -> Counter[str]:
         """How many vectors of each kind there are."""
-        counts = self._numbers.copy()
+        counts = Counter(self._numbers)
         for part, times in Counter(self._included).items():
             for kind, number in part._numbers.items():
                 counts[kind] += number * times

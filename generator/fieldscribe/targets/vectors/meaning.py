@@ -36,7 +36,8 @@ class Meaning:
     @property
     def arguments(self) -> tuple[str, ...]:
         """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
-        return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))
+        scale, limits = self.shape.scale_arguments, self.allowed.arguments
+        return tuple(dict.fromkeys((*scale, *limits))) if scale or limits else ()
 
 
 class Meanings:
