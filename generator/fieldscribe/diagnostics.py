@@ -5,18 +5,64 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 Severity = Literal["error", "warning"]
 
 
-class Span(NamedTuple):
-    """A place in a file: its path as the user named it, and line and column from 1; `width` characters are meant."""
+class Span:
+    """A place in a file: its path as the user named it, and line and column from 1; `width` characters are meant.
 
-    file: str
-    line: int
-    column: int
-    width: int = 1
+    A place may be `sought`: nobody asks for most places, so line and column are found when somebody does.
+    """
+
+    __slots__ = ("_at", "_find", "file", "width")
+
+    def __init__(self, file: str, line: int, column: int, width: int = 1) -> None:
+        self.file, self.width = file, width
+        self._at = line, column
+        self._find: Callable[[], tuple[int, int]] | None = None
+
+    @classmethod
+    def sought(cls, file: str, find: Callable[[], tuple[int, int]], width: int = 1) -> Span:
+        """The place that `find` finds."""
+        span = cls(file, 0, 0, width)
+        span._find = find
+        return span
+
+    @property
+    def at(self) -> tuple[int, int]:
+        """Line and column."""
+        if self._find is not None:
+            self._at, self._find = self._find(), None
+        return self._at
+
+    @property
+    def line(self) -> int:
+        """The line, counted from 1."""
+        return self.at[0]
+
+    @property
+    def column(self) -> int:
+        """The column, counted from 1."""
+        return self.at[1]
+
+    def moved(self, columns: int, width: int | None = None) -> Span:
+        """The place so many columns further on, with another width if one is given."""
+        line, column = self.at
+        return Span(self.file, line, column + columns, self.width if width is None else width)
+
+    def _facts(self) -> tuple[str, tuple[int, int], int]:
+        return self.file, self.at, self.width
+
+    def __eq__(self, other: object) -> bool:
+        return self._facts() == other._facts() if isinstance(other, Span) else NotImplemented
+
+    def __lt__(self, other: Span) -> bool:
+        return self._facts() < other._facts()
+
+    def __hash__(self) -> int:
+        return hash(self._facts())
 
 
 class Diagnostic(NamedTuple):
@@ -60,7 +106,7 @@ class Report:
         """The same findings, each with a further place that matters, unless that is its own place."""
         result = Report()
         for finding in self._findings:
-            elsewhere = finding.span[:3] != span[:3]
+            elsewhere = (finding.span.file, finding.span.at) != (span.file, span.at)
             result._add(finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding)
         return result
 

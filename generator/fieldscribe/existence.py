@@ -117,5 +117,7 @@ def version_of(text: str) -> tuple[str, tuple[int, ...], str] | None:
 
 def ends_before(until: str | None, since: str | None) -> bool:
     """Whether a last version comes before a first version; versions are compared only if their words are the same."""
-    last, first = version_of(until or ""), version_of(since or "")
+    if until is None or since is None:
+        return False
+    last, first = version_of(until), version_of(since)
     return last is not None and first is not None and last[0] == first[0] and last[1:] < first[1:]

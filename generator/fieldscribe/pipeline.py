@@ -80,18 +80,30 @@ def load_device(device_file: Path, report: Report) -> Device | None:
     return None if models is None else models.whole
 
 
+def load_undigested(device_file: Path, report: Report) -> Device | None:
+    """As `load_device`, but without the digest, which only files need."""
+    subject = _loaded(device_file, report)
+    return None if subject is None else subject.devices[0]
+
+
 def load_models(device_file: Path, report: Report, inputs: Inputs | None = None) -> Models | None:
     """As `load_device`, with the same device as code may know it.
 
     `inputs` remembers the files that were read, each with a checksum.
     """
+    subject = _loaded(device_file, report, inputs)
+    return None if subject is None else Models(*subject.models)
+
+
+def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Subject | None:
+    """The parts of a device without errors, whatever the report holds of others."""
     from fieldscribe.language.files import read_files
 
     own = Report()
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if subject is None else Models(*subject.models)
+    return subject
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:

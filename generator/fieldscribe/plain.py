@@ -81,33 +81,37 @@ def for_code(device: Device) -> Device:
 
 def digest(device: Device) -> str:
     """A checksum over all that code may know of the device, except the digest itself."""
-    return with_digest(device)[0].digest
+    return with_digest(device, for_code(device))[0].digest
 
 
-def with_digest(device: Device) -> tuple[Device, Device]:
-    """The device with its digest, and the same as code may know it."""
+def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
+    """A device and the same as code may know it, both with their digest."""
     from hashlib import sha256
 
-    plain = replace(for_code(device), digest="")
     checksum = sha256()
-    for text in _texts(plain):
-        checksum.update(text.encode("utf-8", "surrogatepass"))
+    for text in _texts(replace(plain, digest="")):
+        checksum.update(text)
     digest = checksum.hexdigest()
     return replace(device, digest=digest), replace(plain, digest=digest)
 
 
-def _texts(plain: Device) -> Iterator[str]:
+def _texts(plain: Device) -> Iterator[bytes]:
     """Texts that differ wherever a fact of the device does: all but the points, then each point."""
-    yield repr(replace(plain, points=()))
-    texts: dict[object, str] = {}
+    yield _encoded(replace(plain, points=()))
+    texts: dict[object, bytes] = {}
     for point in plain.points:
-        shared = _common(point)
-        key, limits = tuple(map(id, shared)), id(point.allowed)
-        if key not in texts:
-            texts[key] = repr(shared)
+        yield _encoded(_identity(point))
+        limits, shared = id(point.allowed), (id(point.source), id(point.shape), id(point.terms))
         if limits not in texts:
-            texts[limits] = repr(point.allowed)
-        yield f"{_identity(point)!r}{texts[limits]}{texts[key]}"
+            texts[limits] = _encoded(point.allowed)
+        if shared not in texts:
+            texts[shared] = _encoded(_common(point))
+        yield texts[limits]
+        yield texts[shared]
+
+
+def _encoded(facts: object) -> bytes:
+    return repr(facts).encode("utf-8", "surrogatepass")
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:

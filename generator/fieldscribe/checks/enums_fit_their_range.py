@@ -22,11 +22,12 @@ def check(subject: Subject) -> None:
     for resolved in subject.resolved:
         if not resolved.draft.failed.isdisjoint(_UNKNOWN):
             continue
-        if resolved.point.enum is not None:
+        shape = resolved.point.shape
+        if shape.enum is not None:
             _entries(subject, resolved)
-        if resolved.point.specials:
+        if shape.specials:
             _specials(subject, resolved)
-        for start, _ in resolved.point.steps:
+        for start, _ in resolved.point.terms.steps:
             if not resolved.point.least <= start <= resolved.point.greatest:
                 message = f"steps from {start} on lie outside the type, which holds {_held(resolved.point)}"
                 hint = "steps are counted in raw numbers"

@@ -34,11 +34,12 @@ def check(subject: Subject) -> None:
         document = documents.get(source.document)
         if document is None:
             subject.scope.unknown("document", source.document, draft.span("source"), documents)
-        elif not _SAID & {*draft.failed, *_broken(draft)}:
-            if source.section is None and source.page is None:
-                lacking.setdefault(id(draft.group), []).append(_Lacks(draft, None))
-            elif document.file is not None and source.line is None:
-                lacking.setdefault(id(draft.group), []).append(_Lacks(draft, document.file))
+            continue
+        cited = source.section is not None or source.page is not None
+        if cited and (document.file is None or source.line is not None):
+            continue
+        if not _SAID & {*draft.failed, *_broken(draft)}:
+            lacking.setdefault(id(draft.group), []).append(_Lacks(draft, document.file if cited else None))
     for key, lacks in lacking.items():
         if len(lacks) == members[key] > 1 and len({lack.file for lack in lacks}) == 1:
             _report_group(subject, lacks[0])

@@ -35,13 +35,13 @@ class _Rivals:
     """Finds the rivals among the keys that points have; many have the same keys."""
 
     def __init__(self) -> None:
-        self._known: dict[frozenset[str], tuple[tuple[str, str, str], ...]] = {}
+        self._known: dict[tuple[str, ...], tuple[tuple[str, str, str], ...]] = {}
 
     def among(self, draft: Draft) -> tuple[tuple[str, str, str], ...]:
         """The pairs of keys that a point has both of, though they exclude each other."""
-        keys = frozenset(draft.keys)
+        keys = tuple(draft.keys)
         if keys not in self._known:
-            self._known[keys] = tuple(rivals for rivals in _RIVALS if keys.issuperset(rivals[:2]))
+            self._known[keys] = tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
         return self._known[keys]
 
 
@@ -49,9 +49,10 @@ def check(subject: Subject) -> None:
     """Findings for facts of one point that exclude each other."""
     rivals = _Rivals()
     for resolved in subject.resolved:
-        draft = resolved.draft
-        _shared_names(subject, resolved)
-        if resolved.point.info.floating:
+        draft, shape = resolved.draft, resolved.point.shape
+        if shape.specials:
+            _shared_names(subject, resolved)
+        if shape.info.floating:
             _alien(
                 subject, draft, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
             )
@@ -59,10 +60,10 @@ def check(subject: Subject) -> None:
         if draft.text:
             _alien(subject, draft, _OF_NUMBERS, "text", "its characters are all that it means")
             continue
-        if resolved.point.type == "bit" and draft.get("special") is not None and "type" not in draft.failed:
+        if shape.type == "bit" and draft.get("special") is not None and "type" not in draft.failed:
             message = f"`{draft.name}` is a single bit, which has no room for a special code"
             subject.report.error("two-meanings", message, draft.span("special"), "name its two states by an `enum`")
-        if draft.get("fixed") is not None and not resolved.point.writable:
+        if draft.get("fixed") is not None and not shape.writable:
             message = f"`fixed` says what is written, and `{draft.name}` is only read"
             subject.report.error("two-meanings", message, draft.span("fixed"), "leave it out, or correct `access`")
         for first, second, hint in rivals.among(draft):
@@ -77,8 +78,6 @@ def check(subject: Subject) -> None:
 def _shared_names(subject: Subject, resolved: Resolved) -> None:
     """Findings for a name that is a special code and also an enum entry or a flag: it would be ambiguous."""
     point = resolved.point
-    if not point.specials:
-        return
     enum = point.digits.enum if point.digits is not None else point.enum
     numbers = {} if enum is None else {entry.name: entry.raw for entry in enum.entries}
     flags = {flag.name for flag in point.flags}

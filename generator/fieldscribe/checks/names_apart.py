@@ -35,19 +35,25 @@ class Kinds:
     def __init__(self, device: Device) -> None:
         needed = _needed(device)
         limits = {id(point.allowed): point.allowed for point in device.points}
+        terms = {id(point.terms): point.terms for point in device.points}
         self._limits = {key: _form(allowed) for key, allowed in limits.items()}
+        special = {key for key, shared in terms.items() if shared.when or shared.telegram or shared.changes_with}
         first: dict[object, Point] = {}
         kept: list[Point] = []
         items: list[str] = []
         for point in device.points:
-            alone = _is_special(point) or point.item in needed or point.name in needed
+            item = point.item
+            alone = id(point.terms) in special or _is_special(point) or item in needed or point.name in needed
             if alone or first.setdefault(self.kind(point), point) is point:
                 kept.append(point)
             if not alone:
-                items.append(_plain(point.item))
+                items.append(_plain(item))
         self.items = frozenset(items)
         self._unique = len(self.items) == len(items)
-        self.rests = {item[cut:] for item in items for cut in range(1, len(item)) if item[:cut] in self.items}
+        lengths = {len(item) for item in self.items}
+        self.rests = {
+            item[cut:] for cut in lengths for item in self.items if cut < len(item) and item[:cut] in self.items
+        }
         self._first = frozenset(point.item for point in first.values())
         self.sample = _sample(device, kept)
 
@@ -108,7 +114,7 @@ class _Space:
 
     def _is_of_item(self, name: str, items: frozenset[str]) -> bool:
         """Whether the name is an item with something behind it."""
-        return any(name[:cut] in items and name[cut:] in self.behind for cut in range(1, len(name) + 1))
+        return any(name.endswith(tail) and name[: len(name) - len(tail)] in items for tail in self.behind)
 
 
 def _sample(device: Device, points: list[Point]) -> Device:
@@ -130,17 +136,17 @@ def _needed(device: Device) -> set[str]:
 
 
 def _is_special(point: Point) -> bool:
-    """Whether more than its shape and name decides about the identifiers of a point."""
-    terms = point.terms
-    return bool(point.variant or point.was or point.index or terms.when or terms.telegram or terms.changes_with)
+    """Whether more than its shape, terms and name decides about the identifiers of a point."""
+    return bool(point.variant or point.was or point.index)
 
 
 def _form_of_shape(point: Point) -> object:
     """A shape without the name of its enum, if that is called after the point."""
-    enum = point.shape.enum
-    if enum is None or enum.name != point.item or point.flags or point.specials:
-        return id(point.shape)
-    return id(enum.entries), enum.closed, _BUT_ENUM(point.shape)
+    shape = point.shape
+    enum = shape.enum
+    if enum is None or enum.name != point.item or shape.flags or shape.specials:
+        return id(shape)
+    return id(enum.entries), enum.closed, _BUT_ENUM(shape)
 
 
 def _form_of_place(place: Place) -> object:

@@ -42,19 +42,42 @@ def check(subject: Subject) -> None:
     for resolved in subject.resolved:
         layer = resolved.draft.layer("printed")
         if layer is not None:
-            _printed(subject, resolved, layer["printed"])
-        if resolved.point.flags:
+            printed: Map = layer["printed"]
+            doubtful = _doubtful(printed, resolved.point)
+            if doubtful:
+                _printed(subject, resolved, printed, doubtful)
+        if resolved.point.shape.flags:
             _flags(subject, resolved)
 
 
-def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
+def _doubtful(printed: Map, point: Point) -> list[str]:
+    """The printed keys that need a closer look: all but those that are plainly numbers of the point."""
+    references, addresses = point.place.references, point.place.addresses
+    wire = None if not addresses else addresses[0] if point.shape.text is not None else min(addresses)
+    return [
+        key
+        for key, value in printed.items()
+        if key in _NEEDS or not _is_plainly(value, wire if key == WIRE else references.get(key))
+    ]
+
+
+def _is_plainly(value: object, number: int | str | None) -> bool:
+    """Whether all that is printed is plainly this number."""
+    if not isinstance(number, int):
+        return False
+    hexadecimal = f"{number:04X}h"
+    for printed in value if isinstance(value, Seq) else (value,):
+        if printed not in (number, hexadecimal) and plain_number(printed) != number:
+            return False
+    return True
+
+
+def _printed(subject: Subject, resolved: Resolved, printed: Map, keys: list[str]) -> None:
     numbers: Mapping[str, int] | None = None
     draft = resolved.draft
     unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
-    for key, value in printed.items():
-        if key not in _NEEDS and _is_plainly(value, _numbered_as(resolved.point, key)):
-            continue
-        span = printed.span(key)
+    for key in keys:
+        value, span = printed[key], printed.span(key)
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
         if key in ("range_in_units", "resolution", "pairs") and unknown_scale:
@@ -70,19 +93,6 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
         else:
             numbers = _numbers(subject, resolved) if numbers is None else numbers
             _number(subject, resolved, key, printed, numbers)
-
-
-def _numbered_as(point: Point, key: str) -> int | str | None:
-    """The point's number in a numbering of its group, or its address; None where that needs a closer look."""
-    if key != WIRE:
-        return point.references.get(key)
-    return None if not point.addresses else point.addresses[0] if point.text is not None else min(point.addresses)
-
-
-def _is_plainly(value: object, number: int | str | None) -> bool:
-    """Whether all that is printed is plainly this number."""
-    numbers = map(plain_number, value if isinstance(value, Seq) else (value,))
-    return number is not None and {number}.issuperset(numbers)
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:

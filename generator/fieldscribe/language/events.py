@@ -196,7 +196,7 @@ class _Builder:
             self._error("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
         key: str = intern(event.value)
         if key in into:
-            span = self._span(event)._replace(width=max(1, len(key)))
+            span = self._span(event).moved(0, max(1, len(key)))
             first = (into.key_span(key), "first given here")
             message = f"the key `{key[:60]}` is given twice"
             self.report.error("duplicate-key", message, span, "remove or rename one of them", [first])

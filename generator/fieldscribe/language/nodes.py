@@ -51,14 +51,13 @@ class Map(dict[str, Any]):
 
     def span(self, key: str | None = None) -> Span:
         """Where the value of `key` stands, or the whole mapping."""
-        place = None if key is None else self.places.get(key)
-        line, column = self.at if place is None else place[2:]
-        return Span(self.file.name, line, column)
+        if key is None:
+            return Span(self.file.name, *self.at)
+        return Span.sought(self.file.name, lambda: self.places.get(key, (*self.at, *self.at))[2:])
 
     def key_span(self, key: str) -> Span:
         """Where `key` itself stands."""
-        line, column = self.places.get(key, self.at)[:2]
-        return Span(self.file.name, line, column, max(1, len(key)))
+        return Span.sought(self.file.name, lambda: self.places.get(key, (*self.at, *self.at))[:2], max(1, len(key)))
 
 
 class Seq(list[Any]):
@@ -91,8 +90,9 @@ class Seq(list[Any]):
 
     def span(self, index: int | None = None) -> Span:
         """Where the item stands, or the whole sequence."""
-        line, column = self.at if index is None else self.item_at[index]
-        return Span(self.file.name, line, column)
+        if index is None:
+            return Span(self.file.name, *self.at)
+        return Span.sought(self.file.name, lambda: self.item_at[index])
 
 
 def unplaced_map(file: SourceFile, at: Place) -> Map:

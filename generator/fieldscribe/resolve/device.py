@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Block, Device, Enum, Group, Point
-from fieldscribe.plain import with_digest
+from fieldscribe.plain import for_code
 from fieldscribe.records import replace
 from fieldscribe.resolve.drafts import groups, humanised
 from fieldscribe.resolve.exponents import with_exponents
@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 
 
 def build_device(subject: Subject) -> tuple[Device, Device]:
-    """The model of a device without findings, and the same as code may know it."""
-    return with_digest(_device(subject, subject.resolved))
+    """The model of a device without findings, and the same as code may know it; neither has its digest yet."""
+    device = _device(subject, subject.resolved)
+    return device, for_code(device)
 
 
 def sound_device(subject: Subject) -> Device:

@@ -87,7 +87,7 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
     """The value of a variant axis that a constant names; it may consist of digits."""
     values = scope.axes[axis]["values"]
     if constant.text not in values:
-        place = written.span._replace(column=written.span.column + constant.column)
+        place = written.span.moved(constant.column)
         scope.unknown("variant", constant.text, place, [*values])
         raise UnknownError
     return constant.text
@@ -103,7 +103,7 @@ def _raw(scope: Scope, used: Draft, rule: Affine, constant: Constant, written: W
     entries = {} if enum is None else {entry.name: entry.raw for entry in enum.entries}
     if constant.value in entries:
         return Fraction(entries[constant.value])
-    place = written.span._replace(column=written.span.column + constant.column)
+    place = written.span.moved(constant.column)
     hint = None if entries else f"`{used.name}` has no names: compare it with numbers"
     scope.unknown("entry", constant.value, place, entries, hint)
     raise UnknownError

@@ -129,7 +129,7 @@ class Scales:
             return None
         chosen = self.index.find(name.name, draft.variant)
         if chosen is None:
-            self.index.unknown(name.name, place._replace(column=place.column + name.column))
+            self.index.unknown(name.name, place.moved(name.column))
             draft.failed.add("scale")
             return None
         try:

@@ -125,7 +125,7 @@ class Scope:
             near = nearest(word, tuple(known))
             hint = f"did you mean `{near}`?" if near else _known_hint(known, section)
         message = f"there is no {what} {quoted(word)}"
-        self.report.error(f"unknown-{what}", message, span._replace(width=max(1, len(word))), hint)
+        self.report.error(f"unknown-{what}", message, span.moved(0, max(1, len(word))), hint)
 
 
 def _known_hint(known: Collection[str], section: str) -> str:

@@ -60,7 +60,7 @@ class Subject:
     errata: list[OpenErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[About, list[OpenErratum]] = field(default_factory=dict)
-    _models: tuple[Device, Device] | None = None
+    _devices: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
@@ -73,20 +73,27 @@ class Subject:
         return self.scope.bus is not None and not _lost(self.scope.bus)
 
     @property
-    def models(self) -> tuple[Device, Device]:
-        """The models of the whole device and of its code; only for a device without errors."""
-        if self._models is None:
+    def devices(self) -> tuple[Device, Device]:
+        """The whole device and the same as code may know it, without a digest; only for a device without errors."""
+        if self._devices is None:
             from fieldscribe.resolve.device import build_device
 
-            self._models = build_device(self)
-        return self._models
+            self._devices = build_device(self)
+        return self._devices
+
+    @property
+    def models(self) -> tuple[Device, Device]:
+        """Both devices with their digest, which costs as much as all checks: who writes no files does without."""
+        from fieldscribe.plain import with_digest
+
+        return with_digest(*self.devices)
 
     @property
     def sound(self) -> Device:
         """The device as code sees it, without the points that have findings."""
         from fieldscribe.resolve.device import sound_device
 
-        return sound_device(self) if self.report.has_errors else self.models[1]
+        return sound_device(self) if self.report.has_errors else self.devices[1]
 
     @property
     def report(self) -> Report:

@@ -26,7 +26,7 @@ class Written(NamedTuple):
     def of(self, name: str) -> Span:
         """The place of a name in it, where it stands first."""
         match = re.search(rf"\b{re.escape(name)}\b", self.text)
-        return self.span._replace(column=self.span.column + (match.start() if match else 0), width=len(name))
+        return self.span.moved(match.start() if match else 0, len(name))
 
 
 def number(value: Any, span: Span, report: Report) -> Fraction | None:
@@ -91,4 +91,4 @@ def formula_value(
 def formula_finding(error: FormulaError, span: Span, report: Report) -> None:
     """A finding at the column of the formula's text that is wrong."""
     hint = error.hint or "formulas are made of numbers, points, + - * /, 10 ** n and parentheses"
-    report.error("bad-formula", error.message, span._replace(column=span.column + error.column), hint)
+    report.error("bad-formula", error.message, span.moved(error.column), hint)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import SPACES, profile_of
@@ -47,13 +48,13 @@ def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[
 
 
 def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[tuple[str, int], _Lane]:
-    lanes: dict[tuple[str, int], _Lane] = {}
+    lanes: defaultdict[tuple[str, int], _Lane] = defaultdict(_Lane)
     values = _variants_with_place(points)
     for point in points:
         addresses, space = point.place.addresses, point.terms.space
         if not point.shape.readable or not addresses or space not in SPACES:
             continue
-        lane = lanes.setdefault((space, SPACES[space].read), _Lane())
+        lane = lanes[space, SPACES[space].read]
         if _always_there(point, values, variants):
             lane.crossable.update(addresses)
         low, end = min(addresses), max(addresses) + 1
@@ -90,7 +91,9 @@ def _blocks_of_lane(
     space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ...], most: int
 ) -> Iterable[Block]:
     """The blocks of a lane: its spans, joined as far as holes, gaps and the largest count allow."""
-    crossable = {address for address in lane.crossable if not any(low <= address <= high for low, high in gaps)}
+    crossable = lane.crossable
+    for low, high in gaps:
+        crossable = {address for address in crossable if not low <= address <= high}
     begin = end = 0
     names: dict[str, None] = {}
     alone: dict[tuple[int, int], dict[str, None]] = {}
@@ -98,7 +101,7 @@ def _blocks_of_lane(
         if not lane.crossable.issuperset(range(low, stop)):
             alone.setdefault((low, stop), {})[name] = None
             continue
-        joins = stop - begin <= most and all(address in crossable for address in range(end, stop))
+        joins = stop - begin <= most and crossable.issuperset(range(end, stop))
         if names and not joins:
             yield Block(space, function, begin, end - begin, tuple(names))
         if not names or not joins:

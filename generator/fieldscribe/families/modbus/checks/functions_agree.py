@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile_of
@@ -42,23 +43,19 @@ def check(subject: Subject) -> None:
 def _reached(subject: Subject, bus: Map) -> None:
     """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
+    points = (resolved.point for resolved in subject.resolved)
+    needed = Counter((point.terms.space, point.shape.access) for point in points if point.terms.generated)
     for space, functions in SPACES.items():
         writers = {functions.write_one, functions.write_many} - {None}
         for verb, letter, able in (
             ("reads", "r", functions.read in known),
             ("writes", "w", bool(writers & known) or not writers),
         ):
-            count = 0 if able else _count(subject, space, letter)
+            count = 0 if able else sum(needed[space, access] for access in (letter, "rw"))
             if count:
                 message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
                 hint = "list the function under `functions`, or correct `access` or `space`"
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
-
-
-def _count(subject: Subject, space: str, letter: str) -> int:
-    """How many points of a space need to be read (`r`) or written (`w`)."""
-    points = [resolved.point for resolved in subject.resolved]
-    return sum(point.generated and point.space == space and letter in point.access for point in points)
 
 
 def _elsewhere(subject: Subject) -> None:

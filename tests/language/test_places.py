@@ -1,0 +1,52 @@
+"""Places in the text are looked for when a finding asks for them: a sound description needs none."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language import positions
+from fieldscribe.pipeline import load_device, load_undigested
+from fieldscribe.records import replace
+from fieldscribe.resources import descriptions_dir
+
+if TYPE_CHECKING:
+    import pytest
+
+DEVICE = descriptions_dir() / "nord_sk5xxe" / "device.yaml"
+
+
+def test_a_sound_description_asks_for_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[tuple[int, int]] = []
+    look = positions.places_of_keys
+
+    def seen(text: str, start: int, at: tuple[int, int]) -> dict[str, tuple[int, int, int, int]]:
+        asked.append(at)
+        return look(text, start, at)
+
+    monkeypatch.setattr(positions, "places_of_keys", seen)
+    assert load_device(DEVICE, Report()) is not None
+    assert asked == []
+
+
+def test_a_place_is_looked_for_once_and_compares_with_all_others() -> None:
+    asked: list[None] = []
+
+    def find() -> tuple[int, int]:
+        asked.append(None)
+        return 3, 5
+
+    sought, known = Span.sought("a", find, 2), Span("a", 3, 5, 2)
+    assert sought == known
+    assert hash(sought) == hash(known)
+    assert asked == [None]
+    assert sought.moved(4) == Span("a", 3, 9, 2)
+    assert sorted([Span("b", 1, 1), Span("a", 3, 6), sought]) == [known, Span("a", 3, 6), Span("b", 1, 1)]
+
+
+def test_a_device_without_its_digest_is_else_the_same() -> None:
+    whole, bare = load_device(DEVICE, Report()), load_undigested(DEVICE, Report())
+    assert whole is not None
+    assert bare is not None
+    assert bare.digest == ""
+    assert replace(whole, digest="") == bare
