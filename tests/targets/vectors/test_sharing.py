@@ -19,14 +19,24 @@ from support.described import DEVICES, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
 from support.places import ROOT
 
+ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "on")), closed=True)
+
 
 def twins() -> Device:
-    """Points that differ in little: in the unit that is shown, in where they are written, in what changes them."""
+    """Points that differ in little.
+
+    In the unit that is shown, in where they are written, in what changes them, in whether their enum is closed, in
+    whether the manual prints an address, in their type.
+    """
     same: dict[str, Any] = {"display": 1, "allowed": allowed((0, 9))}
     shown = [point(f"shown_in_{unit.name}", at, unit=unit, **same) for at, unit in enumerate((HERTZ, VOLT), 10)]
     written = [point(f"written_at_{at}", at, write_place=Place((at + 100,), {})) for at in (20, 21)]
     changing = [point(f"after_{name}", at, changes_with=(name,)) for at, name in enumerate(("one", "other"), 30)]
-    return sample_device((*shown, *written, *changing))
+    modes = [ENUM, replace(ENUM, name="other"), replace(ENUM, name="open", closed=False)]
+    naming = [point(enum.name, at, enum=enum) for at, enum in enumerate(modes, 40)]
+    placed = [point(f"placed_{len(at)}", 50, place=Place(at, {})) for at in ((50,), ())]
+    word, signed = point("word", 60), point("signed", 61, "s16")
+    return sample_device((*shown, *written, *changing, *naming, *placed, word, replace(signed, terms=word.terms)))
 
 
 ALL = [
@@ -62,6 +72,7 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
 @pytest.mark.parametrize("device", ALL, ids=lambda device: device.id)
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetting(monkeypatch, Identities, "add", "_parts")
+    forgetting(monkeypatch, Identities, "add", "_shared")
     forgetting(monkeypatch, Meanings, "of", "_met")
     forgetting(monkeypatch, Sheets, "of_bits", "_parts")
     forgetting(monkeypatch, Scaled, "_of", "_conversions")
@@ -129,9 +140,20 @@ def test_a_forgotten_part_of_a_meaning_is_caught(part: int, monkeypatch: pytest.
     assert caught()
 
 
+@pytest.mark.parametrize("part", range(3), ids=["shape", "entries", "closed"])
+def test_a_forgotten_part_of_what_makes_shapes_alike_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    sharing_more(monkeypatch, Meanings, "_alike", part)
+    assert caught()
+
+
+@pytest.mark.parametrize("part", range(2), ids=["shape", "terms"])
+def test_a_forgotten_part_of_what_identities_share_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    sharing_more(monkeypatch, Identities, "_shared", part)
+    assert caught()
+
+
 # The key by which the model interns shapes
 
-ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(1, "on")), closed=True)
 OTHER_ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(2, "on")), closed=True)
 DEPENDENT = scaled(1, 0, value_of("ratio"))
 PAIRS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {

@@ -47,22 +47,22 @@ def collect(device: Device) -> Lines:
     meanings = Meanings()
     sheets = Sheets(lines, oracle, meanings)
     identities = Identities(lines, device.variants)
-    exchanges = [Exchanges(lines, oracle, meanings, device, wire) for wire in family_part.wires(device)]
+    points = {point.item: point for point in device.points if point.generated}
+    exchanges = [Exchanges(lines, oracle, meanings, points, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
         collector.open()
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
     _limits(lines, device, family_part)
-    for point in device.points:
-        if point.generated:
-            meaning = meanings.of(point)
-            identities.add(point)
-            lines.include(sheets.of(meaning))
-            lines.include(sheets.of_bits(meaning))
-            for collector in usual:
-                collector.of(point, meaning)
-            lines.gather()
+    for point in points.values():
+        meaning = meanings.of(point)
+        identities.add(point)
+        lines.include(sheets.of(meaning))
+        lines.include(sheets.of_bits(meaning))
+        for collector in usual:
+            collector.of(point, meaning)
+        lines.gather(_MANY)
     for collector in others:
         collector.open()
         collector.of_each_space()
@@ -76,6 +76,10 @@ def collect(device: Device) -> Lines:
         )
     family_part.frames(lines, device)
     return lines
+
+
+_MANY = 200
+"""So many new lines and parts are joined at once."""
 
 
 def _limits(lines: Lines, device: Device, family_part: OfFamily) -> None:

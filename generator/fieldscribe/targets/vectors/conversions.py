@@ -1,5 +1,6 @@
 """Raw numbers, values and counts of one shape under one ratio: each is worked out once, however many limits there are.
 
+So are the lines that tell them, as far as they follow from them.
 Nothing here knows limits: what may be written is asked anew for every sheet.
 """
 
@@ -9,7 +10,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.kinds import Written, real
+from fieldscribe.targets.vectors.kinds import line_of, real
 from fieldscribe.targets.vectors.numbers import quotient
 from fieldscribe.targets.vectors.oracle import INT64, Ratio, code_of
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from fieldscribe.model import Shape
 
 INT32 = 1 << 31
+
+Encoding = tuple[str, int | None, str]
+"""The line of a vector up to its status, the raw number (None if there is none), and the line if it may be written."""
 
 
 class Conversions:
@@ -27,9 +31,9 @@ class Conversions:
         telling = samples.raw_telling_division(ratio)
         self.telling = () if telling is None or not shape.least <= telling <= shape.greatest else (telling,)
         """The raw number that tells a division from a product with the reciprocal."""
-        self.value, self.decoded, self.encoded = cache(self._value), cache(self._decoded), cache(self._encoded)
+        self.value, self.decoded, self.encoded = cache(self._value), cache(self._decoded), cache(self.encode_anew)
         self.count, self.counted = cache(self._count), cache(self._counted)
-        self.raw_of_count, self.outside = cache(self._raw_of_count), cache(self._outside)
+        self.encoded_count, self.outside = cache(self._encoded_count), cache(self._outside)
 
     def _value(self, raw: int) -> float:
         """The binary64 nearest to the value of a raw number."""
@@ -40,36 +44,38 @@ class Conversions:
         step = self.ratio.numerator(1) - self.ratio.numerator(0)
         return quotient(4 * self.ratio.numerator(raw) + side * step, 4 * self.ratio.denominator)
 
-    def _decoded(self, raw: int) -> tuple[object, ...]:
-        """Status and value; nothing where languages may differ in the last place."""
+    def _decoded(self, raw: int) -> str:
+        """The line that tells status and value; empty where languages may differ in the last place."""
         shape, ratio = self.shape, self.ratio
         if (code := code_of(shape, raw)) is not None:
-            return "special", None, code.name
+            return line_of("decode", raw, "special", None, code.name)
         if self._is_too_large(raw):
-            return ("overflow",)
+            return line_of("decode", raw, "overflow")
         if ratio.divides_exactly(raw) or not (shape.scale_arguments and shape.encodes_values):
-            return "ok", ratio.numerator(raw) / ratio.denominator
-        return ()
+            return f"decode\t{raw}\tok\t{real(ratio.numerator(raw) / ratio.denominator)}"
+        return ""
 
-    def _encoded(self, value: float) -> tuple[Written, int | None]:
-        """A finite value as it is written, and its raw number; None if a step overflows."""
-        return Written(real(value)), self.ratio.raw_of_float(value)
+    def encode_anew(self, value: float) -> Encoding:
+        """The lines of a finite value, without a raw number if a step overflows. To a cache, 0 and -0 are the same."""
+        told, raw = f"encode\t{real(value)}\t", self.ratio.raw_of_float(value)
+        return told, raw, f"{told}ok\t{raw}"
 
     def _count(self, raw: int) -> int:
         """The count of a raw number, whether or not it fits an integer."""
         return self.ratio.count_of_raw(raw, self._decimals)
 
-    def _counted(self, raw: int) -> tuple[object, ...]:
-        """Status and count."""
+    def _counted(self, raw: int) -> str:
+        """The line that tells status and count."""
         if (code := code_of(self.shape, raw)) is not None:
-            return "special", None, code.name
+            return line_of("decode_count", raw, "special", None, code.name)
         count = self.count(raw)
         fits = -INT64 <= count < INT64 and not self._is_too_large(raw)
-        return ("ok", count) if fits else ("overflow",)
+        return f"decode_count\t{raw}\tok\t{count}" if fits else line_of("decode_count", raw, "overflow")
 
-    def _raw_of_count(self, count: int) -> int:
-        """The raw number of a count."""
-        return self.ratio.raw_of_count(count, self._decimals)
+    def _encoded_count(self, count: int) -> Encoding:
+        """The lines of a count."""
+        told, raw = f"encode_count\t{count}\t", self.ratio.raw_of_count(count, self._decimals)
+        return told, raw, f"{told}ok\t{raw}"
 
     def _is_too_large(self, raw: int) -> bool:
         """Whether a raw number is too large to compute with."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.kinds import Written, line_of, script_text
 from fieldscribe.targets.vectors.meaning import ascending
 from fieldscribe.targets.vectors.numbers import as_raw, bits32, bits64
 from fieldscribe.targets.vectors.oracle import Oracle, admit, code_of, outer_bounds
@@ -13,9 +13,9 @@ from fieldscribe.targets.vectors.whole import with_fixed
 from fieldscribe.targets.vectors.words import words_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Code, Device, Point
+    from fieldscribe.model import Code, Point, Shape
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.meaning import Meaning, Meanings
 
@@ -39,35 +39,34 @@ class Wire(Protocol):
         """The exchange with bad answers, each with the status that it gives."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Usual:
+class _Exchange(NamedTuple):
+    """One exchange of all points with one meaning; only its script differs from point to point."""
+
+    kind: str
+    raw: int
+    words: tuple[int, ...]
+    """The words of the number, where the point is read."""
+    result: str
+    """The end of the line, behind the script."""
+
+
+class _Usual(NamedTuple):
     """What the exchanges of all points with one meaning carry."""
 
-    meaning: Meaning
     settings: dict[str, int]
-    needs: Script
-    """The exchanges that read the settings."""
-    raws: tuple[int, ...]
-    """The raw numbers that are written; the first one is read."""
-    received: tuple[int, ...]
-    """The words of the number that is read."""
-    sent: tuple[tuple[int, ...], ...]
-    """The words of each number, written where the point is read."""
-
-    def words_at(self, point: Point) -> tuple[tuple[int, ...], ...]:
-        """The words that are written, which may lie in another order than those that are read."""
-        if point.write_place is None:
-            return self.sent
-        order = ascending(self.meaning.shape, point.write_place.addresses)
-        return tuple(words_of(self.meaning, order, raw) for raw in self.raws)
+    read: _Exchange | None
+    written: tuple[_Exchange, ...]
+    alone: bool
+    """Whether they are whole words that need no other point, so that they can be tried with bad answers."""
 
 
 class Exchanges:
     """The exchanges of one device."""
 
-    def __init__(self, lines: Lines, oracle: Oracle, meanings: Meanings, device: Device, wire: Wire) -> None:
-        self.lines, self.oracle, self.meanings, self.wire = lines, oracle, meanings, wire
-        self.points = {point.item: point for point in device.points if point.generated}
+    def __init__(
+        self, lines: Lines, oracle: Oracle, meanings: Meanings, points: Mapping[str, Point], wire: Wire
+    ) -> None:
+        self.lines, self.oracle, self.meanings, self.points, self.wire = lines, oracle, meanings, points, wire
         self.spoiled: set[tuple[str, str]] = set()
         """The kinds and spaces that have vectors with bad answers already."""
         self._usual: dict[Meaning, _Usual | None] = {}
@@ -78,10 +77,16 @@ class Exchanges:
 
     def of_each_space(self) -> None:
         """Add exchanges for the first readable and the first writable point of each space."""
+        complete: set[tuple[str, str]] = set()
         for point in self.points.values():
+            access, space = point.shape.access, point.terms.space
+            if (access, space) in complete:
+                continue
             kinds = (("read", point.readable), ("write", point.writable))
-            new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
-            if new and point.bits is None and point.text is None and not point.arguments:
+            new = {(kind, space) for kind, does in kinds if does} - self.spoiled
+            if not new:
+                complete.add((access, space))
+            elif point.bits is None and point.text is None and not point.arguments:
                 self.lines.set("point", point.item)
                 self.of(point, self.meanings.of(point))
 
@@ -94,15 +99,19 @@ class Exchanges:
             return
         if usual.settings:
             self.lines.set("with", usual.settings)
-        if meaning.shape.readable:
-            self._add("read", point, usual, usual.raws[0], self.wire.reads(point, usual.received))
-        if meaning.shape.writable:
-            for kind, keep in _WRITING:
-                for raw, words in zip(usual.raws, usual.words_at(point), strict=True):
-                    script = self.wire.writes(point, words, keep=keep)
-                    if script is not None and meaning.bits is not None:
-                        script = self._beside(point, meaning, raw, script)
-                    self._add(kind, point, usual, raw, script)
+        if usual.read is not None:
+            script = self.wire.reads(point, usual.read.words)
+            if script is not None:
+                self._add(usual.read, point, usual, script)
+        for exchange in usual.written:
+            kind, raw, words, _ = exchange
+            if point.write_place is not None:  # where the words may lie in another order
+                words = words_of(meaning, ascending(meaning.shape, point.write_place.addresses), raw)
+            script = self.wire.writes(point, words, keep=kind == "store")
+            if script is not None and meaning.bits is not None:
+                script = self._beside(point, meaning, raw, script)
+            if script is not None:
+                self._add(exchange, point, usual, script)
 
     def _of_meaning(self, meaning: Meaning) -> _Usual | None:
         """What exchanges with this meaning carry; None without an address, or if what it needs cannot be read."""
@@ -113,10 +122,17 @@ class Exchanges:
         raw = None if needs is None else typical(self.oracle, meaning, settings)
         if needs is None or raw is None:
             return None
-        switch = meaning.shape.type == "bit" and outer_bounds(meaning.shape, meaning.allowed) == (0, 1)
-        raws = (raw, 0) if switch else (raw,)
-        sent = tuple(words_of(meaning, meaning.order, raw) for raw in raws)
-        return _Usual(meaning, settings, needs, raws, words_of(meaning, meaning.order, raw, received=True), sent)
+        shape, order = meaning.shape, meaning.order
+        switch = shape.type == "bit" and outer_bounds(shape, meaning.allowed) == (0, 1)
+        sent = [(put, words_of(meaning, order, put)) for put in ((raw, 0) if switch else (raw,))]
+        told = [(put, words, _result(shape, put, words, needs)) for put, words in sent]
+        received = sent[0][1] if shape.fixed is None else words_of(meaning, order, raw, received=True)
+        return _Usual(
+            settings,
+            _Exchange("read", raw, received, told[0][2]) if shape.readable else None,
+            tuple([_Exchange(kind, *write) for kind in _WRITING for write in told]) if shape.writable else (),
+            shape.text is None and meaning.bits is None and not needs,
+        )
 
     def _beside(self, point: Point, meaning: Meaning, raw: int, script: Script) -> Script | None:
         """The exchange that writes a bit group: its word is read before."""
@@ -140,22 +156,25 @@ class Exchanges:
             script += read
         return script
 
-    def _add(self, kind: str, point: Point, usual: _Usual, raw: int, script: Script | None) -> None:
-        if script is None:
+    def _add(self, exchange: _Exchange, point: Point, usual: _Usual, script: Script) -> None:
+        kind, raw, _, result = exchange
+        self.lines.add_written(kind, [f"{kind}\t{script_text(script)}{result}"])
+        if not usual.alone or (kind, point.terms.space) in self.spoiled:
             return
-        meaning, needs = usual.meaning, usual.needs
-        if meaning.shape.text is not None:
-            self.lines.add(kind, script, "ok", None, words_of(meaning, meaning.order or (), raw), needs)
-            return
-        self.lines.add(kind, script, "ok", raw, *((None, needs) if needs else ()))
-        if (kind, point.space) in self.spoiled or meaning.bits is not None or needs:
-            return
-        self.spoiled.add((kind, point.space))
+        self.spoiled.add((kind, point.terms.space))
         for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
             self.lines.add(kind, bad, status, None if kind == "read" else raw)
 
 
-_WRITING = (("write", False), ("store", True))
+_WRITING = ("write", "store")
+
+
+def _result(shape: Shape, raw: int, words: tuple[int, ...], needs: Script) -> str:
+    """What stands behind the script: status, raw number or the words of a text, and what is read before."""
+    if shape.text is None and not needs:
+        return f"\tok\t{raw}"
+    told = (None, words) if shape.text is not None else (raw, None)
+    return line_of("read", Written(""), "ok", *told, needs).removeprefix("read\t")
 
 
 def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
@@ -184,7 +203,7 @@ def typical(oracle: Oracle, meaning: Meaning, settings: dict[str, int]) -> int |
     limits = oracle.limits(shape, meaning.allowed, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
-    low, high = max(limits, key=lambda limit: limit[1] - limit[0])
+    low, high = limits[0] if len(limits) == 1 else max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     for raw in (upper | 1, upper, *(raw for interval in limits for raw in interval)):
         put = with_fixed(meaning, raw)

@@ -17,31 +17,31 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from fieldscribe.existence import Condition
-    from fieldscribe.model import Point
+    from fieldscribe.model import Point, Shape, Terms
     from fieldscribe.targets.vectors.lines import Lines
 
 
 class Form(NamedTuple):
-    """All that the lines of an identity follow from beside its words."""
+    """All that the lines of an identity follow from beside its words: first what shape and terms say."""
 
     type: str
     words: int
     decimals: int | None
     """Of counts, where there are some."""
     display: int | None
-    space: str | None
-    """None without an address."""
-    has_code: bool
+    space: str
     has_limits: bool
+    symbol: str
+    changes: str | None
+    changes_with: tuple[str, ...]
+    only_for: tuple[str, ...] | None
+    has_address: bool
+    has_code: bool
     references: tuple[str, ...]
     placed: tuple[tuple[int, ...], int | None, str | None] | None
     """Addresses, index and telegram of a point that its lowest address does not find."""
-    symbol: str
     default: float | None
-    changes: str | None
-    changes_with: tuple[str, ...]
     variant: str | None
-    only_for: tuple[str, ...] | None
     written: tuple[str, tuple[int, ...]] | None
     """The space and the addresses where the point is written, if not where it is read."""
     aliases: tuple[str, ...]
@@ -52,67 +52,81 @@ class Identities:
 
     def __init__(self, lines: Lines, variants: Mapping[str, tuple[str, ...]]) -> None:
         self._lines, self._variants = lines, variants
-        self._parts: dict[Form, tuple[Lines, Pattern]] = {}
+        self._parts: dict[tuple[object, ...], tuple[Lines, Pattern]] = {}
+        self._shared: dict[tuple[int, int], tuple[tuple[object, ...], str]] = {}
 
     def add(self, point: Point) -> None:
         """Name the point, and add what is its own: facts in which whoever shares too much goes wrong."""
-        form, words = self._form(point), _words(point)
+        shape, terms = point.shape, point.terms
+        shared = self._shared.get((id(shape), id(terms)))
+        if shared is None:
+            shared = self._shared[id(shape), id(terms)] = self._in_common(shape, terms), word(terms.group)
+        in_common, group = shared
+        form, words = in_common + _own(point), _words(point, group)
         known = self._parts.get(form)
         if known is None:
             part = self._lines.apart()
-            _write(part, form, blanks(word and "?" for word in words))
+            _write(part, Form._make(form), blanks(word and "?" for word in words))
             known = self._parts[form] = part, Pattern(part.joined)
         part, pattern = known
-        self._lines.set("point", point.item)
         self._lines.include(part, pattern.filled(words))
 
-    def _form(self, point: Point) -> Form:
-        shape, terms, elsewhere = point.shape, point.terms, point.write_place
-        special = point.index is not None or terms.telegram is not None or shape.text is not None
-        return Form(
+    def _in_common(self, shape: Shape, terms: Terms) -> tuple[object, ...]:
+        """The first half of a form."""
+        return (
             shape.type,
             shape.words,
             shape.decimals if shape.form == "scaled" else None,
             shape.display,
-            terms.space if point.addresses else None,
-            point.code is not None,
+            terms.space,
             shape.form not in _WITHOUT_LIMITS,
-            tuple(point.references),
-            (point.addresses, point.index, terms.telegram) if special else None,
             terms.unit.symbol,
-            None if point.default is None else float(point.default),
             None if terms.changes == "always" else terms.changes,
             terms.changes_with,
-            None if point.variant is None else str(point.variant),
             None if terms.when is None else _only_for(terms.when, self._variants),
-            None if elsewhere is None else (terms.space, elsewhere.addresses),
-            tuple([item_of(old, point.variant) for old in point.was]) if point.was else (),
         )
 
 
 _WITHOUT_LIMITS = ("float", "text", "digits")
 
 
-def _words(point: Point) -> tuple[str, ...]:
+def _own(point: Point) -> tuple[object, ...]:
+    """The second half of the form of a point."""
+    addresses, elsewhere, telegram = point.place.addresses, point.write_place, point.terms.telegram
+    special = point.index is not None or telegram is not None or point.shape.text is not None
+    return (
+        bool(addresses),
+        point.code is not None,
+        tuple(point.place.references),
+        (addresses, point.index, telegram) if special else None,
+        None if point.default is None else float(point.default),
+        None if point.variant is None else str(point.variant),
+        None if elsewhere is None else (point.terms.space, elsewhere.addresses),
+        tuple([item_of(old, point.variant) for old in point.was]) if point.was else (),
+    )
+
+
+def _words(point: Point, group: str) -> tuple[str, ...]:
     """What most points have of their own, in the notation of its field."""
-    shape, addresses = point.shape, point.addresses
+    shape, place, name, code = point.shape, point.place, word(point.name), point.code
     low, high = outer_bounds(shape, point.allowed) if shape.form not in _WITHOUT_LIMITS else ("", "")
     return (
-        word(point.item),
-        word(point.name),
-        word(point.group),
-        str(min(addresses)) if addresses else "",
-        "" if point.code is None else text(line(point.code)),
+        name if point.variant is None else word(point.item),
+        name,
+        group,
+        str(min(place.addresses)) if place.addresses else "",
+        "" if code is None else text(line(code)),
         str(low),
         str(high),
-        *[str(number) if type(number) is int else text(line(str(number))) for number in point.references.values()],
+        *[str(number) if type(number) is int else text(line(str(number))) for number in place.references.values()],
     )
 
 
 def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
-    """The lines of a form; a word that is empty is absent."""
+    """The name and the lines of a form; a word that is empty is absent."""
     item, name, group, address, code, low, high, *references = (Written(word) if word else None for word in words)
-    if form.space is not None:
+    lines.set("point", item)
+    if form.has_address:
         printed = dict(zip(form.references, references, strict=True))
         lines.add("address", form.space, address, form.words, code, low, high, form.decimals, printed)
         if form.written is not None:

@@ -199,7 +199,8 @@ def _frames(value: object) -> str:
     return ",".join([f"{number}={data.hex()}" for number, data in value]) or ABSENT
 
 
-def _script(value: object) -> str:
+def script_text(value: object) -> str:
+    """Requests with their answers."""
     if not isinstance(value, (tuple, list)):
         return _other(value, "list")
     return ",".join([f"{sent.hex()}={received.hex()}" for sent, received in value]) or ABSENT
@@ -216,7 +217,7 @@ FORMS: dict[str, Callable[[object], str]] = {
     "names": _names,
     "pairs": _pairs,
     "frames": _frames,
-    "script": _script,
+    "script": script_text,
 }
 """The notation of each form of field: lists with commas; `pairs`, `frames` and `script` have items of two parts."""
 
@@ -246,3 +247,11 @@ class Row:
                 raise ValueError(f"{self.name} lacks {key}")
         while words and words[-1] == ABSENT:
             words.pop()
+
+
+ROWS = {name: Row(name, kind) for name, kind in KINDS.items()}
+
+
+def line_of(kind: str, *values: object) -> str:
+    """The line of a vector that every family can have."""
+    return ROWS[kind].line(values)

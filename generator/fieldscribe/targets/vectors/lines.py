@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from functools import cached_property
+from collections import Counter, defaultdict
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.kinds import KINDS, SETS, Row, table
+from fieldscribe.targets.vectors.kinds import ROWS, SETS, Row, table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -17,7 +16,7 @@ FORMAT = 2
 
 def rows(further: Mapping[str, str] = MappingProxyType({})) -> dict[str, Row]:
     """What writes the lines of each kind; `further` are the kinds that only the device's family has."""
-    return {name: Row(name, kind) for name, kind in (KINDS | table(further)).items()}
+    return ROWS | {name: Row(name, kind) for name, kind in table(further).items()}
 
 
 _SETS = {name: Row(name, kind) for name, kind in SETS.items()}
@@ -29,12 +28,13 @@ class Lines:
 
     def __init__(self, rows_of_kinds: Mapping[str, Row] | None = None) -> None:
         self._rows = rows() if rows_of_kinds is None else rows_of_kinds
-        self._kinds: list[str] = []
+        self._numbers: defaultdict[str, int] = defaultdict(int)
         self._held: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
         self._open: list[str] = []
         self._chunks: list[str] = []
         self._included: list[Lines] = []
+        self._joined: str | None = None
 
     def set(self, name: str, *values: object) -> None:
         """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
@@ -47,14 +47,18 @@ class Lines:
         if self._wanted:
             self._settle()
         self._open.append(self._rows[kind].line(values))
-        self._kinds.append(kind)
+        self._numbers[kind] += 1
 
     def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
         """Add vectors of one kind."""
-        if self._wanted and rows_of_fields:
+        self.add_written(kind, [*map(self._rows[kind].line, rows_of_fields)])
+
+    def add_written(self, kind: str, lines: list[str]) -> None:
+        """Add vectors of one kind whose lines are finished."""
+        if self._wanted and lines:
             self._settle()
-        self._open += map(self._rows[kind].line, rows_of_fields)
-        self._kinds += [kind] * len(rows_of_fields)
+        self._open += lines
+        self._numbers[kind] += len(lines)
 
     def apart(self) -> Lines:
         """No lines yet, of the same kinds: for vectors that are included in several places."""
@@ -68,22 +72,26 @@ class Lines:
             self._open.append(part.joined if text is None else text)
             self._included.append(part)
         if part._held or part._wanted:
+            for name in part._held:
+                for key in _BEHIND[name]:
+                    self._held.pop(key, None)
             self._held.update(part._held)
             self._wanted.update(part._wanted)
 
-    @cached_property
+    @property
     def joined(self) -> str:
         """The lines of a part that is complete."""
-        text = "\n".join(self._open)
-        self._open.clear()
-        return text
+        if self._joined is None:
+            self._joined = "\n".join(self._open)
+            self._open.clear()
+        return self._joined
 
     def _counts(self) -> Counter[str]:
         """How many vectors of each kind there are."""
-        counts = Counter(self._kinds)
+        counts = Counter(self._numbers)
         for part, times in Counter(self._included).items():
-            for kind in part._kinds:
-                counts[kind] += times
+            for kind, number in part._numbers.items():
+                counts[kind] += number * times
         return counts
 
     def _settle(self) -> None:
@@ -98,9 +106,9 @@ class Lines:
                     self._held.pop(key, None)
         wanted.clear()
 
-    def gather(self) -> None:
-        """Join the new lines: one long string takes less memory."""
-        if self._open:
+    def gather(self, least: int = 1) -> None:
+        """Join the new lines and parts if there are so many: one long string takes less memory."""
+        if len(self._open) >= least:
             self._chunks.append("\n".join(self._open))
             self._open.clear()
 

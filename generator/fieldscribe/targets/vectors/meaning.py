@@ -8,12 +8,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Limit
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-    from fieldscribe.model import Allowed, Bound, Interval, Point, Shape
+    from fieldscribe.model import Allowed, Bound, Enum, Interval, Point, Shape
 
 MANY = 3
 """So many intervals of a list are tried for every point."""
@@ -36,7 +36,8 @@ class Meaning:
     @property
     def arguments(self) -> tuple[str, ...]:
         """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
-        return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))
+        scale, limits = self.shape.scale_arguments, self.allowed.arguments
+        return tuple(dict.fromkeys((*scale, *limits))) if scale or limits else ()
 
 
 class Meanings:
@@ -44,20 +45,33 @@ class Meanings:
 
     def __init__(self) -> None:
         self._met: dict[Hashable, Meaning] = {}
+        self._first: dict[int, Shape] = {}
+        self._alike: dict[Hashable, Shape] = {}
         self._computed: set[Hashable] = set()
         self._shapes: dict[int, int] = {}
         self._facts: dict[Hashable, int] = {}
 
     def of(self, point: Point) -> Meaning:
         """The meaning of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
-        shape, terms = point.shape, point.terms
-        order = ascending(shape, point.addresses) if point.addresses else None
+        shape, terms, addresses = self._like(point.shape), point.terms, point.place.addresses
+        order = ascending(shape, addresses) if addresses else None
         symbol = terms.unit.symbol if shape.display is not None else ""
         key = id(shape), id(point.allowed), terms.bits, order, symbol
         meaning = self._met.get(key)
         if meaning is None:
             meaning = self._met[key] = Meaning(shape, point.allowed, terms.bits, order, symbol)
         return meaning
+
+    def _like(self, shape: Shape) -> Shape:
+        """The first shape that differs in nothing but the name of its enum, which no vector tells."""
+        first = self._first.get(id(shape))
+        if first is None:
+            facts = replace(shape, enum=None), _entries(shape.enum), shape.enum is not None and shape.enum.closed
+            first = self._alike.get(facts)
+            if first is None:
+                first = self._alike[facts] = shape
+            self._first[id(shape)] = first
+        return first
 
     def is_new(self, meaning: Meaning) -> bool:
         """Whether nothing was computed alike before."""
@@ -88,9 +102,12 @@ def _facts(shape: Shape) -> Hashable:
     """The facts that decide how a point is computed, but for its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
-    named = shape.digits.enum if shape.digits is not None else shape.enum
-    enum = None if named is None else tuple((entry.raw, entry.name) for entry in named.entries)
+    enum = _entries(shape.digits.enum if shape.digits is not None else shape.enum)
     return (*kind, shape.display, shape.scale, specials, enum, bool(shape.flags))
+
+
+def _entries(enum: Enum | None) -> tuple[tuple[int, str], ...] | None:
+    return None if enum is None else tuple([(entry.raw, entry.name) for entry in enum.entries])
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:

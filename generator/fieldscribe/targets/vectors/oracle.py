@@ -116,9 +116,17 @@ class Oracle:
 
     def __init__(self, points: Mapping[str, Point]) -> None:
         self.points = points
+        self._fixed: dict[int, Ratio | str] = {}
 
     def ratio(self, shape: Shape, settings: Settings) -> Ratio | str:
-        """The rule in force, or why there is none: `no_case`, `zero_factor`, `overflow`."""
+        """The rule in force, or why there is none: `no_case`, `zero_factor`, `overflow`. Most need no settings."""
+        if shape.scale_arguments:
+            return self._ratio(shape, settings)
+        if id(shape) not in self._fixed:
+            self._fixed[id(shape)] = self._ratio(shape, settings)
+        return self._fixed[id(shape)]
+
+    def _ratio(self, shape: Shape, settings: Settings) -> Ratio | str:
         for case in shape.scale or ():
             if case.point is None or settings[case.point] == case.raw:
                 return self._with_factors(case.rule, settings) if case.rule.factors else fixed_ratio(case.rule)

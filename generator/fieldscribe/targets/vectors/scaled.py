@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.conversions import INT32, Conversions
+from fieldscribe.targets.vectors.conversions import INT32, Conversions, Encoding
 from fieldscribe.targets.vectors.numbers import quotient
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, admit, quantity_at_most
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Shape
     from fieldscribe.targets.vectors.lines import Lines
@@ -109,14 +109,17 @@ class _Vectors:
 
     def _decode(self, raws: list[int]) -> None:
         by, told = self.by, dict.fromkeys((*raws, *self.by.telling))
-        self.lines.add_all("decode", [(raw, *decoded) for raw in told if (decoded := by.decoded(raw))])
+        self.lines.add_written("decode", [*filter(None, map(by.decoded, told))])
         if self.meaning.shape.decimals is not None:
-            self.lines.add_all("decode_count", [(raw, *by.counted(raw)) for raw in raws])
+            self.lines.add_written("decode_count", [*map(by.counted, raws)])
 
-    def _encoded(self, number: object, raw: int | None) -> tuple[object, ...]:
-        """A value or a count with this raw number, the status, and the raw number if it may be written."""
-        status = "out_of_range" if raw is None else admit(self.meaning.shape, raw, self.limits, by_value=True)
-        return (number, status, raw) if status == "ok" else (number, status)
+    def _encoded(self, encodings: Iterable[Encoding]) -> list[str]:
+        """The lines of values or counts: each with its status, and its raw number if it may be written."""
+        shape, limits, lines = self.meaning.shape, self.limits, []
+        for told, raw, written in encodings:
+            status = "out_of_range" if raw is None else admit(shape, raw, limits, by_value=True)
+            lines.append(written if status == "ok" else told + status)
+        return lines
 
     def _edges(self) -> dict[int, None]:
         """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
@@ -125,28 +128,28 @@ class _Vectors:
         return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.meaning.shape))}
 
     def _encode(self, edges: dict[int, None]) -> None:
-        by, encoded = self.by, self._encoded
+        by = self.by
         values = dict.fromkeys(map(by.value, edges))
         values[by.outside(self.limits[0][0], -1)] = None
         values[by.outside(self.limits[-1][1], 1)] = None
         for half in samples.halves(by.ratio, self.limits) if self.deep else ():
             values.update({half: None, nextafter(half, 0.0): None})
-        self.lines.add_all("encode", [encoded(*by.encoded(value)) for value in values])
+        self.lines.add_written("encode", self._encoded(map(by.encoded, values)))
         if self.full:
-            tried = ((value, by.ratio.raw_of_float(value)) for value in (-0.0, 1e300))
-            zero, large = (encoded(*pair) for pair in tried)
-            none = (nan, "not_a_number"), (inf, "out_of_range"), (-inf, "out_of_range")
-            self.lines.add_all("encode", (zero, *none, large))
+            zero, large = self._encoded(map(by.encode_anew, (-0.0, 1e300)))
+            self.lines.add_written("encode", [zero])
+            self.lines.add_all("encode", ((nan, "not_a_number"), (inf, "out_of_range"), (-inf, "out_of_range")))
+            self.lines.add_written("encode", [large])
 
     def _encode_count(self, edges: dict[int, None], decimals: int) -> None:
-        by, encoded, edge = self.by, self._encoded, self.by.edge
+        by, edge = self.by, self.by.edge
         counts = dict.fromkeys(map(by.count, edges))
         if self.deep:
             counts.update(dict.fromkeys(self._halves(10**decimals)))
         if self.full:
             counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
         fitting = [count for count in counts if -edge <= count < edge]
-        self.lines.add_all("encode_count", [encoded(count, by.raw_of_count(count)) for count in fitting])
+        self.lines.add_written("encode_count", self._encoded(map(by.encoded_count, fitting)))
 
     def _halves(self, power: int) -> Iterator[int]:
         """The counts around the halves beside the outer limits; none where each count is a raw number."""
@@ -162,4 +165,4 @@ class _Vectors:
     def _check(self) -> None:
         shape, limits = self.meaning.shape, self.limits
         raws = samples.raws_to_check(shape, limits, deep=self.deep)
-        self.lines.add_all("check", [(raw, admit(shape, raw, limits)) for raw in raws])
+        self.lines.add_written("check", [f"check\t{raw}\t{admit(shape, raw, limits)}" for raw in raws])

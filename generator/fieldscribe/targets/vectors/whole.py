@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.kinds import line_of
 from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, code_of, quantity_at_most
 
@@ -38,33 +39,36 @@ def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool
     if deep:
         checked = decoded = {**checked, **decoded}
     if shape.readable:
-        lines.add_all("decode_count", [(raw, *_decoded(shape, raw)) for raw in decoded if raw < INT64])
+        lines.add_written("decode_count", [_decoded(shape, raw) for raw in decoded if raw < INT64])
     if not shape.writable:
         return
     ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
     counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
     fitting = [count for count in counts if -top <= count < top]
-    lines.add_all("encode_count", [(count, *_encoded(meaning, count, limits)) for count in fitting])
-    lines.add_all("check", [(raw, _checked(meaning, raw, limits)) for raw in checked])
+    lines.add_written("encode_count", [_encoded(meaning, count, limits) for count in fitting])
+    lines.add_written("check", [f"check\t{raw}\t{_checked(meaning, raw, limits)}" for raw in checked])
 
 
-def _decoded(shape: Shape, raw: int) -> tuple[object, ...]:
-    """Status and count."""
-    code = code_of(shape, raw)
-    return ("ok", raw) if code is None else ("special", None, code.name)
+def _decoded(shape: Shape, raw: int) -> str:
+    """The line that tells status and count."""
+    code = code_of(shape, raw) if shape.specials else None
+    if code is not None:
+        return line_of("decode_count", raw, "special", None, code.name)
+    return f"decode_count\t{raw}\tok\t{raw}"
 
 
-def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> tuple[object, ...]:
-    """The status of a count, and its raw number if it may be written."""
-    put = with_fixed(meaning, count)
+def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> str:
+    """The line that tells the status of a count, and its raw number if it may be written."""
+    put = count if meaning.shape.fixed is None else with_fixed(meaning, count)
     status = admit(meaning.shape, put, limits, by_value=True)
-    return (status, put) if status == "ok" else (status,)
+    return f"encode_count\t{count}\tok\t{put}" if status == "ok" else f"encode_count\t{count}\t{status}"
 
 
 def _checked(meaning: Meaning, raw: int, limits: samples.Limits) -> str:
     """The status of a raw number that is written as it is."""
-    fits = with_fixed(meaning, raw) == raw or code_of(meaning.shape, raw) is not None
-    return admit(meaning.shape, raw, limits) if fits else "out_of_range"
+    shape = meaning.shape
+    fits = shape.fixed is None or with_fixed(meaning, raw) == raw or code_of(shape, raw) is not None
+    return admit(shape, raw, limits) if fits else "out_of_range"
 
 
 def _raws(meaning: Meaning, raws: list[int], *, deep: bool) -> dict[int, None]:

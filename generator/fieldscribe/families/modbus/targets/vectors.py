@@ -55,13 +55,14 @@ class ModbusWire:
 
     def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
         """One request for all words, which must be consecutive."""
-        return self.script(_SPACES[point.space], point.addresses, words)
+        return self.script(_SPACES[point.terms.space], point.place.addresses, words)
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """One request for all words, with the function for this count."""
-        if keep or point.space not in ("coil", "holding"):
+        space = point.terms.space
+        if keep or space not in ("coil", "holding"):
             return None
-        single, several = (0x05, 0x0F) if point.space == "coil" else (0x06, 0x10)
+        single, several = (0x05, 0x0F) if space == "coil" else (0x06, 0x10)
         function = single if len(words) == 1 and single in self.profile.most else several
         return self.script(function, writing_addresses(point), words)
 
