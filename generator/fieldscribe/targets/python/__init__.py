@@ -6,12 +6,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.python.device import device_view, uses
-from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
 from fieldscribe.targets.python.names import device_name_taken, identifiers
-from fieldscribe.targets.python.points import points_view
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
@@ -29,6 +26,10 @@ KEEPS_NAMES = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files of the device's package, as paths below the output folder and their text."""
+    from fieldscribe.targets.python.device import device_view, uses
+    from fieldscribe.targets.python.enums import enums_view
+    from fieldscribe.targets.python.points import points_view
+
     names = Identifiers(device)
     head = _head(device)
     enums = enums_view(device, names, render)

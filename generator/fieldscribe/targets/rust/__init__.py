@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.resources import runtime_files
-from fieldscribe.targets.rust.device import device_context, texts_of
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
@@ -27,6 +26,7 @@ KEEPS_NAMES = True
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     from fieldscribe.targets.rust.conformance import arms, conformance_tables
+    from fieldscribe.targets.rust.device import device_context, texts_of
 
     scope = scope_of(device)
     context = device_context(device, scope)
