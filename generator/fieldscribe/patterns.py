@@ -38,21 +38,29 @@ class Pattern:
     """A text with blanks. Two blanks of the same word never touch."""
 
     def __init__(self, text: str) -> None:
-        parts, numbers, at = [], [], 0
-        for run in () if text.isascii() else _RUN.finditer(text):
-            number = _NUMBERS.get(run[1])
-            if number is not None:
-                parts += [text[at : run.start()], ""]
-                numbers.append(number)
-                at = run.end()
-        self._parts = [*parts, text[at:]]
-        self._words = _getter(numbers)
+        parts = [text] if text.isascii() else _RUN.split(text)
+        signs = parts[1::2]
+        if not _NUMBERS.keys() >= set(signs):
+            parts = _around_blanks(text)
+            signs = parts[1::2]
+        self._parts = parts
+        self._words = _getter([_NUMBERS[sign] for sign in signs])
 
     def filled(self, words: Sequence[str]) -> str:
         """The text with these words, in the order in which the blanks were made."""
         parts = self._parts.copy()
         parts[1::2] = self._words(words)
         return "".join(parts)
+
+
+def _around_blanks(text: str) -> list[str]:
+    """What stands between blanks, and the sign of each, for a text that has other rare signs too."""
+    parts, at = [], 0
+    for run in _RUN.finditer(text):
+        if run[1] in _NUMBERS:
+            parts += [text[at : run.start()], run[1]]
+            at = run.end()
+    return [*parts, text[at:]]
 
 
 def _getter(numbers: list[int]) -> Callable[[Sequence[str]], Sequence[str]]:

@@ -36,3 +36,10 @@ def test_an_empty_word_leaves_no_blank() -> None:
 def test_no_text_of_a_description_can_hold_a_blank() -> None:
     for blank in blanks(["x"] * 66):
         assert line(blank) == c_comment(blank) == ""
+
+
+def test_rare_signs_of_a_text_are_no_blanks() -> None:
+    """Signs above the first blank, one of them twice: what an emoji in a title or a wide digit is made of."""
+    name, code = blanks(["name", "A1"])
+    text = "\U0001f600\U0001f600{0}\uff11\uff11\uff1a{1}\ufffd"
+    assert Pattern(text.format(name, code)).filled(["speed", "B2"]) == text.format("speed", "B2")
