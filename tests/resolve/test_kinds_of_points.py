@@ -60,6 +60,7 @@ def test_points_that_are_alike_mean_the_same_alone(file: Path, monkeypatch: pyte
     assert compiled(file) == together
 
 
+@pytest.mark.full(seconds=12)
 @pytest.mark.parametrize("case", BAD, ids=lambda case: case.stem)
 def test_findings_are_those_of_each_point_alone(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     together = findings_of(case)

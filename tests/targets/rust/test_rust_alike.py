@@ -106,6 +106,7 @@ def without(part: int, key: Callable[..., tuple[object, ...]], *facts: object) -
     return (*whole[:part], *whole[part + 1 :])
 
 
+@pytest.mark.full(seconds=6)
 @pytest.mark.parametrize("fact", KINS)
 def test_each_fact_of_a_kin_is_needed(fact: str, monkeypatch: pytest.MonkeyPatch) -> None:
     device = of_kin(fact, KINS[fact])
@@ -150,6 +151,7 @@ def of_layout(first: dict[str, Any], second: dict[str, Any]) -> Device:
     return sample_device(tuple(pairs))
 
 
+@pytest.mark.full(seconds=10)
 @pytest.mark.parametrize(
     ("key", "facts", "fact"),
     [
