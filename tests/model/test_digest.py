@@ -75,7 +75,9 @@ def code(device: Device) -> dict[str, str]:
     return {path: text for _, path, text in outputs(replace(device, digest="0" * 64), CODE)}
 
 
-@pytest.mark.parametrize("name", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("kitchen_sink", marks=pytest.mark.full(seconds=4)), "kitchen_can", "kitchen_uss"]
+)
 def test_every_field_that_code_knows_counts(name: str) -> None:
     """Whatever changes in what code may know changes the digest; what is for people changes neither."""
     device = made(name)

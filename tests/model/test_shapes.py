@@ -6,10 +6,10 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.model import Enum, Interner, Point, Shape
+from fieldscribe.model import Allowed, Enum, Flag, Interner, Limit, Point, Shape, Special
 from fieldscribe.plain import for_code
 from support.described import loaded
-from support.models import allowed, changed, entry, point, scaled, titles
+from support.models import allowed, changed, entry, linear, point, scaled, titles, value_of
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -44,6 +44,28 @@ def test_what_belongs_to_a_shape_is_shared_and_the_rest_is_not() -> None:
     others = [changed(first, **one) for one in facts] + [changed(first, enum=titled)]
     assert len({id(interner.shape(one.shape)) for one in others}) == len(others)
     assert interner.allowed(allowed((0, 5))) is interner.allowed(first.allowed)
+
+
+def test_shapes_and_limits_that_differ_in_names_alone_have_other_hashes() -> None:
+    """Else a device whose points each have flags, codes or limits of their own compares all of them with each other."""
+
+    def flags(name: str) -> tuple[Flag, ...]:
+        return (Flag(0, 1, name, titles(name), 1, ()),)
+
+    def codes(name: str) -> tuple[Special, ...]:
+        return (Special(9, 9, name, titles(name), no_value=True),)
+
+    def limits(name: str) -> Allowed:
+        return allowed((0, Limit(linear(1, 0, value_of(name)), (), 0, 9)))
+
+    described = point("subject", 0)
+    for first, second in (
+        (changed(described, flags=flags("a")).shape, changed(described, flags=flags("b")).shape),
+        (changed(described, specials=codes("a")).shape, changed(described, specials=codes("b")).shape),
+        (limits("a"), limits("b")),
+    ):
+        assert first != second
+        assert hash(first) != hash(second)
 
 
 def test_a_point_offers_every_fact_of_its_shape() -> None:

@@ -35,8 +35,9 @@ class Linear:
     factors: tuple[Factor, ...]
 
     def __hash__(self) -> int:
-        """A hash of whole numbers only: that of a fraction takes long."""
-        return hash((self.ratio.numerator, self.ratio.denominator, self.offset.numerator, len(self.factors)))
+        """A hash without fractions: theirs take long."""
+        points = tuple([factor.point for factor in self.factors])
+        return hash((self.ratio.numerator, self.ratio.denominator, self.offset.numerator, points))
 
     def at(self, argument: Fraction) -> Fraction:
         """The result of a rule without factors."""

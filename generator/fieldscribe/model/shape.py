@@ -46,8 +46,9 @@ class Shape:
 
     def __hash__(self) -> int:
         """A hash of the facts that usually differ, because titles have no hash; equality compares all."""
-        named = () if self.enum is None else (self.enum.name, self.enum.closed)
-        return hash((self.type, self.width, self.access, self.scale, self.decimals, named, len(self.flags), self.fixed))
+        enum = () if self.enum is None else (self.enum.name, self.enum.closed)
+        names = tuple([flag.name for flag in self.flags]), tuple([special.name for special in self.specials])
+        return hash((self.type, self.width, self.access, self.scale, self.decimals, enum, names, self.fixed))
 
     @cached_property
     def info(self) -> TypeInfo:

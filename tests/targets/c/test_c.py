@@ -131,6 +131,7 @@ def test_models_conform_optimized(device: str, build: Build, folders: Folders, t
     conforms(folders[device], device, build, tmp_path)
 
 
+@pytest.mark.full(seconds=1.5)
 @pytest.mark.parametrize("device", MADE)
 def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Path) -> None:
     """All vectors again where values are float; those that a float cannot hold are not asked."""

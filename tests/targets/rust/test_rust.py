@@ -431,7 +431,11 @@ def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path)
     assert not succeed([program])
 
 
-@pytest.mark.parametrize("device", MODELS)
+WIDEST = ("kitchen_sink", "rare")
+"""Made devices that take longest to compile."""
+
+
+@pytest.mark.parametrize("device", [pytest.param(name, marks=LONG if name in WIDEST else ()) for name in MODELS])
 def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None:
     """With checked arithmetic the compiler proves every sum: no object calls what panics."""
     out = shutil.copytree(libraries, tmp_path / "out")
