@@ -6,6 +6,7 @@ import gc
 import os
 import sys
 from importlib import import_module
+from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fieldscribe import __version__
@@ -36,6 +37,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "import": "draft a description from the tables of a manual (CSV, TSV, text, Markdown, HTML, XLSX)",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
@@ -123,7 +125,7 @@ def _left(stop: SystemExit) -> int:
 
 
 def _command(name: str) -> Command:
-    module: Any = import_module(f"fieldscribe.cli.{name}")
+    module: Any = import_module(f"fieldscribe.cli.{name}{'_' * iskeyword(name)}")
     command: Command = module
     return command
 
