@@ -22,6 +22,8 @@ _ACCESS = re.compile(
 )
 _STEP = re.compile(r"(?:0?[.,]0*[125]|10*|[-—–])\s*[^\d]{0,12}")
 _MOST_HEADS = 4
+_TELLING = frozenset({"range", "unit", "type", "access", "step", "default", "formula"})
+"""Only points have such columns: beside one of them, numbers are addresses."""
 _WEAK = re.compile(r"(?:lfd )?(?:nr|no|num|number|nummer|#|index)")
 
 
@@ -108,11 +110,14 @@ def _by_heads(heads: tuple[str, ...], body: list[tuple[str, ...]]) -> dict[str, 
         role = _settled(role_of(head), head, cells)
         if role is not None:
             places.setdefault(role, []).append(place)
+    numbered = places.pop("number", [])
+    if "address" not in places and _TELLING & places.keys():
+        places["address"] = numbered
     names = places.get("name", [])
     if len(names) > 1:  # the first is the name, the others tell more
         places["description"] = [*names[1:], *places.get("description", [])]
         places["name"] = names[:1]
-    return {role: tuple(at) for role, at in places.items()}
+    return {role: tuple(at) for role, at in places.items() if at}
 
 
 def _settled(role: str | None, head: str, cells: list[str]) -> str | None:
@@ -127,13 +132,13 @@ def _settled(role: str | None, head: str, cells: list[str]) -> str | None:
 
 
 def _which(role: str, head: str, cells: list[str]) -> str | None:
-    """Whether a column that is called a number or code holds addresses or codes; a mere ordinal is neither."""
+    """Whether a column that is called a number or code holds codes, addresses, or numbers that may be addresses."""
     if role == "address" and _share(_ADDRESS, cells) >= 0.5:
         return "address"
     if _share(_CODE, cells) >= (0.3 if role == "code" else 0.5):
         return "code"
     ordinal = _WEAK.fullmatch(head.casefold().strip(" ."))
-    return "address" if role == "code" and not ordinal and _share(_ADDRESS, cells) > 0.8 else None
+    return "number" if role == "code" and not ordinal and _share(_ADDRESS, cells) > 0.8 else None
 
 
 def _by_forms(places: dict[str, tuple[int, ...]], heads: tuple[str, ...], body: list[tuple[str, ...]]) -> None:

@@ -40,6 +40,8 @@ def draft_text(drafted: Drafted, head: Head | None) -> str:
         lines.append(
             yaml_text.question(f"names and titles are in the manual's language ({drafted.language}): give English ones")
         )
+    if not any(point.type for point in points):
+        lines.append(yaml_text.question("no types are printed: a point is u16 unless it says otherwise"))
     if head is not None:
         lines += _head(head, drafted)
     for group in drafted.groups:

@@ -22,7 +22,7 @@ _MOST = 512
 
 def labels_in(text: str) -> dict[int, str]:
     """The numbers that a cell names, in its order; empty if it names fewer than two."""
-    entries = _lines(text)
+    entries = {} if _ALL_ENCLOSED.fullmatch(" ".join(text.split())) else _lines(text)
     if len(entries) < 2:
         entries = _one_behind_the_other(text)
     return entries if len(entries) >= 2 else {}

@@ -77,8 +77,9 @@ def take_apart(cells: dict[str, str], unit_beside: str) -> Said:
     listed = numbers.listed(told)
     step, text, unit, doubtful = _step_of(cells.get("step", ""), cells.get("unit", ""))
     factor, open_formula = _factor_of(cells.get("formula", ""))
-    named = tuple((int(number), label.strip()) for number, label in _NAMED.findall(told))
     moving = numbers.moving(told) if not raws or raws[0].text not in told[:20] else None
+    whole = one_line(cells.get("range", "")) if raws or moving else ""
+    named = tuple((int(number), label.strip()) for number, label in _NAMED.findall(whole))
     return Said(
         *(tuple(raws), tuple(values), None if listed is None else tuple(listed), moving, named, step, text),
         *(unit or numbers.unit_of(unit_beside), factor, explicit, told, open_formula, doubtful),
@@ -257,10 +258,9 @@ def _from_spans(said: Said, step: Fraction | None, column: str | None, meaning: 
         meaning.range_in_units = joined
         meaning.unit = meaning.unit or next((span.unit for span in said.raws if span.unit), "")
         meaning.signed = first.low < 0
-        if step not in (None, 1) or all(end.denominator == 1 for span in said.raws for end in (span.low, span.high)):
-            return
-        meaning.scale = "~"
-        meaning.questions.append("what is one raw step worth? The range has decimals, and no step is printed")
+        if step is None and any(span.decimals for span in said.raws):
+            meaning.scale = "~"
+            meaning.questions.append("what is one raw step worth? The range has decimals, and no step is printed")
         return
     if step not in (None, 1) and column is None and not meaning.printed.get("range_in_units") and not said.explicit:
         agreeing = meaning.scale is None and any(_shown_factor(said, span) for span in said.values)

@@ -122,7 +122,7 @@ def _point(entry: Read, context: Context) -> DraftPoint:
     title, unit = _without_unit(title)
     point.title = title[:_LONGEST_TITLE]
     point.reserved = is_reserved(title)
-    _kind(point, cells)
+    _kind(point, cells, has_flags=bool(entry.flags))
     _meaning(point, cells, context, unit)
     _labels(point, cells)
     _default(point, cells.get("default", ""))
@@ -145,7 +145,7 @@ def _without_unit(title: str) -> tuple[str, str]:
     return (title[: found.start()], unit) if found and unit else (title, "")
 
 
-def _kind(point: DraftPoint, cells: Mapping[str, str]) -> None:
+def _kind(point: DraftPoint, cells: Mapping[str, str], *, has_flags: bool) -> None:
     access = cells.get("access", "")
     point.access = access_of(access) if access.strip() else None
     if access.strip() and point.access is None:
@@ -157,6 +157,7 @@ def _kind(point: DraftPoint, cells: Mapping[str, str]) -> None:
     if point.bits:
         point.type = None
     elif told and kind is None:
+        point.type = None if has_flags else "~"
         point.questions.append(f"the type is printed as `{told[:40]}`: {question or 'which is it'}?")
     words = numbers.alone(cells.get("length", ""))
     if kind is None and ((words and words[0] == 2) or told.casefold() in LONG):
@@ -183,10 +184,10 @@ def _meaning(point: DraftPoint, cells: Mapping[str, str], context: Context, unit
 def _labels(point: DraftPoint, cells: Mapping[str, str]) -> None:
     told = [cells.get(role, "") for role in ("description", "range")]
     named = (labels for text in told[: 1 if point.special else 2] if (labels := labels_in(text)))
-    point.labels = next(named, {}) or first_labels(told[0])
+    count = choices_in(told[0])
+    point.labels = next(named, {}) or (first_labels(told[0]) if count else {})
     if point.bits and ".." in point.bits and all(re.fullmatch("[01]+", str(number)) for number in point.labels):
         point.labels = {int(str(number), 2): label for number, label in point.labels.items()}
-    count = choices_in(told[0])
     if count is not None:
         point.printed["choices"] = [str(count)]
 
@@ -202,7 +203,7 @@ def _default(point: DraftPoint, cell: str) -> None:
         point.default = str(number[0].numerator)
     elif point.scale not in (None, "~") and (number[2] or "." in number[1] or "," in number[1]):
         point.default_in_units = numbers.decimal(number[0])
-    elif point.labels and number[0].denominator == 1 and int(number[0]) in point.labels:
+    elif point.labels and number[0].denominator == 1 and number[0].numerator in point.labels:
         point.default = str(number[0].numerator)
     else:
         point.questions.append(f"the default is printed as `{told[:60]}`: raw, or in the unit?")

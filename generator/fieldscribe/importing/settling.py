@@ -155,7 +155,6 @@ def _mention(first: DraftPoint, again: DraftPoint) -> None:
     for key in ("range", "range_in_units", "scale", "unit", "access", "type", "labels"):
         if not getattr(first, key):
             setattr(first, key, getattr(again, key))
-    where = f"line {again.line}"
-    first.questions.append(
-        f"{where} has it too, with another {', '.join(differing)}" if differing else f"{where} has it too"
-    )
+    other = f" as `{again.title[:60]}`" if again.title != first.title else ""
+    also = f", with another {', '.join(differing)}" if differing else ""
+    first.questions.append(f"line {again.line} has this place too{other}{also}: it was left out")
