@@ -49,7 +49,7 @@ def draft(tables: Sequence[Table], wishes: Wishes) -> Drafted:
     """Draft groups of points from the tables that hold points."""
     from fieldscribe.importing.grouping import grouped, language_of, named
     from fieldscribe.importing.rows import rows_of, shows_of_range
-    from fieldscribe.importing.settling import each_once
+    from fieldscribe.importing.settling import each_once, limits_known
 
     seen = _looked_at(tables, wishes)
     merges = _print_dashes(seen)
@@ -64,6 +64,7 @@ def draft(tables: Sequence[Table], wishes: Wishes) -> Drafted:
     language = language_of(head for entry in seen if entry.taken for head in entry.columns.heads)
     groups = grouped([(*entry, columns.get(_range_head(entry[0].columns))) for entry in read], wishes.space)
     each_once(groups)
+    limits_known(groups)
     groups = [group for group in groups if group.points]
     named(groups)
     return Drafted(groups, seen, language)

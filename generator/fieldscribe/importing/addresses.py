@@ -25,7 +25,7 @@ _MARKED = re.compile(
 _HEX, _DECIMAL = re.compile(r"(?<![0-9A-Za-z])[0-9A-Fa-f]{1,8}(?![0-9A-Za-z])"), re.compile(r"(?<![\w.])\d{1,6}(?!\w)")
 REFERENCES = {0: "coil", 1: "discrete", 3: "input", 4: "holding"}
 """The spaces that the first digit of a reference of five or six digits stands for."""
-_MOST_SLOTS = 8
+_MOST_SLOTS, _LONGEST = 8, 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,9 @@ def numbers_in(row: Row, columns: Columns) -> list[Number]:
     for place in columns.places.get("address", ()):
         cell = row.cells[place] if place < len(row.cells) else ""
         base = columns.base(place)
-        found += [Number((place, index), value, shown) for index, (value, shown) in enumerate(_numbers(cell, base))]
+        found += [
+            Number((place, index), value, shown) for index, (value, shown) in enumerate(_numbers(cell[:_LONGEST], base))
+        ]
     return found[:_MOST_SLOTS]
 
 

@@ -18,7 +18,7 @@ _HYPHEN = re.compile(r"(?<=[a-zäöüß])-\s*\n\s*(?=[a-zäöüß])|(?<=[a-zäö
 
 def clean(cell: str) -> str:
     """The cell as plain text; line breaks inside it stay."""
-    text = cell.strip()
+    text = _SPACES.sub(" ", cell).strip()
     if "<" in text:
         text = _TAGS.sub("", _BREAKS.sub("\n", text))
     if "&" in text:

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing.cell_text import one_line
-from fieldscribe.importing.head_words import ROLES, base_of, role_of, unit_in
+from fieldscribe.importing.head_words import MOST_HEAD, ROLES, base_of, role_of, unit_in
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -70,8 +70,10 @@ def columns_of(table: Table, known: Columns | None, forced: Mapping[str, tuple[i
 def is_head(cells: Iterable[str]) -> bool:
     """Whether a row repeats heads: at least two say what a column holds, and no cell is a number."""
     filled = [one_line(cell) for cell in cells if cell.strip()]
+    if len(filled) < 2 or any(len(cell) < MOST_HEAD and _NUMBER.fullmatch(cell) for cell in filled):
+        return False
     known = sum(role_of(cell) is not None for cell in filled)
-    return known >= 2 and known * 2 >= len(filled) and not any(_NUMBER.fullmatch(cell) for cell in filled)
+    return known >= 2 and known * 2 >= len(filled)
 
 
 def _heads(table: Table) -> tuple[str, tuple[str, ...], int]:

@@ -23,10 +23,10 @@ _NAMED = re.compile(r"(?<![\w>])(\d{1,5})\s*=\s*([A-Za-zÄÖÜäöü][\w ]*)")
 _FRACTION = re.compile(r"\(?\s*1\s*/\s*(10{0,6})\s*\)?\s*(.*)")
 _SYMBOL = r"[^\W\d][\w\\/-]*(?:\s*\[[^\]]*\]|\s*\([^()\d]*\))?"
 _UNIT_SIGNS = r"[A-Za-z%°µΩ/²]+"
-_FACTOR = (
-    rf"\(?\s*(\d+(?:[.,]\d+)?)\s*/\s*{_UNIT_SIGNS}\s*\)?|(\d+(?:[.,]\d+)?)|\(\s*{_UNIT_SIGNS}\s*/\s*{_UNIT_SIGNS}\s*\)"
-)
+_TIMES = r"(\d+(?:[.,]\d+)?)(?![\d.,])"
+_FACTOR = rf"\(?\s?{_TIMES}\s?/\s?{_UNIT_SIGNS}\s?\)?|{_TIMES}(?!\s?/)|\(\s?{_UNIT_SIGNS}\s?/\s?{_UNIT_SIGNS}\s?\)"
 _FORMULA = re.compile(rf"[^=]*=\s*{_SYMBOL}(?P<factors>(?:\s*[*·×]?\s*(?:{_FACTOR}))*)\s*[.]?")
+_LONGEST_FORMULA = 200
 _NEAR = Fraction(1, 100)
 
 
@@ -63,6 +63,7 @@ class Said:
     range_text: str
     open_formula: str = ""
     doubtful_step: bool = False
+    unknown_unit: str = ""
 
 
 def take_apart(cells: dict[str, str], unit_beside: str) -> Said:
@@ -75,41 +76,42 @@ def take_apart(cells: dict[str, str], unit_beside: str) -> Said:
     if not told and cells.get("least") and cells.get("greatest"):
         raws = numbers.spans(f"{cells['least']} .. {cells['greatest']}")
     listed = numbers.listed(told)
-    step, text, unit, doubtful = _step_of(cells.get("step", ""), cells.get("unit", ""))
+    step, text, unit, doubtful, unknown = _step_of(cells.get("step", ""), cells.get("unit", ""))
     factor, open_formula = _factor_of(cells.get("formula", ""))
     moving = numbers.moving(told) if not raws or raws[0].text not in told[:20] else None
     whole = one_line(cells.get("range", "")) if raws or moving else ""
     named = tuple((int(number), label.strip()) for number, label in _NAMED.findall(whole))
     return Said(
         *(tuple(raws), tuple(values), None if listed is None else tuple(listed), moving, named, step, text),
-        *(unit or numbers.unit_of(unit_beside), factor, explicit, told, open_formula, doubtful),
+        *(unit or numbers.unit_of(unit_beside), factor, explicit, told, open_formula, doubtful, unknown),
     )
 
 
-def _step_of(step: str, unit: str) -> tuple[Fraction | None, str, str, bool]:
-    """The step, its text, the unit, and whether the step is doubtful: `0,1 Hz`, `1/100 Hz`, `Hz`."""
-    found, text, symbol, doubtful = None, "", "", False
+def _step_of(step: str, unit: str) -> tuple[Fraction | None, str, str, bool, str]:
+    """The step, its text, the unit, whether the step is doubtful, and what is no unit: `0,1 Hz`, `1/100 Hz`, `Hz`."""
+    found, text, symbol, doubtful, unknown = None, "", "", False, ""
     for cell in (step, unit):
         plain = one_line(cell).strip()
         parted, alone = _FRACTION.fullmatch(plain), numbers.alone(plain)
+        said = parted[2] if parted else alone[2] if alone else plain
+        named = numbers.unit_of(said)
+        unknown = unknown if named or not any(char.isalpha() for char in said) else said
         if parted:
-            found, text, symbol = Fraction(1, int(parted[1])), parted[1], symbol or numbers.unit_of(parted[2])
+            found = Fraction(1, int(parted[1]))
             text = numbers.decimal(found)
         elif alone and found is None:
             found, text = alone[0], alone[1].replace(",", ".")
-            symbol = symbol or numbers.unit_of(alone[2])
-        elif not alone:
-            symbol = symbol or numbers.unit_of(plain)
-            if symbol and cell is step and found is None:
-                found, text = Fraction(1), "1"
+        elif named and cell is step:
+            found, text = Fraction(1), "1"
+        symbol = symbol or named
     if found == 0:
         found, doubtful = Fraction(1, 10 ** len(text.partition(".")[2])), True
-    return found, text, symbol, doubtful
+    return found, text, symbol, doubtful, unknown
 
 
 def _factor_of(formula: str) -> tuple[Fraction | None, str]:
     """What one raw step is worth by a formula that says `raw = value * number`; else the formula itself, if any."""
-    plain = one_line(formula).strip()
+    plain = one_line(formula)[:_LONGEST_FORMULA].strip()
     if "=" not in plain:
         return None, ""
     found = _FORMULA.fullmatch(plain)
@@ -136,6 +138,8 @@ def evidence(said: Said) -> str | None:
 def meaning_of(said: Said, column: str | None) -> Meaning:
     """Range, scale and unit of a row. `column` says what other rows show of its range column."""
     meaning = Meaning(unit=said.unit)
+    if said.unknown_unit:
+        meaning.questions.append(f"is `{said.unknown_unit[:40]}` a unit? It is none of those that need no declaration")
     step = _settle_step(said, meaning)
     _settle_range(said, step, column, meaning)
     if step not in (None, 1) and meaning.scale is None:

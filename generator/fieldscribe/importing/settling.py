@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.importing.cell_text import one_line
 from fieldscribe.importing.drafts import DraftErratum
+from fieldscribe.importing.numbers import codes_in
 from fieldscribe.importing.words_of_rows import half_of
 
 if TYPE_CHECKING:
@@ -124,6 +125,16 @@ def _join(above: DraftPoint, below: DraftPoint) -> None:
 
 def _of_low(erratum: DraftErratum) -> DraftErratum:
     return DraftErratum(f"low_{erratum.fact}", erratum.printed, erratum.taken, erratum.why)
+
+
+def limits_known(groups: Sequence[DraftGroup]) -> None:
+    """Leave out limits by other points that are not in the draft."""
+    codes = {point.code for group in groups for point in group.points}
+    for point in (point for group in groups for point in group.points):
+        missing = codes_in([point.range or ""]) - codes
+        if missing:
+            point.questions.append(f"the range is {point.range}; {', '.join(sorted(missing))} is not in this draft")
+            point.range = None
 
 
 def each_once(groups: Sequence[DraftGroup]) -> None:

@@ -7,12 +7,20 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.importing.cell_text import clean
-from fieldscribe.importing.tables import MOST_CELL, MOST_COLUMNS, Gathered, MissingExtraError, Table, UnreadableError
+from fieldscribe.importing.tables import (
+    MOST_CELL,
+    MOST_COLUMNS,
+    MOST_ROWS,
+    Gathered,
+    MissingExtraError,
+    Table,
+    UnreadableError,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_MOST_UNPACKED = 256 << 20
+_MOST_UNPACKED = 64 << 20
 """What all parts of a workbook may hold when they are unpacked."""
 
 
@@ -49,7 +57,7 @@ def read_workbook(data: bytes) -> list[Table]:
     try:
         book = load_workbook(io.BytesIO(data), read_only=True, data_only=True, keep_links=False)
         for sheet in book.worksheets:
-            _sheet(sheet.iter_rows(max_col=MOST_COLUMNS, values_only=True), gathered)
+            _sheet(sheet.iter_rows(max_row=MOST_ROWS, max_col=MOST_COLUMNS, values_only=True), gathered)
             gathered.close(clean(str(sheet.title)))
     except UnreadableError:
         raise

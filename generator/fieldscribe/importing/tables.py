@@ -6,7 +6,7 @@ from fieldscribe.records import dataclass
 
 MOST_BYTES = 64 << 20
 """The largest file that is read."""
-MOST_ROWS, MOST_COLUMNS, MOST_CELL = 100_000, 400, 20_000
+MOST_ROWS, MOST_COLUMNS, MOST_CELL = 50_000, 400, 8_000
 """Rows of all tables, columns of one, characters of a cell: more than any manual has."""
 
 

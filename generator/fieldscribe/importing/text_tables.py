@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 
 from fieldscribe.importing.cell_text import clean, one_line
-from fieldscribe.importing.tables import Gathered, Table
+from fieldscribe.importing.tables import Gathered, Table, UnreadableError
 
 _BARS = re.compile(r"\s*\|.*\|\s*")
-_RULE = re.compile(r"[\s|:+=-]*-[\s|:+=-]*")
+_RULE = frozenset(" \t|:+=-")
 _CELLS = re.compile(r"(?<!\\)\|")
 _HEADING = re.compile(r"\s{0,3}(?:(#{1,6})\s+)?(?:(\d{1,3}(?:\.\d{1,3}){1,5})\.?\s*(?=\s|[^\W\d]))?(\S.*)")
 _CONTENTS = re.compile(r".*\.{3,}[\s|]*\d*\s*|\d{1,3}(?:\.\d{1,3})+\t[^\t]*\t\d+\s*")
-_LONGEST_HEADING = 160
+_LONGEST_HEADING, _LONGEST_LINE = 160, 100_000
 _RUN_TOGETHER = re.compile(
     r"(?:(0x[0-9A-Fa-f]{4}|[0-9A-Fa-f]{4}h)\s*([A-Z]{3,6}\d{0,2}|(?:[Ff]loat|[Ii]nt|[Ll]ong|[Ww]ord)\d{0,2})"
     r"|()(Bit \d{1,2}))\s*(R/?O|R/?W|W/?O)\s*(\S.*)"
@@ -26,6 +26,10 @@ def read_text(text: str) -> list[Table]:
     gathered, heading, section, form = Gathered(), "", "", ""
     sections: dict[str, str] = {}
     for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > _LONGEST_LINE:
+            raise UnreadableError(
+                f"the line has more than {_LONGEST_LINE} characters: this is no manual's text", number
+            )
         kind = _form(line)
         if kind != form and not (form == "run" and not kind and not _titled(line)):
             gathered.close(heading, section, sections.get(section.rpartition(".")[0], ""))
@@ -33,7 +37,7 @@ def read_text(text: str) -> list[Table]:
                 gathered.add(number, _HEADS)
             form = kind
         if kind:
-            if not _RULE.fullmatch(line):
+            if not _RULE.issuperset(line):
                 gathered.add(number, _cells(line, kind))
         elif titled := _titled(line):
             heading, section = one_line(clean(titled[3])), titled[2] or ""
@@ -50,11 +54,12 @@ def _titled(line: str) -> re.Match[str] | None:
 
 def _form(line: str) -> str:
     """How the cells of a line are parted: `|`, a tab, `run` together; nothing for prose and tables of contents."""
-    if _RUN_TOGETHER.fullmatch(line):
+    if len(line) < 2 * _LONGEST_HEADING and _RUN_TOGETHER.fullmatch(line):
         return "run"
     if "|" in line and _BARS.fullmatch(line):
         return "|"
-    return "\t" if "\t" in line.strip() and not _CONTENTS.fullmatch(line) else ""
+    is_contents = len(line) < 2 * _LONGEST_HEADING and _CONTENTS.fullmatch(line)
+    return "\t" if "\t" in line.strip() and not is_contents else ""
 
 
 def _cells(line: str, form: str) -> list[str]:

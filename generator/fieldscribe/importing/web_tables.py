@@ -31,7 +31,8 @@ class _Page(HTMLParser):
         self._text: list[str] | None = None
         self._row: list[str] | None = None
         self._merged: dict[int, int] = {}
-        self._depth = self._line = self._down = self._unseen = 0
+        self._depth = self._line = self._unseen = self._size = 0
+        self._across = self._down = 1
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """A cell, row, table or heading begins."""
@@ -40,7 +41,7 @@ class _Page(HTMLParser):
         elif tag == "table":
             self._depth += 1
         elif tag in _HEADINGS and self._depth <= 1:
-            self._text = []
+            self._text, self._size = [], 0
         elif tag == "br" and self._text is not None:
             self._text.append("\n")
         elif self._depth == 1 and tag == "tr":
@@ -66,8 +67,9 @@ class _Page(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         """Text: kept inside cells and headings."""
-        if self._text is not None and not self._unseen and sum(map(len, self._text)) <= MOST_CELL:
-            self._text.append(data if self._depth else " ".join(data.split()))
+        if self._text is not None and not self._unseen and self._size <= MOST_CELL:
+            self._size += len(data)
+            self._text.append(data)
 
     def finish_table(self) -> None:
         """The table ends."""
@@ -81,14 +83,14 @@ class _Page(HTMLParser):
             self._row, self._line = [], self.getpos()[0]
         while self._merged.get(len(self._row), 0) > 0 and len(self._row) < MOST_COLUMNS:
             self._row.append("")
-        self._text = []
+        self._text, self._size = [], 0
         self._across, self._down = _span(attributes.get("colspan")), _span(attributes.get("rowspan"))
 
     def _finish_cell(self) -> None:
         if self._text is None or self._row is None:
             return
         lines = "".join(self._text).split("\n")
-        for place in range(self._across):
+        for place in range(min(self._across, MOST_COLUMNS + 1 - len(self._row))):
             if self._down > 1:
                 self._merged[len(self._row)] = self._down
             self._row.append(clean("\n".join(" ".join(line.split()) for line in lines)) if not place else "")
@@ -100,8 +102,6 @@ class _Page(HTMLParser):
             self.gathered.add(self._line, self._row)
             self._merged = {place: rows - 1 for place, rows in self._merged.items() if rows > 1}
         self._row = None
-
-    _across = 1
 
 
 def _span(said: str | None) -> int:

@@ -17,5 +17,6 @@ _FUNCTIONS = {
 
 def bus_of(spaces: Collection[str]) -> list[str]:
     """The lines below `bus`, with the functions that reach points of these spaces."""
-    functions = sorted(line for space, lines in _FUNCTIONS.items() if space in spaces for line in lines)
+    wanted = _FUNCTIONS.keys() & spaces or {"holding"}
+    functions = sorted(line for space in wanted for line in _FUNCTIONS[space])
     return ["framings: [rtu]", "units: 1..247", "functions:", *(f"  {line}" for line in functions)]
