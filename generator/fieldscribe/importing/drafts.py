@@ -39,6 +39,8 @@ class DraftPoint:
     default: str | None = None
     default_in_units: str | None = None
     labels: dict[int, str] = field(default_factory=dict)
+    rest: dict[int, str] = field(default_factory=dict)
+    """Names of numbers that may belong to the row above, too."""
     special: dict[int, str] = field(default_factory=dict)
     flags: dict[str, str] = field(default_factory=dict)
     reserved: bool = False

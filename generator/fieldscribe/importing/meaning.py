@@ -240,7 +240,7 @@ def _settle_range(said: Said, step: Fraction | None, column: str | None, meaning
         _add_named(said, meaning)
     elif said.raws:
         _from_spans(said, step, column, meaning)
-    elif re.search(r"\d", said.range_text) and numbers.alone(said.range_text) is None:
+    elif re.search(r"\d", said.range_text) and not re.fullmatch(r"[^\d]{0,2}\d+[^\w-]?\w{0,4}", said.range_text):
         meaning.questions.append(f"which range is meant by: {said.range_text[:120]}")
 
 

@@ -184,8 +184,8 @@ def _meaning(point: DraftPoint, cells: Mapping[str, str], context: Context, unit
 def _labels(point: DraftPoint, cells: Mapping[str, str]) -> None:
     told = [cells.get(role, "") for role in ("description", "range")]
     named = (labels for text in told[: 1 if point.special else 2] if (labels := labels_in(text)))
-    count = choices_in(told[0])
-    point.labels = next(named, {}) or (first_labels(told[0]) if count else {})
+    count, point.rest = choices_in(told[0]), first_labels(told[0])
+    point.labels = next(named, {}) or (point.rest if count else {})
     if point.bits and ".." in point.bits and all(re.fullmatch("[01]+", str(number)) for number in point.labels):
         point.labels = {int(str(number), 2): label for number, label in point.labels.items()}
     if count is not None:

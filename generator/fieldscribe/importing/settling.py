@@ -39,11 +39,11 @@ def share_labels(points: Sequence[DraftPoint]) -> None:
     """Where a cell says that there are more choices than it names, the rest stands in the row below, for both rows."""
     for point, below in pairwise(points):
         wanted = int(point.printed["choices"][0]) if "choices" in point.printed else 0
-        if wanted <= len(point.labels) or not below.labels or below.labels == point.labels:
+        if wanted <= len(point.labels) or not below.rest or "choices" in below.printed:
             continue
-        if point.labels.keys() & below.labels.keys() or "choices" in below.printed:
+        if point.labels.keys() & below.rest.keys() or wanted != len(point.labels) + len(below.rest):
             continue
-        point.labels = below.labels = {**point.labels, **below.labels}
+        point.labels = below.labels = {**point.labels, **below.rest}
         below.printed["choices"] = point.printed["choices"]
     for point in points:
         wanted = int(point.printed["choices"][0]) if "choices" in point.printed else len(point.labels)
