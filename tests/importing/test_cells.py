@@ -136,7 +136,7 @@ def test_what_raw_numbers_mean(cells: dict[str, str], taken: tuple[object, ...])
 def test_other_rows_say_how_a_column_prints_its_ranges() -> None:
     said = take_apart({"range": "0-400", "step": "0.1", "unit": "Hz"}, "")
     assert meaning_of(said, "raw").range == "0..400"
-    assert meaning_of(said, "units").range_in_units == "0..400"
+    assert meaning_of(said, "units").questions == ["is the range 0..400 raw, or in the unit?"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ import gc
 import os
 import sys
 from importlib import import_module
-from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fieldscribe import __version__
@@ -125,7 +124,7 @@ def _left(stop: SystemExit) -> int:
 
 
 def _command(name: str) -> Command:
-    module: Any = import_module(f"fieldscribe.cli.{name}{'_' * iskeyword(name)}")
+    module: Any = import_module(f"fieldscribe.cli.{name}")
     command: Command = module
     return command
 

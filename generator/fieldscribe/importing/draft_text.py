@@ -32,10 +32,8 @@ def draft_text(drafted: Drafted, head: Head | None) -> str:
     """The whole draft: the head of a device if there is one, then a document for each group."""
     points = [point for group in drafted.groups for point in group.points]
     asked = sum(len(point.questions) for point in points)
-    count = f"{len(points)} point{'s' * (len(points) != 1)}"
-    lines = [
-        f"# A draft of {count} from tables, with {asked} questions at points: settle what `# ?` asks, then take it out."
-    ]
+    said = f"{_counted(len(points), 'point')} from tables, with {_counted(asked, 'question')} at points"
+    lines = [f"# A draft of {said}: settle what `# ?` asks, then take it out."]
     if drafted.language != "en":
         lines.append(
             yaml_text.question(f"names and titles are in the manual's language ({drafted.language}): give English ones")
@@ -48,6 +46,10 @@ def draft_text(drafted: Drafted, head: Head | None) -> str:
         lines += ["---"] * (head is not None or group is not drafted.groups[0])
         lines += _group(group, drafted.language)
     return "\n".join(lines) + "\n"
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'s' * (count != 1)}"
 
 
 def _head(head: Head, drafted: Drafted) -> list[str]:

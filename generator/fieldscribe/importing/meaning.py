@@ -258,7 +258,7 @@ def _from_spans(said: Said, step: Fraction | None, column: str | None, meaning: 
     in_units = any(span.decimals or span.unit for span in said.raws) and not said.explicit
     if len(said.raws) > 1:
         meaning.questions.append(f"{len(said.raws)} ranges are printed: {whole[:120]}; for which variant is each?")
-    if in_units or (column == "units" and step not in (None, 1) and not said.explicit):
+    if in_units:
         meaning.range_in_units = joined
         meaning.unit = meaning.unit or next((span.unit for span in said.raws if span.unit), "")
         meaning.signed = first.low < 0
@@ -266,7 +266,7 @@ def _from_spans(said: Said, step: Fraction | None, column: str | None, meaning: 
             meaning.scale = "~"
             meaning.questions.append("what is one raw step worth? The range has decimals, and no step is printed")
         return
-    if step not in (None, 1) and column is None and not meaning.printed.get("range_in_units") and not said.explicit:
+    if step not in (None, 1) and column != "raw" and not meaning.printed.get("range_in_units") and not said.explicit:
         agreeing = meaning.scale is None and any(_shown_factor(said, span) for span in said.values)
         if not agreeing:
             meaning.questions.append(f"is the range {joined} raw, or in the unit?")

@@ -1,3 +1,4 @@
+# ruff: noqa: N999  # a command's module has the command's name
 """`fieldscribe import`: a draft of a description from tables of a manual."""
 
 from __future__ import annotations
