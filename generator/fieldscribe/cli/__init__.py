@@ -36,7 +36,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
-    "import": "draft a description from the tables of a manual (CSV, TSV, text, Markdown, HTML, XLSX)",
+    "import": "draft a description from the tables of a manual: its text, CSV, TSV, Markdown, HTML, XLSX",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
