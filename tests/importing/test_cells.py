@@ -11,8 +11,9 @@ from fieldscribe.importing.cell_text import clean, one_line
 from fieldscribe.importing.columns import said_columns
 from fieldscribe.importing.head_words import role_of
 from fieldscribe.importing.labels import labels_in
-from fieldscribe.importing.meaning import meaning_of, take_apart
+from fieldscribe.importing.meaning import meaning_of
 from fieldscribe.importing.naming import Names, snake
+from fieldscribe.importing.said import take_apart
 from fieldscribe.importing.words_of_rows import access_of, bits_of, half_of, type_of
 
 

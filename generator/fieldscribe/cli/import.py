@@ -140,9 +140,9 @@ def _head(arguments: Namespace, drafted: Drafted) -> Head | None:
     if arguments.device is None:
         return None
     spaces = {group.space for group in drafted.groups}
-    fitting = [family.name for family in families() if spaces & family.spaces.keys()]
+    fitting = max(families(), key=lambda family: len(spaces & family.spaces.keys()))
     digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
-    return Head(arguments.device, arguments.file.name, digest, arguments.family or fitting[0])
+    return Head(arguments.device, arguments.file.name, digest, arguments.family or fitting.name)
 
 
 def _write(text: str, out: Path | None) -> None:

@@ -64,7 +64,13 @@ def columns_of(table: Table, known: Columns | None, forced: Mapping[str, tuple[i
         taken = set(said)
         places = {other: rest for other, at in places.items() if (rest := tuple(p for p in at if p not in taken))}
         places[role] = said
+    if forced and not first and not _has_number(table.rows[0], places.get("address", places.get("code", ()))):
+        first = 1
     return Columns(places, heads, title, first)
+
+
+def _has_number(row: Row, places: Iterable[int]) -> bool:
+    return any(char.isdigit() for place in places if place < len(row.cells) for char in row.cells[place])
 
 
 def is_head(cells: Iterable[str]) -> bool:

@@ -94,6 +94,8 @@ def _group(group: DraftGroup, language: str) -> list[str]:
     if group.numberings:
         said = ", ".join(f"{name}: wire + {offset}" for name, offset in group.numberings.items())
         lines.append(f"numbering: {{{said}}}")
+    if all(point.at is None for point in group.points):
+        lines.append(yaml_text.question("no addresses are printed: which follow from the codes?"))
     lines.append("points:")
     for point in group.points:
         lines += _point(point, access, group, language)

@@ -11,7 +11,8 @@ from fieldscribe.importing.cell_text import one_line, without_footnotes
 from fieldscribe.importing.columns import is_head
 from fieldscribe.importing.drafts import DraftErratum, DraftPoint
 from fieldscribe.importing.labels import choices_in, first_labels, labels_in
-from fieldscribe.importing.meaning import evidence, meaning_of, take_apart
+from fieldscribe.importing.meaning import evidence, meaning_of
+from fieldscribe.importing.said import take_apart
 from fieldscribe.importing.words_of_rows import LONG, access_of, bits_of, half_of, is_reserved, type_of
 from fieldscribe.records import dataclass
 
