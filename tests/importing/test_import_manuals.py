@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.cli import main
 from support.described import shipped
 from support.import_accuracy import FACTS, accuracy, imported
 
@@ -48,6 +49,14 @@ def test_as_much_is_right_as_was_measured(device: str, tmp_path: Path) -> None:
     print(f"{device}:", ", ".join(f"{fact} {right} of {of}" for fact, (right, of) in found.items()), *wrong, sep="\n  ")
     assert len(truth.points) == count
     assert all(found[fact][0] >= right for fact, right in zip(FACTS, least, strict=True)), found
+
+
+@pytest.mark.full(seconds=3)
+@pytest.mark.parametrize("device", [device for device, (_, _, least) in FIGURES.items() if any(least)])
+def test_a_draft_stands_in_its_manual(device: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = _text_of(shipped(device))
+    imported(text, tmp_path, FIGURES[device][0])
+    assert main(["audit", str(tmp_path), "--manual", str(text)]) == 0, capsys.readouterr().out
 
 
 @pytest.mark.full(seconds=2)

@@ -141,6 +141,9 @@ def _facts(point: DraftPoint, access: str | None, group: DraftGroup, language: s
     if point.section and point.section != group.section:
         yield f"section: {yaml_text.text(point.section)}"
     yield f"line: {point.line}"
+    if point.lines:
+        cited = (f"{key}: {lines[0] if len(lines) == 1 else lines}" for key, lines in point.lines.items())
+        yield f"lines: {{{', '.join(cited)}}}"
     if printed := _printed(point):
         yield f"printed: {{{printed}}}"
     yield from map(yaml_text.question, point.questions)
@@ -200,11 +203,15 @@ def _printed(point: DraftPoint) -> str:
 
 def _erratum(point: DraftPoint, erratum: DraftErratum, names: Names) -> list[str]:
     return [
-        f"- id: {names.give(f'{snake(point.code or point.name)}_{erratum.fact}')}",
+        f"- id: {names.give('_'.join((snake(point.code or point.name), erratum.fact or 'scale')))}",
         f"  point: {point.name}",
         f"  line: {point.line}",
-        f"  printed: {{{erratum.fact}: {yaml_text.flow_value(erratum.printed)}}}",
-        f"  taken: {{{erratum.fact}: {yaml_text.flow_value(erratum.taken)}}}",
-        f"  why: {erratum.why}",
+        f"  printed: {_told(erratum.fact, erratum.printed)}",
+        f"  taken: {_told(erratum.fact, erratum.taken)}",
+        f"  why: {yaml_text.text(erratum.why)}",
         "  certainty: likely",
     ]
+
+
+def _told(fact: str, value: str) -> str:
+    return f"{{{fact}: {yaml_text.flow_value(value)}}}" if fact else yaml_text.text(value)

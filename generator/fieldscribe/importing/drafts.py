@@ -7,7 +7,7 @@ from fieldscribe.records import dataclass, field
 
 @dataclass(slots=True)
 class DraftErratum:
-    """A misprint that other printed numbers show."""
+    """A misprint that other printed numbers show; without a `fact`, what is printed and taken are sentences."""
 
     fact: str
     printed: str
@@ -48,6 +48,8 @@ class DraftPoint:
     printed: dict[str, list[str]] = field(default_factory=dict)
     errata: list[DraftErratum] = field(default_factory=list)
     questions: list[str] = field(default_factory=list)
+    lines: dict[str, list[int]] = field(default_factory=dict)
+    """Where facts stand that are not in the row itself."""
     half: str = ""
     """`high` or `low` if the row is one word of two, by what it prints."""
 

@@ -35,6 +35,8 @@ class Meaning:
     special: dict[int, str] = field(default_factory=dict)
     misprints: dict[str, tuple[str, str]] = field(default_factory=dict)
     questions: list[str] = field(default_factory=list)
+    follows: str = ""
+    """Why there is a scale although none is printed."""
 
 
 def evidence(said: Said) -> str | None:
@@ -82,6 +84,7 @@ def _settle_step(said: Said, meaning: Meaning) -> Fraction | None:
         if exact and _is_nice(factor):
             if not said.explicit and factor != 1:
                 meaning.questions.append(f"the scale follows from {said.raws[0].text} and {span.text}; is it meant?")
+                meaning.follows = f"{said.raws[0].text} is also printed as {span.text}."
             _take_span(span, factor, said, meaning)
             return factor
         return None

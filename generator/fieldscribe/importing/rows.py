@@ -177,6 +177,8 @@ def _meaning(point: DraftPoint, cells: Mapping[str, str], context: Context, unit
     point.printed |= {key: [text] for key, text in meaning.printed.items()}
     for fact, (printed, taken) in meaning.misprints.items():
         point.errata.append(DraftErratum(fact, printed, taken, "The ranges that are printed beside it say so."))
+    if meaning.follows:
+        point.errata.append(DraftErratum("", "No step is printed.", f"scale: {meaning.scale}", meaning.follows))
     if meaning.highest > 0xFFFF and not point.half and point.type is None:
         point.type = "~"
         point.questions.append("the range is larger than one word: of which type is the value?")

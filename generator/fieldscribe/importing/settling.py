@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from fieldscribe.importing.rows import Read
 
 _SHORT = 80
+_CITED = {"labels": "enum", "range": "range", "range_in_units": "range"}
+"""How a description cites facts that have numbers."""
 
 
 def titled(points: Sequence[DraftPoint], read: Sequence[Read]) -> list[DraftPoint]:
@@ -45,6 +47,8 @@ def share_labels(points: Sequence[DraftPoint]) -> None:
             continue
         point.labels = below.labels = {**point.labels, **below.rest}
         below.printed["choices"] = point.printed["choices"]
+        point.lines["enum"] = below.lines["enum"] = [point.line, below.line]
+        below.lines["choices"] = [point.line]
     for point in points:
         wanted = int(point.printed["choices"][0]) if "choices" in point.printed else len(point.labels)
         if point.labels and wanted != len(point.labels):
@@ -163,9 +167,12 @@ def _mention(first: DraftPoint, again: DraftPoint) -> None:
         for key in ("range", "scale", "unit", "access")
         if getattr(again, key) and getattr(first, key) and getattr(again, key) != getattr(first, key)
     ]
-    for key in ("range", "range_in_units", "scale", "unit", "access", "type", "labels"):
-        if not getattr(first, key):
+    is_same = first.title == again.title or (first.code and first.code == again.code)
+    for key in ("range", "range_in_units", "scale", "unit", "access", "type", "labels") if is_same else ():
+        if not getattr(first, key) and getattr(again, key):
             setattr(first, key, getattr(again, key))
+            if key in _CITED:
+                first.lines[_CITED[key]] = [again.line]
     other = f" as `{again.title[:60]}`" if again.title != first.title else ""
     also = f", with another {', '.join(differing)}" if differing else ""
     first.questions.append(f"line {again.line} has this place too{other}{also}: it was left out")
