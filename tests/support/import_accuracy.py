@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from hashlib import sha256
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
@@ -30,7 +31,9 @@ def imported(manual: Path, folder: Path, space: str | None = None) -> Device | N
     drafted = draft(read_tables(manual), Wishes(space=space))
     if not drafted.groups:
         return None
-    (folder / "device.yaml").write_text(draft_text(drafted, Head("drafted", manual.name, "f" * 64, "modbus")), "utf-8")
+    (folder / "device.yaml").write_text(
+        draft_text(drafted, Head("drafted", manual.name, sha256(manual.read_bytes()).hexdigest(), "modbus")), "utf-8"
+    )
     report = Report()
     device = load_device(folder / "device.yaml", report)
     assert device is not None, report.findings
