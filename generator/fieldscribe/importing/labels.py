@@ -15,7 +15,7 @@ _BEHIND = re.compile(
 _ENCLOSED = re.compile(r"(\d{1,5})\s*\(([^()]*[^()\d\s][^()]*)\)")
 _ALL_ENCLOSED = re.compile(rf"(?:{_ENCLOSED.pattern}[,;\s]*){{2,}}")
 _COUNT = re.compile(
-    r"^\s*(\d{1,3})\s+(?:\w+möglichkeiten|\w*[Oo]ption(?:s|en)|choices|\w*[Ee]instellungen|\w*[Ss]ettings|Kurven|verfügbare)"
+    r"^\s*(\d{1,3})\s+(?:\w+möglichkeiten|\w*[Oo]ption(?:s|en)|choices|\w*[Ee]instellungen|\w*[Ss]ettings)"
 )
 _MOST = 512
 
