@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.kinds import Key, Kind, Shape
 
+SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
 _REFERENCE = "#/definitions/"
 
 
@@ -23,7 +24,7 @@ def json_schema() -> dict[str, Any]:
     device, part = (definitions.shape(place.shape) for place in (DEVICE, PART))
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
-        "$id": "https://fieldscribe.invalid/description-1.json",
+        "$id": SCHEMA_ID,
         "title": "Fieldscribe device description",
         "description": "A device as its manual describes it, version 1 of the language.",
         "type": "object",
