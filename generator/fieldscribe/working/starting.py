@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families import FAMILIES, family
-from fieldscribe.language.scalars import scalar
+from fieldscribe.language.scalars import as_yaml
+from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 SCHEMA_FILE = "schema.json"
 """The name of the schema that stands in the folder of a description, or above it."""
 
+_SCHEMA_LINE = "# yaml-language-server: $schema={}\n"
+"""The first line of each file: editors look for it in every document."""
 _HEAD = """\
-# yaml-language-server: $schema={schema}
 fieldscribe: 1
 device: {device}
 version: 0.1.0
@@ -34,10 +35,8 @@ title: {{en: {title}}}
 family: {family}
 documents:
   manual: {{title: {manual}, language: {language}}}
+parts: [main.yaml]
 """
-_PLAIN = re.compile(r"[^\W\d_][\w ./()+°-]*(?<! )")
-_OTHERWISE = frozenset({"on", "off", "yes", "no", "y", "n"})
-"""Words that readers of YAML 1.1 do not take for text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +110,7 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
 
     Raises FileExistsError, another OSError, or NotStartedError.
     """
-    from fieldscribe.pipeline import DEVICE_FILE, load_undigested
+    from fieldscribe.pipeline import load_undigested
 
     if os.path.lexists(folder):
         raise FileExistsError(str(folder))
@@ -119,8 +118,9 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
     with TemporaryDirectory(prefix=".", dir=folder.parent) as aside:
         made = Path(aside, folder.name)
         made.mkdir()
-        text = _text(answers, f"../{SCHEMA_FILE}" if schema_above else SCHEMA_FILE)
-        (made / DEVICE_FILE).write_text(text, "utf-8", newline="\n")
+        schema = _SCHEMA_LINE.format(f"../{SCHEMA_FILE}" if schema_above else SCHEMA_FILE)
+        for name, text in _texts(answers).items():
+            (made / name).write_text(schema + text, "utf-8", newline="\n")
         if not schema_above:
             write_schema(made / SCHEMA_FILE)
         report = Report()
@@ -148,14 +148,8 @@ def is_schema(place: Path) -> bool:
     return False
 
 
-def _text(answers: Mapping[str, str], schema: str) -> str:
-    body: str = family(answers["family"]).part("starting").BODY
-    return _HEAD.format(schema=schema, **{name: as_yaml(answer) for name, answer in answers.items()}) + body
-
-
-def as_yaml(text: str) -> str:
-    """A text as a YAML scalar that stands for it everywhere, in quotes where it needs them."""
-    if _PLAIN.fullmatch(text) and scalar(text) == text and text.lower() not in _OTHERWISE:
-        return text
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
+def _texts(answers: Mapping[str, str]) -> dict[str, str]:
+    """The files of the description by name, without their first lines."""
+    family_says = family(answers["family"]).part("starting")
+    head = _HEAD.format_map({name: as_yaml(answer) for name, answer in answers.items()})
+    return {DEVICE_FILE: head + family_says.DEVICE, "main.yaml": family_says.GROUP}

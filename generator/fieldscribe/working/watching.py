@@ -59,7 +59,7 @@ class Watch:
     known: dict[str, Path] = field(default_factory=dict)
     """The devices by id, so that two descriptions of one device are noticed."""
     failed: set[Path] = field(default_factory=set)
-    """What the last run compiled, if it had errors."""
+    """What the last run could not compile or write."""
 
     def outcomes(self, stopped: Callable[[float], bool]) -> Iterator[Outcome]:
         """An outcome at the start and after each change, until `stopped`, which waits that many seconds, says so."""
@@ -95,13 +95,15 @@ class Watch:
         left = {*device_files, *gone}
         self.known = {device: file for device, file in self.known.items() if file not in left}
         generation = Generation(self.out, self.targets, report, self.debug, self.known)
+        generation.load(device_files)
+        loaded = {file for file, _ in generation.devices.values()}
+        wrong = report.count
         trouble = None
         try:
-            generation.load(device_files)
             generation.write(self.waiting, None, force=False)
         except OSError as error:
             trouble = error
-        self.failed = set(device_files) if report.has_errors or trouble else set()
+        self.failed = set(device_files) - (set() if trouble or report.count > wrong else loaded)
         names, lost = ([_name(file) for file in files] for files in (device_files, gone))
         return Outcome(names, lost, report, generation.result, monotonic() - start, trouble)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 SERVES = "a maker's own messages on CAN, laid out byte by byte"
-BODY = """\
+DEVICE = """\
 bus: {bitrate: 125000, identifier_bits: 11, units: 0..30}
 messages:
 - name: read_request
@@ -19,7 +19,8 @@ frames:                            # frames that the manual prints: each is held
 - {name: read_first, direction: request, can_id: 33Fh, bytes: FF 05 00 01 00 00 FF 04}
 - {name: read_first_answer, direction: response, can_id: 325h, answers: read_first,
    bytes: FF 05 00 01 01 F4 FE F0, says: {first_value: 50.0}}
----
+"""
+GROUP = """\
 group: main
 title: {en: Main}
 space: parameter                   # parameter, or telegram for the words of a cyclic message

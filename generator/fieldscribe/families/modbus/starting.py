@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 SERVES = "registers and coils, over RTU or TCP"
-BODY = """\
+DEVICE = """\
 bus:
   framings: [rtu]                  # rtu, tcp, or both
   units: 1..247
@@ -13,7 +13,8 @@ bus:
 frames:                            # requests and answers that the manual prints: each is held against the points
 - {name: read_first, direction: request, bytes: 01 03 00 00 00 01 84 0A}
 - {name: read_first_reply, answers: read_first, bytes: 01 03 02 01 F4 B8 53, says: {first_value: 50.0}}
----
+"""
+GROUP = """\
 group: main
 title: {en: Main}
 space: holding                     # holding, input, coil, discrete

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 SERVES = "parameters and process data in USS telegrams"
-BODY = """\
+DEVICE = """\
 bus:
   units: 0..30
   broadcast: 32
@@ -20,7 +20,8 @@ bus:
 frames:                            # tasks and answers that the manual prints: each is held against the points
 - {name: read_first, framing: pkw, direction: request, bytes: 1001 0000 0000 0000}
 - {name: read_first_answer, framing: pkw, answers: read_first, bytes: 1001 0000 01F4, says: {P0001: 50.0}}
----
+"""
+GROUP = """\
 group: main
 title: {en: Main}
 space: parameter                   # parameter, or telegram for process data
