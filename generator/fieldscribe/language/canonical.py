@@ -155,8 +155,8 @@ class _Layout:
         first, *rest = text.split("\n")
         self.line += first
         for below in rest:
-            self.lines.append(self.line if exactly else self.line.rstrip())
-            said = below if exactly else below.strip()
+            self.lines.append(self.line if exactly else _ended(self.line))
+            said = below if exactly else _ended(below.lstrip())
             self.line = f"{indent}{said}" if said else ""
 
     def _finish(self, gap: Gap) -> None:
@@ -188,6 +188,13 @@ class _Layout:
 
     def _columns(self) -> dict[int, int]:
         return {0: 0} | {frame.was: frame.column for frame in self.within if frame.kind != "flow"}
+
+
+def _ended(line: str) -> str:
+    """A line without the blanks at its end, but for one behind a backslash: that one is said."""
+    ended = line.rstrip()
+    escapes = len(ended) - len(ended.rstrip("\\"))
+    return f"{ended} " if escapes % 2 and len(line) > len(ended) else ended
 
 
 def _quoted(text: str) -> str:

@@ -37,6 +37,7 @@ _OPENINGS: dict[type, str] = {
 
 
 _UNSEEN = frozenset((*_OPENINGS.values(), "key"))
+_STRANGE_BREAK = re.compile(r"[\x85\u2028\u2029]")
 
 
 class Comment(NamedTuple):
@@ -65,9 +66,9 @@ class Gap(NamedTuple):
 class OddError(Exception):
     """A way of writing that has no canonical form here: line and column (from 1), what it is, and what to do."""
 
-    def __init__(self, mark: Any, message: str, hint: str) -> None:
+    def __init__(self, line: int, column: int, message: str, hint: str) -> None:
         super().__init__(message)
-        self.line, self.column, self.message, self.hint = mark.line + 1, mark.column + 1, message, hint
+        self.line, self.column, self.message, self.hint = line, column, message, hint
 
 
 class Piece(NamedTuple):
@@ -103,6 +104,7 @@ def comments(text: str) -> list[str]:
 
 def pieces(text: str) -> Iterator[Piece]:
     """The pieces of a sound text, whose line breaks are of one kind. Raises OddError."""
+    _refuse_strange_breaks(text)
     end = 0
     for token in _tokens(text):
         kind = _kind(token)
@@ -131,14 +133,22 @@ def _kind(token: Any) -> str:
     return _SIGNS.get(type(token)) or _OPENINGS.get(type(token), "")
 
 
+def _refuse_strange_breaks(text: str) -> None:
+    strange = _STRANGE_BREAK.search(text)
+    if strange is not None:
+        start = strange.start()
+        line, column = text.count("\n", 0, start) + 1, start - text.rfind("\n", 0, start)
+        message = f"the line break U+{ord(strange[0]):04X} has no canonical form"
+        raise OddError(line, column, message, "break the line as all others, or write `\\x85` and the like in quotes")
+
+
 def _refuse_odd(token: Any, kind: str, text: str) -> None:
-    start, end = token.start_mark.index, token.end_mark.index
-    if kind == "key" and end > start:
-        hint = "write `key: value`"
-        raise OddError(token.start_mark, "a key behind `?` has no canonical form", hint)
-    if kind == "block" and not _PLAIN_BLOCK.match(text, start):
-        hint = "write the text in quotes"
-        raise OddError(token.start_mark, "a text with signs behind `|` or `>` has no canonical form", hint)
+    mark = token.start_mark
+    if kind == "key" and token.end_mark.index > mark.index:
+        raise OddError(mark.line + 1, mark.column + 1, "a key behind `?` has no canonical form", "write `key: value`")
+    if kind == "block" and not _PLAIN_BLOCK.match(text, mark.index):
+        message = "a text with signs behind `|` or `>` has no canonical form"
+        raise OddError(mark.line + 1, mark.column + 1, message, "write the text in quotes")
 
 
 def _end_of(token: Any, text: str, kind: str) -> int:
@@ -159,7 +169,7 @@ def _gap(text: str, start: int, end: int) -> Gap:
     if start == 0:  # nothing stands before the first line
         lines = [_line(first), *lines] if rest else []
         comment = None
-    return Gap(comment, blanks, tuple(lines), bool(rest))
+    return Gap(comment, blanks, tuple(lines), bool(rest) or comment is not None)
 
 
 def _line(text: str) -> Comment | None:
