@@ -79,14 +79,8 @@ class _Layout:
 
     def place(self, piece: Piece) -> None:
         """Write a piece behind the last one, or on a line of its own."""
-        if piece.kind in ("mapping", "sequence"):
-            self._open(piece)
-            return
-        if piece.kind == "close":
-            self.within.pop()
-            return
-        if piece.kind == "key":
-            self.at_key = True
+        if not piece.text and piece.kind != "end":
+            self._note(piece)
             return
         column = self._column(piece)
         if self._breaks_before(piece):
@@ -101,8 +95,16 @@ class _Layout:
             self.last = "" if piece.kind == "document" else piece.kind
         self.opened = self.at_key = False
 
+    def _note(self, piece: Piece) -> None:
+        """What has no text: a mapping or list told by indentation opens or ends, or a key comes."""
+        if piece.kind == "key":
+            self.at_key = True
+        elif piece.kind == "close":
+            self.within.pop()
+        else:
+            self._open(piece)
+
     def _open(self, piece: Piece) -> None:
-        """Enter what is told by indentation."""
         above = self.within[-1].column if self.within else -_INDENT
         beside = piece.kind == "sequence" and self.last == ":"
         self.within.append(_Frame(piece.kind, piece.column, above if beside else above + _INDENT))
@@ -161,33 +163,34 @@ class _Layout:
 
     def _finish(self, gap: Gap) -> None:
         """End the line, with the comment behind it, and write the empty lines and comments below."""
-        beside: tuple[int, int] | None = None
         if self.line or self.lines:
-            line = self.line.rstrip()
-            if gap.behind is not None:
-                kept = gap.behind.column if gap.blanks > _INDENT else 0
-                line = f"{line:<{max(kept, len(line) + _INDENT)}}"
-                beside = gap.behind.column, len(line)
-                line += gap.behind.text
-            self.lines.append(line)
+            self.lines.append(_with_comment(self.line.rstrip(), gap))
         columns = self.left | self._columns()
+        if gap.behind is not None:  # a comment that goes on below stays below
+            columns[gap.behind.column] = len(self.lines[-1]) - len(gap.behind.text)
         for comment in gap.lines:
-            if comment is None:
-                if self.lines and self.lines[-1]:
-                    self.lines.append("")
-                continue
-            goes_on = beside is not None and beside[0] == comment.column
-            column = beside[1] if goes_on and beside else self._comment_column(comment, columns)
-            self.lines.append(" " * column + comment.text)
+            if comment is not None:
+                self.lines.append(" " * self._comment_column(comment, gap, columns) + comment.text)
+            elif self.lines and self.lines[-1]:
+                self.lines.append("")
 
-    def _comment_column(self, comment: Comment, columns: dict[int, int]) -> int:
+    def _comment_column(self, comment: Comment, gap: Gap, columns: dict[int, int]) -> int:
         """Where a comment goes that has a line of its own: with what stood at its column, or left of it."""
-        if self.within and self.within[-1].kind == "flow":
+        goes_on = gap.behind is not None and gap.behind.column == comment.column
+        if self.within and self.within[-1].kind == "flow" and not goes_on:
             return self.within[-1].column
-        return columns[max((was for was in columns if was <= comment.column), default=0)] if columns else 0
+        return columns[max(was for was in columns if was <= comment.column)]
 
     def _columns(self) -> dict[int, int]:
         return {0: 0} | {frame.was: frame.column for frame in self.within if frame.kind != "flow"}
+
+
+def _with_comment(line: str, gap: Gap) -> str:
+    """A line with the comment behind it: where it was if there is room, else two blanks away."""
+    if gap.behind is None:
+        return line
+    kept = gap.behind.column if gap.blanks > _INDENT else 0
+    return f"{line:<{max(kept, len(line) + _INDENT)}}{gap.behind.text}"
 
 
 def _ended(line: str) -> str:
