@@ -269,6 +269,18 @@ def test_the_schema_beside_is_brought_up_to_date(file: Path, capsys: pytest.Capt
     assert schema.read_text("utf-8") == "{}"
 
 
+def test_a_schema_elsewhere_is_not_ours_to_write(file: Path) -> None:
+    elsewhere = file.parent / "elsewhere/schema.json"
+    elsewhere.parent.mkdir()
+    old = schema_text().replace("draft-07", "draft-06")
+    elsewhere.write_text(old, "utf-8")
+    for named in (elsewhere.as_posix(), "elsewhere/schema.json", elsewhere.as_uri()):
+        line = f"# yaml-language-server: $schema={named}\n"
+        file.write_text(line + described("- {name: a, at: 1}\n"), "utf-8")
+        assert main(["fmt"]) == 0
+        assert elsewhere.read_text("utf-8") == old
+
+
 def test_editors_may_ask_for_a_text(monkeypatch: pytest.MonkeyPatch, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     import io
     import sys

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.reading import State
 
-_SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=([^\s:]+\.json)[ \t]*")
+_SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _ASIDE = ".fieldscribe-new"
 
 

@@ -143,8 +143,10 @@ def is_schema(place: Path) -> bool:
     """Whether a schema of descriptions stands there."""
     from fieldscribe.language.json_schema import SCHEMA_ID
 
-    with suppress(OSError, UnicodeDecodeError):
-        return place.is_file() and SCHEMA_ID in place.read_text("utf-8")[:500]
+    with suppress(OSError):
+        if place.is_file():
+            with place.open("rb") as stream:
+                return SCHEMA_ID.encode() in stream.read(500)
     return False
 
 
