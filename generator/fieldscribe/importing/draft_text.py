@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.importing.drafts import DraftErratum, DraftGroup, DraftPoint
 
 _MEANINGS = ("range_in_units", "resolution", "choices")
-_NEEDS_QUOTES = ("[", "{", '"', "'", "%", "&", "*", "!", "|", ">", "@", "`", "#", "-", "?", ":", ",")
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +76,8 @@ def _bus(family_name: str, spaces: set[str]) -> list[str]:
     """What the family starts with; one that has nothing to start with is left to `check`."""
     from fieldscribe.families import family
 
-    starting = family(family_name).part("starting")
-    return list(starting.bus_of(spaces)) if starting is not None else ["units: 1..31"]
+    bus_of = getattr(family(family_name).part("starting"), "bus_of", None)
+    return list(bus_of(spaces)) if bus_of is not None else ["units: 1..31"]
 
 
 def _group(group: DraftGroup, language: str) -> list[str]:
@@ -126,7 +125,7 @@ def _point(point: DraftPoint, access: str | None, group: DraftGroup, language: s
 def _facts(point: DraftPoint, access: str | None, group: DraftGroup, language: str) -> Iterator[str]:
     """The lines of a point, in the order of our descriptions; its questions come last."""
     if point.code:
-        yield f"code: {yaml_text.code(point.code)}"
+        yield f"code: {yaml_text.text(point.code)}"
     yield f"name: {point.name}"
     yield f"title: {_titled(point.title or point.name, language)}"
     yield f"at: {point.shown}"
@@ -157,7 +156,7 @@ def _meaning(point: DraftPoint, language: str) -> Iterator[str]:
         "range": point.range,
         "range_in_units": point.range_in_units,
         "scale": point.scale,
-        "unit": point.unit and _unit(point.unit),
+        "unit": point.unit if point.unit.startswith("°") else point.unit and yaml_text.text(point.unit),
         "default": point.default,
         "default_in_units": point.default_in_units,
     }
@@ -184,10 +183,6 @@ def _writable(label: str, language: str) -> str:
     return f"{{name: {yaml_text.text(snake(label, 'code'))}, writable: yes, {_titled(label, language)[1:]}"
 
 
-def _unit(symbol: str) -> str:
-    return f'"{symbol}"' if symbol.startswith(_NEEDS_QUOTES) else symbol
-
-
 def _printed(point: DraftPoint) -> str:
     """What is printed twice: addresses by numbering, then ranges and steps. Without an address no number of it."""
     parts = []
@@ -196,7 +191,7 @@ def _printed(point: DraftPoint) -> str:
             continue
         if key not in _MEANINGS and point.at is None:
             continue
-        shown = [yaml_text.flow_value(value) for value in values]
+        shown = [yaml_text.printed(value) for value in values]
         parts.append(f"{key}: {shown[0] if len(shown) == 1 else '[' + ', '.join(shown) + ']'}")
     return ", ".join(parts)
 
@@ -214,4 +209,4 @@ def _erratum(point: DraftPoint, erratum: DraftErratum, names: Names) -> list[str
 
 
 def _told(fact: str, value: str) -> str:
-    return f"{{{fact}: {yaml_text.flow_value(value)}}}" if fact else yaml_text.text(value)
+    return f"{{{fact}: {yaml_text.printed(value)}}}" if fact else yaml_text.text(value)

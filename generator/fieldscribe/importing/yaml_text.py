@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import re
 
+from fieldscribe.language.scalars import as_yaml
 from fieldscribe.text import line
 
-_BARE = re.compile(r"[^\W\d_](?:[\w /()%°+.=-]*[\w)%])?")
-_SURPRISES = frozenset(("y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan", "inf"))
-_NUMBERLIKE = re.compile(r"[0-9A-Fa-f.]+[hH]?|.*\d[eE][-+]?\d+.*")
+_NUMBERS = re.compile(r"-?\d+(?:\.\d+)?")
 _LONGEST_COMMENT = 220
 
 
 def text(value: str) -> str:
-    """A text as a scalar that is right in block and in flow style; quoted wherever a reader might think twice."""
-    cleaned = line(value)
-    if _BARE.fullmatch(cleaned) and cleaned.casefold() not in _SURPRISES and not _NUMBERLIKE.fullmatch(cleaned):
-        return cleaned
-    return json.dumps(cleaned, ensure_ascii=False)
-
-
-def code(value: str) -> str:
-    """A short name of the manual, such as `A020`: bare where it can be nothing else."""
-    cleaned = line(value)
-    return (
-        cleaned
-        if re.fullmatch(r"[G-Zg-z]\w{0,20}|[A-Za-z]\d+", cleaned) and not _is_number(cleaned)
-        else json.dumps(cleaned, ensure_ascii=False)
-    )
-
-
-def _is_number(value: str) -> bool:
-    return re.fullmatch(r"[0-9A-Fa-f]+[hH]", value) is not None or value.casefold() in _SURPRISES
+    """A text from a file as a scalar, on one line and without control characters."""
+    return as_yaml(line(value))
 
 
 def question(value: str) -> str:
@@ -41,8 +22,6 @@ def question(value: str) -> str:
     return f"# ? {cleaned if len(cleaned) <= _LONGEST_COMMENT else cleaned[:_LONGEST_COMMENT] + ' …'}"
 
 
-def flow_value(value: str) -> str:
-    """A value that we made (`0..4000`, `0.1 Hz`, `1028h`): quoted where commas or signs would part it."""
-    if re.fullmatch(r"-?[0-9][0-9A-Fa-f]*[hH]?|-?\d+(?:\.\d+)?|-?[\d.]+\.\.-?[\d.]+|[\d.]+ [A-Za-zµ°Ω/]+", value):
-        return value
-    return json.dumps(line(value), ensure_ascii=False)
+def printed(value: str) -> str:
+    """What is printed, as we wrote it: a number stays one (`4136`), all else is a text (`1028h`, `0.1 %`)."""
+    return value if _NUMBERS.fullmatch(value) else text(value)
