@@ -126,6 +126,7 @@ def test_a_draft_of_a_device_compiles(tmp_path: Path, capsys: pytest.CaptureFixt
         out = tmp_path / device / "device.yaml"
         assert main(["import", "table", path, "--device", device, "--out", str(out)]) == 0
         assert main(["check", str(out)]) == 0, capsys.readouterr().err
+        assert main(["fmt", "--check", str(out)]) == 0
 
 
 def test_the_text_of_a_manual(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
