@@ -58,9 +58,10 @@ def unknown_command(name: str, known: Iterable[str]) -> int:
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
 
-def add_format(parser: ArgumentParser) -> None:
-    """How a command reports."""
-    parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
+def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), said: str = "") -> None:
+    """How a command reports; `more` are forms that only this command has, `said` what to know of them."""
+    known, said = ("text", "json", *more), f"how to report (default: text{said})"
+    parser.add_argument("--format", choices=known, default="text", help=said)
 
 
 def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from fieldscribe.families.answers import Item
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from fieldscribe.families.answers import Heard
     from fieldscribe.families.directory import Directory
@@ -143,6 +143,26 @@ class Course:
             self._open.pop(key, None)
         if expecting:
             self.fixed = spoken.binds
+
+
+Key = TypeVar("Key")
+Kept = TypeVar("Kept")
+_MOST_KEPT = 256
+
+
+class Recent(Generic[Key, Kept]):
+    """What is kept of each party, as long as it is one of the last to be heard: a stream may last for days."""
+
+    def __init__(self) -> None:
+        self._kept: dict[Key, Kept] = {}
+
+    def of(self, key: Key, make: Callable[[], Kept]) -> Kept:
+        """What is kept under this key, made if nothing is."""
+        kept = self._kept.pop(key) if key in self._kept else make()
+        self._kept[key] = kept
+        if len(self._kept) > _MOST_KEPT:
+            del self._kept[next(iter(self._kept))]
+        return kept
 
 
 class Speech(Protocol):

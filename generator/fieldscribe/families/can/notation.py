@@ -11,7 +11,7 @@ from fieldscribe.hexadecimal import HexError, parse_hex, rejoined
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 HINT = "write identifier and data in hexadecimal, as in 321#DD00051E13880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF
@@ -66,14 +66,16 @@ def read_identifier(text: str) -> int:
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
     """The arguments; pieces of one line are joined again where somebody forgot the quotes."""
-    if any("#" in text for text in texts):
-        words = list(texts)
-        while words:
-            size = 3 if _ALONE.fullmatch(words[0].strip()) and len(words) > 2 else 1
-            yield " ".join(words[:size])
-            del words[:size]
-    else:
-        yield from rejoined(texts, 2)
+    if len(texts) == 1 or not any("#" in text for text in texts):
+        return rejoined(texts, 2)
+    return _lines_of_pieces(list(texts))
+
+
+def _lines_of_pieces(words: list[str]) -> Iterator[str]:
+    while words:
+        size = 3 if _ALONE.fullmatch(words[0].strip()) and len(words) > 2 else 1
+        yield " ".join(words[:size])
+        del words[:size]
 
 
 def _frame(line: str, known: int | None) -> Pasted:
