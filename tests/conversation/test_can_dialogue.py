@@ -16,6 +16,7 @@ from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
 from fieldscribe.families.answers import Heard
+from fieldscribe.families.answers import Heard
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.can.recognition import Recogniser
@@ -31,8 +32,6 @@ from support.models import named
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from fieldscribe.families.answers import Heard
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")

@@ -12,7 +12,7 @@ from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
 from fieldscribe.conversation.told import Told
 from fieldscribe.families.directory import Directory
-from fieldscribe.families.spoken import Course, Element, Masks, Piece, ProcessData, Recent, Span, Word
+from fieldscribe.families.spoken import Course, Cut, Element, Masks, Piece, ProcessData, Recent, Span, Word
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -78,7 +78,10 @@ class Listener:
         hearing = self._parties.of(spoken.party, self._unheard)
         items = tuple([item for carried in spoken.carried for item in _says(hearing, carried)])
         self._course.follow(spoken, expecting=expecting)
-        return spoken.heard.saying(items, self._oddities.findings(spoken), self._oddities.notes(spoken))
+        notes = self._oddities.notes(spoken)
+        if isinstance(frame, Cut):
+            notes = (*notes, frame.said)
+        return spoken.heard.saying(items, self._oddities.findings(spoken), notes)
 
     def expect_reply_to(self, frame: Any) -> Heard:
         """Treat a frame as the request that the following frames answer."""

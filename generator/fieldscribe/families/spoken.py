@@ -145,6 +145,34 @@ class Course:
             self.fixed = spoken.binds
 
 
+class Cut(bytes):
+    """A frame out of bytes that hold several; `said` tells which one it is."""
+
+    said = ""
+
+
+def cut_apart(data: bytes, sound: Callable[[bytes], int], least: int) -> list[bytes]:
+    """The frames in bytes that hold several; the bytes as they are if they hold one, or none.
+
+    `sound` gives the size of the sound frame that bytes begin with, 0 where there is none. What is left behind sound
+    frames is a frame, too, if it has at least `least` bytes.
+    """
+    pieces: list[bytes] = []
+    rest = data
+    while rest and (size := sound(rest)):
+        pieces, rest = [*pieces, rest[:size]], rest[size:]
+    pieces += [rest] if rest else []
+    if len(pieces) < 2 or 0 < len(rest) < least:
+        return [data]
+    begin, result = 1, []
+    for number, piece in enumerate(pieces, 1):
+        frame = Cut(piece)
+        frame.said = f"these bytes hold {len(pieces)} frames; this is number {number}, from byte {begin} on"
+        result.append(frame)
+        begin += len(piece)
+    return [*result]
+
+
 Key = TypeVar("Key")
 Kept = TypeVar("Kept")
 _MOST_KEPT = 256

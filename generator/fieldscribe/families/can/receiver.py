@@ -67,19 +67,22 @@ class Receiver:
         words, such as a text, are given as they came last.
         """
         if len(positions) == 1:
-            [position] = positions
-            slot = self._slots[position // self.per_frame]
-            return ("ok", (slot.words[position % self.per_frame],)) if slot.at else ("missing", ())
+            slot, word = self._slots[positions[0] // self.per_frame], positions[0] % self.per_frame
+            return ("ok", (slot.words[word],)) if slot.at else ("missing", ())
         slots = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
         if any(slot.at == 0 for slot, _ in slots):
             return "missing", ()
-        (high, high_word), (low, low_word) = slots[0], slots[-1]
-        if high is low or len(slots) > 2:
-            return "ok", tuple(slot.words[word] for slot, word in slots)
-        if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
-            return "torn", ()
-        if high.before < low.at < high.at:
-            return "ok", (high.words[high_word], low.words[low_word])
-        if low.at > high.at and high.before < low.before < high.at:
-            return "ok", (high.words[high_word], low.words_before[low_word])
+        return _together(slots)
+
+
+def _together(slots: list[tuple[_Slot, int]]) -> tuple[str, tuple[int, ...]]:
+    (high, high_word), (low, low_word) = slots[0], slots[-1]
+    if high is low or len(slots) > 2:
+        return "ok", tuple(slot.words[word] for slot, word in slots)
+    if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
         return "torn", ()
+    if high.before < low.at < high.at:
+        return "ok", (high.words[high_word], low.words[low_word])
+    if low.at > high.at and high.before < low.before < high.at:
+        return "ok", (high.words[high_word], low.words_before[low_word])
+    return "torn", ()
