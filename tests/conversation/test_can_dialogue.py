@@ -16,7 +16,6 @@ from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
 from fieldscribe.families.answers import Heard
-from fieldscribe.families.answers import Heard
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.can.recognition import Recogniser

@@ -26,6 +26,9 @@ _PACKAGES = {
     "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
     "rustfmt": "rustfmt",
+    "bash": "bash",
+    "zsh": "zsh",
+    "fish": "fish",
 }
 
 LIMIT = 300

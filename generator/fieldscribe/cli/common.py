@@ -67,12 +67,7 @@ def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), said: str = "
 def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
     """Which device a command is about."""
     parser.add_argument("device", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
-    parser.add_argument(
-        "--descriptions",
-        type=Path,
-        metavar="DIR",
-        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
-    )
+    add_descriptions(parser)
     if variants:
         parser.add_argument(
             "--variant",
@@ -81,6 +76,16 @@ def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
             metavar="AXIS=VALUE",
             help="choose a variant, as in voltage_class=400V; may be repeated",
         )
+
+
+def add_descriptions(parser: ArgumentParser) -> None:
+    """Where ids of devices are looked for."""
+    parser.add_argument(
+        "--descriptions",
+        type=Path,
+        metavar="DIR",
+        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
+    )
 
 
 def some_path(text: str) -> Path:
@@ -113,12 +118,27 @@ def _known_folder(name: Path) -> Path:
     from fieldscribe.pipeline import DEVICE_FILE
     from fieldscribe.resources import descriptions_dir
 
-    roots = (LOCAL, descriptions_dir())
-    known = {file.parent.name: file.parent for root in reversed(roots) for file in root.glob(f"*/{DEVICE_FILE}")}
+    known = {named: file.parent for named, file in known_devices((LOCAL, descriptions_dir())).items()}
     if str(name) not in known:
         hint = _near(str(name), sorted(known)) or f"name a folder with {DEVICE_FILE}, or a device: {', '.join(known)}"
         raise StopError(f"there is no such file or folder, and no device, as `{name}`", hint)
     return known[str(name)]
+
+
+def known_devices(roots: Iterable[Path]) -> dict[str, Path]:
+    """The device.yaml of each device below these folders, by its folder's name; the first folder wins."""
+    from fieldscribe.pipeline import device_files_below
+
+    known: dict[str, Path] = {}
+    for root in roots:
+        for file in device_files_below(root):
+            known.setdefault(file.parent.name, file)
+    return dict(sorted(known.items()))
+
+
+def devices_asked(arguments: Namespace) -> dict[str, Path]:
+    """The devices that are known without being named, by their id. Raises StopError."""
+    return known_devices(_roots(arguments))
 
 
 def open_device(arguments: Namespace) -> Device:
@@ -175,7 +195,7 @@ def device_file(arguments: Namespace) -> Path:
                 return root / asked / DEVICE_FILE
     path = Path(asked)
     if not path.exists():
-        known = sorted({file.parent.name for root in roots for file in root.glob(f"*/{DEVICE_FILE}")})
+        known = list(known_devices(roots))
         where = " and ".join(dict.fromkeys(map(str, roots)))
         raise StopError(
             f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"
