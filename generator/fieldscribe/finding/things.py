@@ -55,10 +55,10 @@ def things_of(subject: Subject) -> Iterator[Thing]:
     for resolved in subject.resolved:
         yield _point(device, subject.scope, resolved)
     for section in ("commands", "messages", "telegrams"):
-        for raw in subject.scope.listed(section):
-            yield _named(device, section[:-1], raw)
+        for node in subject.scope.listed(section):
+            yield _named(device, section[:-1], node)
     for opened in subject.open_frames:
-        yield _named(device, "frame", opened.raw)
+        yield _named(device, "frame", opened.node)
     yield from _codes(device, subject)
 
 
@@ -108,8 +108,8 @@ def _key_place(listed: Map, key: str) -> Callable[[], Span]:
 
 def _named_map(scope: Scope, draft: Draft, key: str) -> Map | None:
     """The mapping behind a fact that is one, or the name of a shared one."""
-    raw = draft.get(key)
-    shared = scope.named_enums.get(raw) if isinstance(raw, str) else raw
+    node = draft.get(key)
+    shared = scope.named_enums.get(node) if isinstance(node, str) else node
     return shared if isinstance(shared, Map) else None
 
 
@@ -120,16 +120,16 @@ def _place_of_flag(flags: object, name: str, draft: Draft) -> Callable[[], Span]
     return draft.span
 
 
-def _named(device: str, kind: str, raw: Map) -> Thing:
+def _named(device: str, kind: str, node: Map) -> Thing:
     """A thing with a name and a title."""
-    name, titles = str(raw["name"]), raw.get("title", {})
+    name, titles = str(node["name"]), node.get("title", {})
     texts = [str(text) for text in titles.values()] if isinstance(titles, Map) else []
     thing = Thing(device, kind, name, None, line(f"{kind} {name}: {' / '.join(texts)}".rstrip(": ")))
     facts = thing.facts
-    facts.append(Fact("name", name, lambda: raw.span("name")))
-    facts += [Fact("title", text, lambda: raw.span("title")) for text in texts]
-    if raw.get("section"):
-        facts.append(Fact("section", str(raw["section"]), lambda: raw.span("section")))
+    facts.append(Fact("name", name, lambda: node.span("name")))
+    facts += [Fact("title", text, lambda: node.span("title")) for text in texts]
+    if node.get("section"):
+        facts.append(Fact("section", str(node["section"]), lambda: node.span("section")))
     return thing
 
 
