@@ -14,7 +14,9 @@ EXAMPLE = """examples:
   fieldscribe completion fish > ~/.config/fish/completions/fieldscribe.fish
 
 For zsh, ~/.zfunc must be in fpath before compinit runs. Or for the running shell alone:
-  source <(fieldscribe completion bash)"""
+  source <(fieldscribe completion bash)
+
+ends with 2 for a shell that it does not know"""
 
 SCRIPTS = {
     "bash": """# completion of fieldscribe for bash
