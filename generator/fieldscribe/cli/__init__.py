@@ -39,6 +39,9 @@ COMMANDS = {
     "list": "list the devices there are, or the points of one",
     "search": "find words in titles, codes, sections, names, flags, labels and numbers of all devices",
     "completion": "print what makes a shell complete commands, options, devices and points",
+    "init": "start a description that compiles at once, by a few questions or by options",
+    "fmt": "bring descriptions into their canonical form; what they say stays the same, and so do comments",
+    "watch": "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
