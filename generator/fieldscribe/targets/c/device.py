@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.model import Version
 from fieldscribe.names import upper
 from fieldscribe.records import replace
 from fieldscribe.targets.c.comments import comment_text, laid_out
@@ -40,6 +41,7 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
         prefix=scope.prefix,
         upper=scope.upper,
         version=device.version,
+        numbers=Version.of(device.version),
         digest=device.digest[:16],
         telegrams=tuple(
             TelegramView(telegram.name, name, number, f"{name}_WORDS", telegram.words)

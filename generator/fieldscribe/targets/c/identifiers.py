@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 _OWN = Owner("target", "what the header needs")
 
 _TYPES = ("status", "real")
-_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST", "DESCRIPTION")
+_VERSION = tuple(f"DESCRIPTION_VERSION{tail}" for tail in ("", "_MAJOR", "_MINOR", "_PATCH", "_NUMBER"))
+_MACROS = ("H", *_VERSION, "DESCRIPTION_DIGEST", "DESCRIPTION")
 _HEADERS = frozenset(
     {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
