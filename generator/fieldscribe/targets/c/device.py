@@ -142,7 +142,7 @@ def _function_tails(view: PointView) -> list[str]:
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
-    tails += ["_rule"] if view.rules else []
+    tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.splits else []
     tails += ["_extract", "_insert"] if view.bits else []
     return [*tails, *view.flags, *codes]

@@ -93,7 +93,6 @@ class PointView:
     special: SpecialView | None
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
-    rules: bool
     splits: bool
     bits: bool
     flags: tuple[str, ...]

@@ -11,7 +11,7 @@ from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.example import example_of, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import Item, binding, in_lines
+from fieldscribe.targets.rust.layout import Item, binding
 from fieldscribe.targets.rust.literals import integer
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
@@ -64,7 +64,7 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
-        "table": in_lines(subject.name for subject in scope.subjects),
+        "table": tuple(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "codes": tuple(shared_views(scope)),
