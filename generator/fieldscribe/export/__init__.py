@@ -135,7 +135,7 @@ def _message(message: Message) -> dict[str, object]:
         "title": dict(message.title),
         "direction": message.direction,
         "answers": message.answers,
-        "can_id": message.identifier,
+        "identifier": message.identifier,
         "adds_unit": message.adds_unit,
         "layout": [{"holds": role.kind, "number": role.number} for role in message.roles],
         "source": source_of(message.source),

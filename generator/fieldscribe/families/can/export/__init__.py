@@ -9,6 +9,12 @@ from fieldscribe.families.can.facts import CanBus, identifier_of, of_bus
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Device, Frame
 
+LIMIT_CLASSES = {"bitrate": "wire", "identifier_bits": "wire"}
+"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+
+FRAME_CLASSES = {"can_id": "docs"}
+"""The same for worked examples."""
+
 
 def limits(bus: Bus | None) -> dict[str, object]:
     """The family's own facts of a bus; empty values for a bus of another family."""

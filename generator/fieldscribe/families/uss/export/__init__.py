@@ -10,6 +10,12 @@ from fieldscribe.families.uss.parts import READ_TASK, write_task
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Frame, Point
 
+LIMIT_CLASSES = {"pkw": "wire", "pzd": "wire", "variant_pzd": "behaviour", "bitrate": "wire"}
+"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+
+FRAME_CLASSES = {"pkw": "docs"}
+"""The same for worked examples."""
+
 
 def limits(bus: Bus | None) -> dict[str, object]:
     """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
