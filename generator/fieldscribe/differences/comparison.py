@@ -119,9 +119,22 @@ class _Comparison:
             kept = name in new.get("was", ())
             weight = COMPATIBLE if kept else _weighed(parts.renamed, old, new)
             self.told.append(Difference(weight, inner, "", name, new["name"]))
-            if kept:
-                new = {**new, "was": [other for other in new["was"] if other != name]}
+            new = {**new, **_following(old, new)}
         self.table(parts.facts, old, new, inner)
+
+
+def _following(old: Exported, new: Exported) -> Exported:
+    """What only follows from another name: the old name as an alias, and a title that is the name in words."""
+    following: dict[str, Any] = {}
+    if old["name"] in new.get("was", ()):
+        following["was"] = [other for other in new["was"] if other != old["name"]]
+    if all("title" in part and part["title"].get("en") == _spoken(part) for part in (old, new)):
+        following["title"] = {**new["title"], "en": _spoken(old)}
+    return following
+
+
+def _spoken(part: Exported) -> str:
+    return str(part["name"]).replace("_", " ").capitalize()
 
 
 class _Matched(NamedTuple):

@@ -76,7 +76,7 @@ def _range(point: Exported) -> object:
     if wire_type is None:
         return ranges
     info, bits = TYPES[wire_type], point["bits"]
-    width = info.bits if bits is None else bits[0] - bits[1] + 1
+    width = info.bits if bits is None else abs(bits[0] - bits[1]) + 1
     least, greatest = (-(1 << (width - 1)), (1 << (width - 1)) - 1) if info.signed else (0, (1 << width) - 1)
     return None if ranges == [[least, greatest]] else ranges
 
@@ -94,14 +94,7 @@ def _values(flag: Exported) -> Iterator[Exported]:
             yield {**value, "raw": int(raw)}
 
 
-def _title(thing: Exported) -> object:
-    """The titles, without the one that only says the name in words."""
-    spoken = thing["name"].replace("_", " ").capitalize() if "name" in thing else ""
-    return {language: text for language, text in thing["title"].items() if language != "en" or text != spoken}
-
-
-TITLE = Fact(DOCS, _title, ("title",))
-NOTE, SOURCE = said("note", DOCS), said("source", DOCS)
+TITLE, NOTE, SOURCE = said("title", DOCS), said("note", DOCS), said("source", DOCS)
 
 _NUMBER: Table = {"raw": said("raw", WIRE), "title": TITLE}
 _ENTRY: Table = {**_NUMBER, "quantity": said("quantity", BEHAVIOUR)}

@@ -15,6 +15,14 @@ Weight: TypeAlias = "str | Callable[[Any, Any], str]"
 """A class, or what tells it from the old and the new value."""
 
 
+class UnfitError(Exception):
+    """An argument means nothing that can be compared: what is wrong, and what to do about it."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message, self.hint = message, hint
+
+
 class Fact(NamedTuple):
     """A fact: its class, its value in the exported thing, and the keys of the contract that say it.
 
