@@ -104,9 +104,9 @@ def subject_of(difference: Difference) -> str | None:
 
 def fact_of(difference: Difference) -> str:
     """The fact in words, behind the parts that it is a fact of: `entry keypad raw`."""
-    inner = difference.things[1:]
-    words = [f"{thing.kind} {thing.name}" for thing in inner]
-    if difference.is_rename:
+    inner, renamed = difference.things[1:], difference.is_rename
+    words = [f"{thing.kind} {thing.old if renamed else thing.name}" for thing in inner]
+    if renamed:
         words.append("name")
     elif difference.fact or not inner:
         words.append(difference.fact or difference.things[-1].kind)

@@ -121,6 +121,7 @@ POINT: Table = {
     "base": Fact(WIRE, _base, ("references",)),
     "write address": Fact(WIRE, _written, ("written",)),
     "index": said("index", WIRE),
+    "variant": said("variant", API),
     "set": said("set", API),
     "record": said("record", DOCS),
     "bits": said("bits", WIRE),
@@ -165,7 +166,6 @@ POINT: Table = {
 
 POINT_FOLLOWS = {
     "name": "tells the point",
-    "variant": "is a part of the name in generated code",
     "direction": "is a fact of the telegram",
     "places": "repeats the address; the functions follow from type and access",
     "repeat": "is a part of the name",
