@@ -103,7 +103,7 @@ def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> 
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return subject
+    return None if own.has_errors else subject
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
@@ -122,7 +122,19 @@ def load_subject(device_file: Path, report: Report) -> Subject | None:
     from fieldscribe.language.files import read_files
 
     files = read_files(device_file, report)
-    return None if files is None else _checked(files, report)
+    subject = None if files is None else _checked(files, report)
+    return None if report.has_errors else subject
+
+
+def load_so_far(device_file: Path, report: Report) -> Subject | None:
+    """As `load_subject`, but also with errors: then what is sound of it. None where the head lacks too much."""
+    from fieldscribe.language.files import read_files
+
+    own = Report()
+    files = read_files(device_file, own)
+    subject = None if files is None else _checked(files, own)
+    report.extend(own)
+    return subject
 
 
 def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:
@@ -151,7 +163,8 @@ def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
         yield path, (templates_dir() / template).read_text("utf-8")
 
 
-def _checked(files: Files, report: Report) -> Subject | None:
+def _checked(files: Files, report: Report) -> Subject:
+    """The parts of a device, resolved and checked; with errors they are not to be compiled."""
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.bus import bus_of
     from fieldscribe.resolve.commands import commands_of
@@ -177,4 +190,4 @@ def _checked(files: Files, report: Report) -> Subject | None:
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
     subject = Subject(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
     run_checks(subject)
-    return None if report.has_errors else subject
+    return subject

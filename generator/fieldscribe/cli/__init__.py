@@ -36,6 +36,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "diff": "say what changed between two descriptions, whom it breaks, and which step the version must take",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
