@@ -22,10 +22,11 @@ DEVICE_FILE = "device.yaml"
 
 
 class Models(NamedTuple):
-    """A whole device, and the same as code may know it."""
+    """A whole device, the same as code may know it, and where its version stands."""
 
     whole: Device
     plain: Device
+    version: Span
 
 
 class TargetError(Exception):
@@ -92,7 +93,7 @@ def load_models(device_file: Path, report: Report, inputs: Inputs | None = None)
     `inputs` remembers the files that were read, each with a checksum.
     """
     subject = _loaded(device_file, report, inputs)
-    return None if subject is None else Models(*subject.models)
+    return None if subject is None else Models(*subject.models, subject.scope.header.span("version"))
 
 
 def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Subject | None:

@@ -47,7 +47,7 @@ POINTS = {
     "an enum of others": "- {name: inserted, at: 200, enum: contact}",
     "a list of others": '- {name: inserted, at: 200, range: "1, 3, 5, 9"}',
     "a limit of others": "- {name: inserted, at: 200, range: 0..rated.raw, scale: value = raw * rated.raw / 400}",
-    "first of its shape": "- {name: inserted, at: 200, type: s16, range: -5..5, scale: value = raw / 3, default: 3, note: A}",
+    "first of its shape": "- {name: inserted, at: 200, type: s16, range: -5..5, scale: value = raw / 3, default: 3}",
     "flags": "- {name: inserted, at: 200, flags: {1: ready, 2: {name: fault, active: 0}}, access: r}",
     "not settled": "- {name: inserted, at: 200, type: ~}",
 }
