@@ -40,6 +40,9 @@ _KEYS = {
     "reason": ("why",),
     "points": ("point", "points"),
     "most": ("functions",),
+    "entry": ("enum",),
+    "flag": ("flags",),
+    "code": ("special", "code"),
 }
 """The keys of a description that say a fact, where they are called otherwise than the fact."""
 
