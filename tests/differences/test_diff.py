@@ -368,6 +368,39 @@ def test_where_an_old_name_is_written(before: str, after: str, kept: str, diff: 
     assert file.read_bytes().decode().endswith(kept)
 
 
+RECORDS = "{trip: {points: [{name: MEMBER, at: base}, {name: hours, at: base + 1}]}}"
+USES = "- {name: USE_1, record: trip, at: 50h}\n- {name: USE_2, record: trip, at: 60h}\n"
+
+
+@pytest.mark.parametrize(
+    ("member", "use", "told", "written"),
+    [
+        (
+            "reason",
+            "trip",
+            "trip_2_reason: the old name `trip_2_cause` stays as an alias",
+            "{name: reason, was: [cause],",
+        ),
+        ("cause", "fault", "fault_2_cause: write `was: [trip_2_cause]` by hand", "{name: cause, at: base}"),
+    ],
+)
+def test_old_names_of_a_record(member: str, use: str, told: str, written: str, diff: Diff) -> None:
+    diff.write("old", USES.replace("USE", "trip"), records=RECORDS.replace("MEMBER", "cause"))
+    file = diff.write("new", USES.replace("USE", use), records=RECORDS.replace("MEMBER", member))
+    assert told in diff("old", "new", "--keep-names").err
+    assert written in file.read_text("utf-8")
+
+
+def test_an_old_name_of_variants(diff: Diff) -> None:
+    axes = "{size: {title: Size, values: {small: {title: Small}, large: {title: Large}}}}"
+    point = "- {name: NAME, at: 1, variants: {size=small: {range: 0..5}, size=large: {range: 0..9}}}\n"
+    diff.write("old", point.replace("NAME", "level"), variants=axes)
+    file = diff.write("new", point.replace("NAME", "height"), variants=axes)
+    told = diff("old", "new", "--keep-names", "--fail-on", "breaking")
+    assert told.code == 0, told
+    assert "{name: height, was: [level], at: 1" in file.read_text("utf-8")
+
+
 def test_an_old_name_that_would_be_a_finding_is_not_written(diff: Diff) -> None:
     """Somebody else is called so by now."""
     file = diff.write("new", "- {name: pace, at: 10h, range: 0..4000}\n- {name: speed, at: 11h}\n")

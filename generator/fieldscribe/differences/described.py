@@ -34,7 +34,6 @@ _KEYS = {
     "old names": ("was",),
     "changes with": ("changes_with",),
     "source": ("line", "lines", "page", "section"),
-    "identifier": ("can_id",),
     "bytes": ("bytes",),
     "meaning": ("says", "with"),
     "reason": ("why",),
