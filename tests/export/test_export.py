@@ -300,7 +300,8 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     ],
 )
 def test_a_factor_that_is_no_plain_multiple_is_said_with_all_its_numbers(factor: Factor, said: dict[str, int]) -> None:
-    assert use_of(factor, point("other", 1)) == (1, [{"point": "other", "part": "raw", **said}])
+    constant, uses = use_of(factor, point("other", 1))
+    assert (constant, uses) == (Fraction(1), [{"point": "other", "part": "raw", **said}])
 
 
 def test_computed_ends_as_expressions() -> None:

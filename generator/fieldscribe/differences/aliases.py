@@ -43,18 +43,24 @@ class _Alias(NamedTuple):
 def with_aliases(comparison: Comparison) -> Edited:
     """The files of the new description with the old names of renamed points. Nothing is written here."""
     described = None if comparison.new is None else comparison.new.described
-    aliases = [] if described is None else _aliases(comparison, described)
-    if described is None or not aliases:
+    if described is None:
         return Edited({}, [])
+    aliases, by_hand = _aliases(comparison, described)
     kept, told = _proven(described, aliases)
     lines = [f"{new}: the old name `{old}` stays as an alias" for alias in kept for new, old in alias.points]
     changed = {file: text for file, text in _texts(kept).items() if text != file.text}
-    return Edited({Path(file.name): _encoded(file, text) for file, text in changed.items()}, lines + told)
+    told = lines + [_advice(*pair) for pair in by_hand] + told
+    return Edited({Path(os.path.realpath(file.name)): _encoded(file, text) for file, text in changed.items()}, told)
 
 
-def _aliases(comparison: Comparison, described: Described) -> list[_Alias]:
-    """The old names by row; rows that stand for several points get one."""
+def _advice(item: str, old: str) -> str:
+    return f"{item}: write `was: [{old}]` by hand where its own facts stand"
+
+
+def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias], list[tuple[str, str]]]:
+    """The old names by row, one for all points that it stands for, and the points that a row cannot give theirs."""
     aliases: dict[tuple[int, str], _Alias] = {}
+    by_hand = []
     for difference in comparison.told:
         if not difference.is_rename or difference.weight == "compatible" or len(difference.things) > 1:
             continue
@@ -64,9 +70,12 @@ def _aliases(comparison: Comparison, described: Described) -> list[_Alias]:
         draft = described.draft(thing.new)
         name, (before, _, behind) = _plain(thing.old, draft), draft.called("\0").partition("\0")
         old = name.removeprefix(before).removesuffix(behind)
+        if draft.called(old) != name:  # the record is used under another name
+            by_hand.append((thing.new, name))
+            continue
         alias = aliases.setdefault((id(draft.row), old), _Alias(draft.row, old, []))
         alias.points.append((thing.new, name))
-    return list(aliases.values())
+    return list(aliases.values()), by_hand
 
 
 def _plain(item: str, draft: Draft) -> str:
@@ -83,7 +92,7 @@ def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], 
             return [], [*told, f"no alias was written: {finding}"]
         if not lost:
             return left, told
-        told += [f"{new}: write `was: [{old}]` by hand where its own facts stand" for new, old in lost]
+        told += [_advice(*pair) for pair in lost]
         left = [alias for alias in left if not set(lost) & set(alias.points)]
     return [], told
 
@@ -116,11 +125,14 @@ def _sources(described: Described) -> list[SourceFile]:
 
 def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:
     """The texts of the files with these aliases in them."""
-    edits: dict[SourceFile, list[tuple[int, str]]] = {}
+    rows: dict[int, tuple[Map, list[str]]] = {}
     for alias in aliases:
-        edit = _edit(alias.row, alias.old)
+        rows.setdefault(id(alias.row), (alias.row, []))[1].append(alias.old)
+    edits: dict[SourceFile, list[tuple[int, str]]] = {}
+    for row, old_names in rows.values():
+        edit = _edit(row, old_names)
         if edit is not None:
-            edits.setdefault(alias.row.file, []).append(edit)
+            edits.setdefault(row.file, []).append(edit)
     return {file: _inserted(file.text, places) for file, places in edits.items()}
 
 
@@ -130,12 +142,12 @@ def _inserted(text: str, places: list[tuple[int, str]]) -> str:
     return text
 
 
-def _edit(row: Map, old: str) -> tuple[int, str] | None:
+def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
     """Where `was` is written, and as what; None where the row has no such place."""
     was = row.get("was")
     if isinstance(was, Seq):
-        return _into_list(row, was, old)
-    return _behind_name(row, f"was: [{old}]") if "name" in row else None
+        return _into_list(row, was, old_names)
+    return _behind_name(row, f"was: [{', '.join(old_names)}]") if "name" in row else None
 
 
 def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
@@ -146,21 +158,25 @@ def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
         return None
     if text[row.file.offset(row.at)] == "{":
         return name.end(), f", {said}"
-    end, indent = text.find("\n", name.end()), " " * (column - 1)
+    end, line = text.find("\n", name.end()), f"{' ' * (column - 1)}{said}{_ending(text)}"
     if end < 0:
-        return len(text), f"\n{indent}{said}\n"
-    ending = "\r\n" if text[end - 1] == "\r" else "\n"
-    return end + 1, f"{indent}{said}{ending}"
+        return len(text), f"{_ending(text)}{line}"
+    return end + 1, line
 
 
-def _into_list(row: Map, was: Seq, old: str) -> tuple[int, str]:
-    """An old name more in a list that is there."""
+def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
+    """More old names in a list that is there."""
     text, start = row.file.text, row.file.offset(was.at)
     if text[start] == "[":
-        return start + 1, f"{old}{', ' if was else ''}"
+        return start + 1, f"{', '.join(old_names)}{', ' if was else ''}"
     dash = text.rfind("-", 0, row.file.offset(was.item_at[0])) if was else start
     begin = text.rfind("\n", 0, dash) + 1
-    return begin, f"{text[begin:dash]}- {old}\n"
+    return begin, "".join(f"{text[begin:dash]}- {old}{_ending(text)}" for old in old_names)
+
+
+def _ending(text: str) -> str:
+    """How lines end."""
+    return "\r\n" if "\r\n" in text else "\n"
 
 
 def _encoded(file: SourceFile, text: str) -> bytes:

@@ -65,7 +65,7 @@ class Comparison:
         names = _names(difference, old=old)
         if names is None:
             names = _names(difference._replace(things=difference.things[:-1]), old=old)
-            return side.place(names, difference.fact) if names else None
+            return side.place(names, difference.things[-1].kind) if names else None
         return side.place(names, difference.fact)
 
     def _is_lost(self, difference: Difference) -> bool:

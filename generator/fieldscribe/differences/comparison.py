@@ -128,13 +128,20 @@ def _following(old: Exported, new: Exported) -> Exported:
     following: dict[str, Any] = {}
     if old["name"] in new.get("was", ()):
         following["was"] = [other for other in new["was"] if other != old["name"]]
-    if all("title" in part and part["title"].get("en") == _spoken(part) for part in (old, new)):
-        following["title"] = {**new["title"], "en": _spoken(old)}
+    before, after = (part.get("title", {}).get("en", "") for part in (old, new))
+    words = _own_words(old["name"].split("_"), new["name"].split("_"))
+    if before != after == before.replace(*words):
+        following["title"] = {**new["title"], "en": before}
     return following
 
 
-def _spoken(part: Exported) -> str:
-    return str(part["name"]).replace("_", " ").capitalize()
+def _own_words(old: list[str], new: list[str]) -> tuple[str, str]:
+    """What is different in two names, as titles say it: of `ramp_set_2` and `slope_set_2` Ramp and Slope."""
+    while len(old) > 1 and len(new) > 1 and old[-1] == new[-1]:
+        old, new = old[:-1], new[:-1]
+    while len(old) > 1 and len(new) > 1 and old[0] == new[0]:
+        old, new = old[1:], new[1:]
+    return " ".join(old).capitalize(), " ".join(new).capitalize()
 
 
 class _Matched(NamedTuple):

@@ -34,12 +34,14 @@ _KEYS = {
     "old names": ("was",),
     "changes with": ("changes_with",),
     "source": ("line", "lines", "page", "section"),
-    "identifier": ("can_id",),
     "bytes": ("bytes",),
     "meaning": ("says", "with"),
     "reason": ("why",),
     "points": ("point", "points"),
     "most": ("functions",),
+    "entry": ("enum",),
+    "flag": ("flags",),
+    "code": ("special", "code"),
 }
 """The keys of a description that say a fact, where they are called otherwise than the fact."""
 

@@ -18,13 +18,14 @@ if TYPE_CHECKING:
 def items(device: Exported) -> Iterator[Exported]:
     """The points by their names in generated code, which tell those of several variants apart."""
     for point in device["points"]:
-        yield point if point["variant"] is None else {**point, "name": item(point)}
+        yield point if point["variant"] is None else _varied(point)
 
 
-def item(point: Exported) -> str:
-    """The name of a point in generated code."""
-    axis, _, value = (point["variant"] or "").partition("=")
-    return item_of(point["name"], Variant(axis, value) if axis else None)
+def _varied(point: Exported) -> Exported:
+    """A point of a variant with its names in generated code, the old ones too."""
+    axis, _, value = point["variant"].partition("=")
+    name, *old_names = (item_of(name, Variant(axis, value)) for name in (point["name"], *point["was"]))
+    return {**point, "name": name, "was": old_names}
 
 
 def grown(old: Any, new: Any) -> str:
@@ -175,5 +176,5 @@ POINT_FOLLOWS = {
 }
 """Keys of the contract that say nothing of their own, and why."""
 
-ALIKE = ("space", "telegram", "address", "order of words", "index", "bits", "type")
+ALIKE = ("space", "telegram", "address", "order of words", "index", "bits", "type", "variant")
 """The facts by which a point is the same under another name."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _MOST_NAMES = 12
 _MOST_SYMBOLS = 3
+_ARROW = "\N{RIGHTWARDS ARROW}"
 
 
 class _Alike(NamedTuple):
@@ -56,7 +57,7 @@ def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
         if not comparison.told:
             continue
         yield from (f"## {markdown(comparison.device)} {markdown(_next(comparison))}", "")
-        yield from (markdown(_advice(comparison)), "")
+        yield from (markdown(_advice(comparison, _ARROW)), "")
         for weight, groups in _by_class(comparison.told):
             yield from (f"### {CLASSES[weight].capitalize()}", "")
             yield from (_item(comparison, alike) for alike in groups)
@@ -90,7 +91,7 @@ def _item(comparison: Comparison, alike: _Alike) -> str:
         for language, names in comparison.symbols(alike.first).items()
         if names
     )
-    sentence = markdown(_sentence(alike.first, "\u2192")).lstrip()
+    sentence = markdown(_sentence(alike.first, _ARROW)).lstrip()
     subject = _subject(alike, _code)
     joint = "" if not subject or sentence.startswith(":") else " "
     return f"- {subject}{joint}{sentence}{f' ({symbols})' if symbols else ''}"
@@ -145,7 +146,7 @@ def _next(comparison: Comparison) -> str:
     return next_version(old.version, step) or new.version
 
 
-def _advice(comparison: Comparison) -> str:
+def _advice(comparison: Comparison, arrow: str = "->") -> str:
     """Which step the version must take, and whether it did."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None:
@@ -155,7 +156,7 @@ def _advice(comparison: Comparison) -> str:
         return f"a {step} step of the version ({old.version} is no version like 1.2.3)"
     below = " (below 1.0 the middle number says what breaks)" if old.version.startswith("0.") else ""
     if is_taken(old.version, new.version, step):
-        return f"a {step} step of the version: {old.version} -> {new.version}{below}"
+        return f"a {step} step of the version: {old.version} {arrow} {new.version}{below}"
     return f"the version must take a {step} step: {wanted} or more, it says {new.version}{below}"
 
 

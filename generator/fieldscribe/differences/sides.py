@@ -81,7 +81,7 @@ def _renaming(copy: str, shown: str) -> Callable[[str], str]:
 
 
 def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[str, Side]:
-    if path.suffix == ".json":
+    if path.suffix == ".json" and not path.is_dir():
         model = _model(path, name_of)
         return {str(model["device"]): Side(model, None, shown_path(path), name_of, copied=name_of is not str)}
     known: dict[str, Path] = {}
