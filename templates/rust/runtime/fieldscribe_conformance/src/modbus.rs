@@ -192,7 +192,8 @@ pub fn block(vector: &Vector, blocks: &[(&str, &[Block])]) -> Outcome {
         .iter()
         .find(|(name, _)| *name == vector.text("group"));
     let (space, address) = (vector.text("space"), vector.raw("address"));
-    let is_there = |block: &&Block| (space.as_str(), address) == (block.space.name(), block.address);
+    let is_there =
+        |block: &&Block| (space.as_str(), address) == (block.space.name(), block.address);
     let block = group.and_then(|(_, blocks)| blocks.iter().find(is_there));
     let block = block.ok_or_else(|| "there is no such block".to_owned())?;
     same(vector.raw("function"), block.function)?;
