@@ -43,9 +43,10 @@ ROOMS = (
     ("checks", "checks"),
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
-    ("what talks to people", "conversation audit export differences"),
+    ("what talks to people", "conversation audit export differences importing finding"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
+    ("a person at work on a description", "working"),
     ("the command line", "cli __main__"),
 )
 """The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""
