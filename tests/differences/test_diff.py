@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import os
 import subprocess
+from itertools import pairwise, permutations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.differences.changes import as_data, compared
+from fieldscribe.differences.rendering import as_markdown, as_text
 from fieldscribe.differences.revisions import copied
+from fieldscribe.differences.sides import Side
 from fieldscribe.differences.table import UnfitError
 from fieldscribe.export import export_model
-from support.described import described, loaded, write
+from support.described import described, loaded, made, write
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,6 +30,9 @@ POINTS = """\
 - {name: ramp, at: 20h, sets: {2: {at: 30h}}}
 """
 EDITED = POINTS.replace("at: 10h", "at: 11h").replace("1: run", "1: run, 2: wait")
+
+
+KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss", "kitchen_codes")
 
 
 class Result(NamedTuple):
@@ -165,7 +172,7 @@ def test_sides_of_every_kind(diff: Diff) -> None:
     kinds = ("all", "all/old", "all/old/device.yaml", "old.json")
     facts = {kind: [(each["point"], each["fact"]) for each in diff.changes(kind, "new")] for kind in kinds}
     assert facts == {kind: [("speed", "address"), ("state", "range"), ("state", "entry wait")] for kind in kinds}
-    assert all(diff(kind, other) == Result(0, "no differences\n", "") for kind in kinds for other in kinds)
+    assert all(diff(kind, other) == Result(0, "no differences\n", "") for kind, other in pairwise(kinds))
     change = diff.changes("old.json", "new")[0]
     assert change["places"] == {"old": "old.json", "new": "new/device.yaml:15"}
     assert "MADE_UP_SPEED_ADDRESS" in change["symbols"]["c"]
@@ -223,6 +230,7 @@ def test_a_revision(repository: Diff) -> None:
     assert {each["device"] for each in repository.changes("v1:new", "v1:old")} == {"made_up"}
 
 
+@pytest.mark.full(seconds=1)
 def test_a_revision_with_findings(repository: Diff) -> None:
     repository.write("old", EDITED.replace("name: ramp", "name: ramp, type: u17"))
     _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "wrong")
@@ -231,33 +239,34 @@ def test_a_revision_with_findings(repository: Diff) -> None:
     assert "fieldscribe-" not in told.err + told.out
 
 
-@pytest.mark.parametrize(
-    ("revision", "said"),
-    [
-        (":old", "is no revision"),
-        ("v\n1:old", "is no revision"),
-        ("v9:old", "git knows no revision `v9`"),
-        ("v1:nothing", "there is no `nothing` in `v1`"),
-        ("v1:../old", "there is no `../old` in `v1`"),
-        ("v1:link", "there is no"),
-    ],
-)
-def test_what_git_does_not_have(revision: str, said: str, repository: Diff) -> None:
-    told = repository(revision, "old")
-    assert (told.code, told.out) == (2, "")
-    assert said in told.err
-    assert told.err.startswith("fieldscribe: ")
+NOT_THERE = {
+    ":old": "is no revision",
+    "v\n1:old": "is no revision",
+    "v9:old": "git knows no revision `v9`",
+    "v1:nothing": "there is no `nothing` in `v1`",
+    "v1:../old": "there is no `../old` in `v1`",
+    "v1:link": "there is no `link` in `v1`",
+}
 
 
-@pytest.mark.parametrize("revision", ["--upload-pack=x", "-h", "--output=x", "-"])
-def test_a_revision_is_never_an_option(revision: str, repository: Diff) -> None:
-    assert repository(f"{revision}:old", "old")[:2] == (2, "")
-    assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
-    with pytest.raises(UnfitError, match="is no revision"):
-        copied(revision, "old", repository.folder)
-    assert not Path("x").exists()
+def test_what_git_does_not_have(repository: Diff) -> None:
+    for revision, said in NOT_THERE.items():
+        told = repository(revision, "old")
+        assert (told.code, told.out) == (2, "")
+        assert said in told.err
+        assert told.err.startswith("fieldscribe: ")
 
 
+def test_a_revision_is_never_an_option(repository: Diff) -> None:
+    for revision in ("--upload-pack=x", "-h", "--output=x", "-"):
+        assert repository(f"{revision}:old", "old")[:2] == (2, "")
+        assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
+        with pytest.raises(UnfitError, match="is no revision"):
+            copied(revision, "old", repository.folder)
+        assert not Path("x").exists()
+
+
+@pytest.mark.full(seconds=1)
 def test_links_in_a_revision_lead_nowhere(repository: Diff) -> None:
     os.symlink("/etc", "linked")
     Path("old/device.yaml").unlink()
@@ -414,3 +423,14 @@ def test_old_names_are_written_to_descriptions_alone(repository: Diff) -> None:
     told = repository("old", "v1:new", "--keep-names")
     assert (told.code, told.out) == (2, "")
     assert "--keep-names" in told.err
+
+
+@pytest.mark.full(seconds=2)
+def test_devices_that_have_nothing_in_common() -> None:
+    """Every fact, part and value of every family finds its words."""
+    models = [{**export_model(made(name)), "device": "one"} for name in KITCHENS]
+    for old, new in permutations(models, 2):
+        comparisons = compared({"one": Side(old, None, "old.json")}, {"one": Side(new, None, "new.json")})
+        assert list(as_text(comparisons))
+        assert list(as_markdown(comparisons))
+        assert json.dumps(as_data(comparisons))

@@ -46,6 +46,8 @@ def _raw(value: Any) -> str:
 
 
 def _titles(titles: Any) -> str:
+    if isinstance(titles, str):  # of a document, which is in one language
+        return titles
     return "; ".join(f"{language}: {text}" for language, text in titles.items())
 
 
