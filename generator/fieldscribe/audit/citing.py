@@ -9,12 +9,13 @@ from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
     from fractions import Fraction
 
+    from fieldscribe.diagnostics import Span
     from fieldscribe.model import About
 
 _LITERAL = re.compile(
@@ -39,6 +40,8 @@ class Claim:
     numbers: frozenset[Fraction]
     words: tuple[str, ...]
     cited: tuple[tuple[int, int], ...]
+    place: Span = field(compare=False)
+    """Where the description says it."""
     anchor: bool = False
     between: frozenset[Fraction] = frozenset()
     about: About = ""
@@ -46,6 +49,11 @@ class Claim:
     optional: bool = False
     """Whether the manual may lack it, such as a title in the author's own words; where it is printed, its numbers count
     as used."""
+
+    @property
+    def where(self) -> str:
+        """Its place in the description, as findings show places: file:line:column."""
+        return f"{self.place.file}:{self.place.line}:{self.place.column}"
 
     @property
     def is_address(self) -> bool:
@@ -58,8 +66,9 @@ class Claim:
 class Citing:
     """Makes the claims of one subject: at its own line, or at the lines that its key `lines` names for a fact."""
 
-    def __init__(self, subject: str, line: int | None, lines: Any, about: About = "") -> None:
+    def __init__(self, subject: str, place: Span, line: int | None, lines: Any, about: About = "") -> None:
         self.subject = subject
+        self.place = place
         self.about = about
         self.own_line = () if line is None else ((line, 0),)
         self.lines_of_fact = (
@@ -77,27 +86,32 @@ class Citing:
         between: frozenset[Fraction] = frozenset(),
         words: tuple[str, ...] = (),
         optional: bool = False,
+        place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
         cited = self.lines_of_fact.get(kind or fact, self.own_line)
         wanted = frozenset(abs(number) for number in numbers)
         at_own_line = anchor and cited == self.own_line
         if cited and wanted:
-            yield Claim(self.subject, fact, shown, wanted, words, cited, at_own_line, between, self.about, optional)
+            place = place or self.place
+            yield Claim(
+                self.subject, fact, shown, wanted, words, cited, place, at_own_line, between, self.about, optional
+            )
 
-    def title(self, titles: Mapping[str, str], kind: str = "") -> Iterator[Claim]:
+    def title(self, titles: Mapping[str, str], kind: str = "", *, place: Span | None = None) -> Iterator[Claim]:
         """Titles with digits in them: where the manual prints them alike, those digits count as used."""
         words = tuple(text for text in titles.values() if any(char.isdigit() for char in text))
         cited = self.lines_of_fact.get(kind, self.own_line)
         if words and cited:
-            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, optional=True)
+            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, place or self.place, optional=True)
 
-    def words(self, fact: str, *words: str) -> Iterator[Claim]:
+    def words(self, fact: str, *words: str, place: Span | None = None) -> Iterator[Claim]:
         """A fact that one of these words states."""
         cited = self.lines_of_fact.get(fact, self.own_line)
         if cited:
             anchor = cited == self.own_line
-            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, about=self.about)
+            place = place or self.place
+            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, place, anchor=anchor, about=self.about)
 
 
 def spans_of(value: Any) -> Iterator[tuple[int, int]]:

@@ -42,7 +42,7 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
 def _claims_of_enum(name: str, entries: Map) -> Iterator[Claim]:
     for key, entry in entries.items():
         if isinstance(entry, Map) and "line" in entry:
-            citing = Citing(f"enum {name}", entry["line"], None)
+            citing = Citing(f"enum {name}", entries.key_span(key), entry["line"], None)
             yield from citing.numbers("enum", str(key), numbers_in(key), anchor=True)
             yield from citing.title({name: str(text) for name, text in entry.items() if len(name) == 2})
 

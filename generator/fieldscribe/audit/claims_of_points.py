@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.model import Point
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Flag, Point
     from fieldscribe.resolve.drafts import Draft
 
 _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
@@ -46,17 +47,18 @@ class Wordings:
 
 def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings) -> Iterator[Claim]:
     """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts."""
-    citing = Citing(point.item, point.source.line, draft.get("lines"), point.name)
+    citing = Citing(point.item, draft.span(), point.source.line, draft.get("lines"), point.name)
     code = None if point.code is None else _INDEX_BEHIND_CODE.sub("", point.code).strip()
     if code:
-        yield from citing.words("code", *_codes_of(code, wordings), str(point.code))
+        yield from citing.words("code", *_codes_of(code, wordings), str(point.code), place=draft.span("code"))
     if _says_itself(draft, "section"):
-        yield from citing.words("section", str(draft.get("section")))
+        yield from citing.words("section", str(draft.get("section")), place=draft.span("section"))
     yield from _address(citing, point, draft, code or "")
-    yield from citing.title({**point.title, "": "" if point.variant is None else point.variant.value})
+    titles = {**point.title, "": "" if point.variant is None else point.variant.value}
+    yield from citing.title(titles, place=draft.span("title"))
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums)
-    yield from _flags(citing, point, wordings)
+    yield from _flags(citing, point, draft, wordings)
     yield from _printed(citing, draft)
 
 
@@ -76,14 +78,16 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
     by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
     rule = [Fraction(int(at))] if by_rule else []
     for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
-        yield from citing.numbers("number", str(number), (number,), "code", optional=True)
+        yield from citing.numbers("number", str(number), (number,), "code", optional=True, place=draft.span("at"))
     if code and any(str(number) in code for number in (point.address, *map(int, rule))):
         return  # the code is the number
     if point.text is not None:
         ends = frozenset(map(Fraction, (point.addresses[0], point.addresses[-1])))
         for address in map(Fraction, point.addresses):
             inner = ends if address not in ends else frozenset()
-            yield from citing.numbers("address", str(address), (address,), anchor=not inner, between=inner)
+            yield from citing.numbers(
+                "address", str(address), (address,), anchor=not inner, between=inner, place=draft.span("at")
+            )
         return
     for place in point.places:
         references = [Fraction(number) for number in place.references.values() if isinstance(number, int)]
@@ -93,6 +97,7 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
             (Fraction(min(place.addresses)), *references, *rule),
             anchor=place is point.place,
             words=tuple(word for name, number in place.references.items() for word in _joined(name, number)),
+            place=draft.span("at"),
         )
 
 
@@ -107,14 +112,20 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
             for number in numbers_in(draft.get(key)):
                 yield from citing.numbers(
-                    "range", str(number), _in_both_units(point, number, in_units=key == "range_in_units")
+                    "range",
+                    str(number),
+                    _in_both_units(point, number, in_units=key == "range_in_units"),
+                    place=draft.span(key),
                 )
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
-        yield from citing.numbers("characters", str(point.text.characters), (Fraction(point.text.characters),), "range")
+        characters = point.text.characters
+        yield from citing.numbers(
+            "characters", str(characters), (Fraction(characters),), "range", place=draft.span("characters")
+        )
     if _says_itself(draft, "scale"):
         for number in _scale_numbers(draft.get("scale")):
-            yield from citing.numbers("scale", str(number), (number, 1 / number))
+            yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
 
 
 def _in_both_units(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]:
@@ -137,16 +148,24 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         words = tuple(wordings.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
+            numbers = (Fraction(place), Fraction(1 << place))
             yield from citing.numbers(
-                "bits", str(place), (Fraction(place), Fraction(1 << place)), words=words, optional=inner
+                "bits", str(place), numbers, words=words, optional=inner, place=draft.span("bits")
             )
-    fixed = draft.get("fixed") if _says_itself(draft, "fixed") else None
+    fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
+        place_of_bits = fixed.key_span(bits)
         for bit in numbers_in(bits):
-            yield from citing.numbers("fixed bits", str(bit), (bit, Fraction(1 << int(bit))), "bits")
+            numbers = (bit, Fraction(1 << int(bit)))
+            yield from citing.numbers("fixed bits", str(bit), numbers, "bits", place=place_of_bits)
         for number in numbers_in(constant):
             yield from citing.numbers(
-                "fixed bits", f"= {number}", (number,), "bits", words=tuple(wordings.number(number))
+                "fixed bits",
+                f"= {number}",
+                (number,),
+                "bits",
+                words=tuple(wordings.number(number)),
+                place=place_of_bits,
             )
 
 
@@ -156,27 +175,30 @@ def _enum_of(citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map
     enum = point.digits.enum if point.digits else point.enum
     if not _says_itself(draft, key) or enum is None:
         return
-    enum_as_written = draft.get(key)
+    enum_as_written: Any = draft.get(key)
     enum_as_written = enum_as_written["enum"] if point.digits else enum_as_written
-    entries = enums.get(enum_as_written, {}) if isinstance(enum_as_written, str) else enum_as_written
+    entries = enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
     cited_themselves = {
         number
         for key, entry in entries.items()
         if isinstance(entry, Map) and "line" in entry
         for number in numbers_in(key)
     }
+    places = {number: entries.key_span(entry) for entry in entries for number in numbers_in(entry)}
     for entry in enum.entries:
         if entry.raw not in cited_themselves or entries is enum_as_written:
-            yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),))
-            yield from citing.title(entry.title, "enum")
+            place = places.get(Fraction(entry.raw), draft.span(key))
+            yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),), place=place)
+            yield from citing.title(entry.title, "enum", place=place)
             for number in numbers_in(entry.quantity):
-                yield from citing.numbers("enum", str(entry.quantity), (number,))
+                yield from citing.numbers("enum", str(entry.quantity), (number,), place=place)
 
 
-def _flags(citing: Citing, point: Point, wordings: Wordings) -> Iterator[Claim]:
+def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     above = point.bits[1] if point.bits else 0
     always = point.fixed.bits if point.fixed is not None else 0
     for flag in point.flags:
+        place = _place_of_flag(draft, flag)
         for bit in dict.fromkeys((flag.low + flag.width - 1, flag.low)):
             numbers = (
                 Fraction(bit + above),
@@ -187,10 +209,21 @@ def _flags(citing: Citing, point: Point, wordings: Wordings) -> Iterator[Claim]:
             run = _ends_of_run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
             words = (*wordings.bits(flag.low + flag.width - 1, flag.low), *_joined("bit", bit + above))
-            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words)
-        yield from citing.title(flag.title, "flags")
+            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words, place=place)
+        yield from citing.title(flag.title, "flags", place=place)
         for entry in flag.values:
-            yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (Fraction(entry.raw),), "flags")
+            shown = f"{flag.name} {entry.raw}"
+            yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
+
+
+def _place_of_flag(draft: Draft, flag: Flag) -> Span:
+    """Where the description names the bits of a flag."""
+    flags = draft.get("flags")
+    if isinstance(flags, Map):
+        ends = {flag.low, flag.low + flag.width - 1}
+        key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
+        return flags.span() if key is None else flags.key_span(key)
+    return draft.span("flags")
 
 
 def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
@@ -213,7 +246,8 @@ def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
                 continue  # "resolution: A" means one ampere: no 1 is printed
             kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
             words = _joined(key, number) if kind == "address" else ()
-            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words)
+            place = printed.span(key)
+            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words, place=place)
 
 
 def _says_itself(draft: Draft, key: str) -> bool:

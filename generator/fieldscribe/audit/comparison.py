@@ -111,7 +111,9 @@ class _Comparison:
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         if not any(stands) and not claim.optional and not self._is_taken(claim):
             nearest = self._nearest(claim, extents[0].first)
-            missing = Missing(claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest)
+            missing = Missing(
+                claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest, claim.where
+            )
             self.outcome.missing.append(missing)
 
     def _is_taken(self, claim: Claim) -> bool:

@@ -9,7 +9,10 @@ from fieldscribe.records import dataclass, field, values_of
 
 @dataclass(frozen=True, slots=True)
 class Missing:
-    """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does."""
+    """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does.
+
+    `place` is where the description says it: file:line:column.
+    """
 
     subject: str
     fact: str
@@ -17,6 +20,7 @@ class Missing:
     line: int
     last: int
     nearest: int | None
+    place: str
 
 
 @dataclass(frozen=True, slots=True)

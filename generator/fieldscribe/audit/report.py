@@ -25,7 +25,7 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
     for fact in outcome.missing:
         where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
         message = f": {fact.subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
-        yield [("error", "missing"), ("", visible(message))]
+        yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(message))]
     for erratum in outcome.unprinted:
         message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
         yield [("error", "erratum"), ("", visible(message))]
@@ -78,8 +78,11 @@ def as_html(outcome: Audit) -> str:
     tables = [
         _Table(
             "Facts that are not where they are cited",
-            ("Subject", "Fact", "Wanted", "Line", "Nearest"),
-            [(fact.subject, fact.fact, fact.wanted, fact.line, fact.nearest or where) for fact in outcome.missing],
+            ("Place", "Subject", "Fact", "Wanted", "Line", "Nearest"),
+            [
+                (fact.place, fact.subject, fact.fact, fact.wanted, fact.line, fact.nearest or where)
+                for fact in outcome.missing
+            ],
         ),
         _Table(
             "Errata whose printed text is not there",
