@@ -34,10 +34,10 @@ def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_te
     claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
     errata = list(printed_errata_of(subject))
     outcome = Audit(device, manual_name, same_text, len(manual))
-    return _Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
+    return Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
 
 
-class _Comparison:
+class Comparison:
     """The state of one audit: where cited lines stand now, and which numbers were used."""
 
     def __init__(
@@ -104,17 +104,26 @@ class _Comparison:
     def _of_line(self, line: int) -> list[Token]:
         return self.manual.tokens[line - 1] if 1 <= line <= len(self.manual) else []
 
-    def _check(self, claim: Claim) -> None:
+    def _cited_by(self, claim: Claim) -> list[Extent]:
         extents = [self._extent(*cited) for cited in claim.cited]
         for extent in extents:
             self.subjects.setdefault(extent, {})[claim.subject] = None
+        return extents
+
+    def _check(self, claim: Claim) -> None:
+        extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
-        if not any(stands) and not claim.optional and not self._is_taken(claim):
-            nearest = self._nearest(claim, extents[0].first)
-            missing = Missing(
-                claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest, claim.where
-            )
-            self.outcome.missing.append(missing)
+        if not any(stands) and not claim.optional:
+            self._misses(claim, extents)
+
+    def _misses(self, claim: Claim, extents: list[Extent]) -> None:
+        if self._is_taken(claim):
+            return
+        nearest = self._nearest(claim, extents[0].first)
+        missing = Missing(
+            claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest, claim.where
+        )
+        self.outcome.missing.append(missing)
 
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
@@ -182,13 +191,7 @@ class _Comparison:
             self.outcome.uncheckable += 1
             return
         cited = [self._extent(*lines) for lines in erratum.cited]
-        extents = cited
-        if erratum.is_sentence:  # it may speak of the whole section; only numbers at the cited lines count as used
-            sections = [self.manual.section_of(extent.first) for extent in extents]
-            extents = [
-                Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
-                for extent, section in zip(cited, sections, strict=True)
-            ]
+        extents = self._spoken_of(erratum)
         absent = False
         for number in map(abs, erratum.numbers):
             hits = [token for extent in extents for token in self._with(number, extent)]
@@ -200,6 +203,17 @@ class _Comparison:
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
             nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
             self.outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
+
+    def _spoken_of(self, erratum: PrintedErratum) -> list[Extent]:
+        """The lines that an erratum cites. A sentence may speak of the whole section; only numbers there are used."""
+        cited = [self._extent(*lines) for lines in erratum.cited]
+        if not erratum.is_sentence:
+            return cited
+        sections = [self.manual.section_of(extent.first) for extent in cited]
+        return [
+            Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
+            for extent, section in zip(cited, sections, strict=True)
+        ]
 
     def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
         """The tokens of an extent that can mean a number."""

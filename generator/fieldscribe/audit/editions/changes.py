@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.editions.matching import Gap
 
+Lines = tuple[int, int]
+"""The first and the last of some lines."""
 _NEAR = 12
 """The words of a line stand within so many lines; what stands farther away was matched by chance."""
 
@@ -49,36 +51,23 @@ class Editions:
         self._there, self._back = self._matching.there, self._matching.back
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
+        self._now: dict[int, Lines | None] = {}
+        self._then: dict[int, Lines | None] = {}
         self.moves = tuple(self._moves())
-        self._now: dict[int, tuple[int, int] | None] = {}
+        self.changed_old = frozenset(line for change in self.changes for line in change.old)
+        self.changed_new = frozenset(line for change in self.changes for line in change.new)
 
-    def now(self, line: int) -> tuple[int, int] | None:
+    def now(self, line: int) -> Lines | None:
         """The lines (first, last) of the new edition that have what a line of the old one says; None if it is gone."""
         if line not in self._now:
-            self._now[line] = self._lines_now(line)
+            self._now[line] = _there(line, self.old, self.new, self._there)
         return self._now[line]
 
-    def _lines_now(self, line: int) -> tuple[int, int] | None:
-        words = self.old.of_line(line)
-        there = [self._there[word] for word in words if self._there[word] >= 0]
-        if there:
-            lines = [self.new.line_of[word] for word in there]
-            middle = sorted(lines)[len(lines) // 2]
-            near = [place for place in lines if abs(place - middle) <= _NEAR]
-            return min(near), max(near)
-        return None if words else self._blank(words.start)
-
-    def _blank(self, word: int) -> tuple[int, int] | None:
-        """Where a line without words is: just above the next word."""
-        there = next((place for place in self._there[word:] if place >= 0), None)
-        line = len(self.new.lines) if there is None else self.new.line_of[there]
-        return line, line
-
-    def nearest(self, line: int) -> int:
-        """The line of the new edition where a line that is gone stood: behind what stood above it."""
-        start = self.old.of_line(line).start
-        there = next((place for place in reversed(self._there[:start]) if place >= 0), None)
-        return 1 if there is None else self.new.line_of[there]
+    def then(self, line: int) -> Lines | None:
+        """The same turned round: the lines of the old edition."""
+        if line not in self._then:
+            self._then[line] = _there(line, self.new, self.old, self._back)
+        return self._then[line]
 
     def is_new(self, word: int) -> bool:
         """Whether a word of the new edition is not in the old one."""
@@ -88,9 +77,9 @@ class Editions:
         """Whether a word of the old edition is not in the new one."""
         return self._there[word] < 0
 
-    def was(self, word: int) -> int:
-        """The word of the old edition that a word of the new one is; -1 if none."""
-        return self._back[word]
+    def there(self, word: int) -> int:
+        """The word of the new edition that a word of the old one is; -1 if none."""
+        return self._there[word]
 
     def _is_layout(self, gap: Gap) -> bool:
         """Whether only blanks and hyphens within words differ; then its words are taken for each other."""
@@ -133,7 +122,7 @@ class Editions:
         run: list[tuple[int, int]] = []
         for line in range(1, len(self.old.lines) + 2):
             words = self.old.of_line(line)
-            now = self._lines_now(line) if words else None
+            now = self.now(line) if words else None
             has_moved = now is not None and all(word in self._matching.moved or self.is_gone(word) for word in words)
             if now is not None and has_moved and (not run or run[-1][1] <= now[0] <= run[-1][1] + _NEAR):
                 run.append((line, now[0]))
@@ -149,6 +138,27 @@ class Editions:
             count[change.kind] += len(change.new or change.old)
         count["moved"] = sum(move.last - move.first + 1 for move in self.moves)
         return dict(count)
+
+
+def _there(line: int, here: Words, other: Words, counterparts: list[int]) -> Lines | None:
+    """Where a line stands in the other text; one without words stands as far above the next that has some."""
+    words = here.of_line(line)
+    if words:
+        there = [counterparts[word] for word in words if counterparts[word] >= 0]
+    else:
+        below = range(words.start, len(counterparts))
+        word = next((word for word in below if counterparts[word] >= 0), None)
+        if word is None:
+            place = len(other.lines)
+        else:
+            place = max(1, other.line_of[counterparts[word]] - here.line_of[word] + line)
+        return place, place
+    if not there:
+        return None
+    lines = sorted(other.line_of[word] for word in there)
+    middle = lines[len(lines) // 2]
+    near = [place for place in lines if abs(place - middle) <= _NEAR]
+    return near[0], near[-1]
 
 
 _Placed = tuple["Gap", set[int], set[int]]

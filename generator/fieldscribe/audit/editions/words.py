@@ -6,6 +6,8 @@ import re
 from bisect import bisect_left
 from unicodedata import normalize
 
+LINE_BREAK = " \u23ce "
+"""Stands for the end of a line where words of several lines are shown."""
 _INVISIBLE = "\u00ad\u200b\u200c\u200d\u2060\ufeff"
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
 _WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
@@ -56,6 +58,13 @@ class Words:
         words = self.of_line(line)
         return bisect_left(self.column_of, column, words.start, words.stop)
 
+    def is_minus(self, word: int) -> bool:
+        """Whether a word is the sign of the number behind it, and no dash between two."""
+        if self.texts[word] != "-" or word + 1 >= len(self) or not self.texts[word + 1][0].isdigit():
+            return False
+        line, column = self.lines[self.line_of[word] - 1], self.column_of[word]
+        return self.column_of[word + 1] == column + 1 and not line[column - 2 : column - 1].isalnum()
+
     def shown(self, words: range) -> str:
         """Words as the text writes them, with a slash between lines."""
         if not words:
@@ -68,7 +77,7 @@ class Words:
                 end = self.column_of[inside[-1]] - 1
                 match = _WORD.match(self.lines[number - 1], end)
                 pieces.append(self.lines[number - 1][self.column_of[inside[0]] - 1 : match.end() if match else end + 1])
-        return " / ".join(pieces)
+        return LINE_BREAK.join(pieces)
 
 
 def pressed(texts: list[str]) -> str:

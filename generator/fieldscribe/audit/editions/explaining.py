@@ -1,0 +1,209 @@
+"""Which changed lines are explained by the description, and what is missing of the others."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.audit.citing import Claim
+from fieldscribe.audit.editions.findings import Cite, Reason
+from fieldscribe.audit.editions.vocabulary import is_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.audit.editions.changes import Change, Editions
+    from fieldscribe.audit.editions.citations import Citations
+    from fieldscribe.audit.editions.tracing import Trace
+    from fieldscribe.audit.editions.vocabulary import Vocabulary
+    from fieldscribe.audit.manual import Token
+
+_MOST = 8
+"""A reason names at most so many numbers or words."""
+
+
+class Pair(NamedTuple):
+    """A claim as it is written, and with the lines of each edition; None where the edition has none of them."""
+
+    claim: Claim
+    old: Claim | None
+    new: Claim | None
+
+
+class Explaining:
+    """The claims of a description beside the changes of its manual."""
+
+    def __init__(
+        self, editions: Editions, citations: Citations, old: Trace, new: Trace, pairs: list[Pair], words: Vocabulary
+    ) -> None:
+        self.editions, self.citations, self.old, self.new, self.words = editions, citations, old, new, words
+        self.pairs_of: dict[int, list[Pair]] = {}
+        self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
+        self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
+        self.headings = frozenset(new.manual.headings)
+        self.place_of: dict[str, str] = {}
+        self.elsewhere: list[Pair] = []
+        for pair in pairs:
+            self.place_of.setdefault(pair.claim.subject, pair.claim.where)
+            touched = self._touched(pair)
+            for number in touched:
+                self.pairs_of.setdefault(number, []).append(pair)
+            if not touched and self.fails(pair):
+                self.elsewhere.append(pair)
+        self.subjects_at: dict[int, dict[str, None]] = {}
+        for extent, subjects in new.subjects.items():
+            for line in range(extent.first, extent.last + 1):
+                self.subjects_at.setdefault(line, {}).update(subjects)
+
+    def _touched(self, pair: Pair) -> set[int]:
+        """The changes in the lines that a claim takes its fact from."""
+        olds = self.old.extents_of(pair.old.cited) if pair.old else ()
+        news = self.new.extents_of(pair.new.cited) if pair.new else ()
+        lines = {line for extent in olds for line in range(extent.first, extent.last + 1)}
+        touched = {number for line in lines for number in self._of_old.get(line, ())}
+        lines = {line for extent in news for line in range(extent.first, extent.last + 1)}
+        return touched | {number for line in lines for number in self._of_new.get(line, ())}
+
+    def fails(self, pair: Pair) -> bool:
+        """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
+        if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
+            return False
+        if pair.old is None or pair.old in self.old.missed:
+            return True
+        borne = self.old.borne.get(pair.old, set())
+        if borne:
+            return any(map(self.editions.is_gone, borne))
+        return bool(self._touched(pair)) or pair.new is None
+
+    def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
+        """What cites a changed line: the facts that stood on its words, else the subjects."""
+        gone = {word for old, _ in change.gaps for word in old}
+        come = {word for _, new in change.gaps for word in new}
+        exact, whole = dict[Cite, None](), dict[Cite, None]()
+        for pair in self.pairs_of.get(number, ()):
+            claim = pair.claim
+            if _borne(self.old, pair.old) & gone or _borne(self.new, pair.new) & come:
+                exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
+            whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
+        named = {cite.subject for cite in exact}
+        return (*exact, *(cite for cite in whole if cite.subject not in named))
+
+    def reasons(self, number: int, change: Change) -> Iterator[Reason]:
+        """Everything that keeps a change from being explained."""
+        for pair in self.pairs_of.get(number, ()):
+            if self.fails(pair):
+                yield failing(pair.claim)
+        yield from self._weakened(number, change)
+        for lines in change.new:
+            if lines not in self.new.empty:
+                yield from self._numbers(lines, change)
+                yield from self._names(lines, change)
+        yield from self._signs(number, change)
+        yield from self._units(number, change)
+
+    def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
+        """Facts that were printed twice, and once otherwise now, where the new number is no news to the description."""
+        pairs = self.pairs_of.get(number, ())
+        for old, new in change.gaps:
+            if not old or not new or not self._is_known_already(new, pairs):
+                continue
+            for pair in pairs:
+                lost = pair.claim.numbers and _borne(self.old, pair.old).intersection(old)
+                if lost and pair.new not in self.new.missed and not _borne(self.new, pair.new).intersection(new):
+                    text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} too"
+                    yield Reason(text, pair.claim.where)
+
+    def _is_known_already(self, words: range, pairs: Iterable[Pair]) -> bool:
+        """Whether one of these words bears facts only that stand elsewhere, too, where nothing changed."""
+        for word in words:
+            bearing = [pair for pair in pairs if word in _borne(self.new, pair.new)]
+            if bearing and all(self._stood_before(pair) for pair in bearing):
+                return True
+        return False
+
+    def _stood_before(self, pair: Pair) -> bool:
+        return any(not self.editions.is_gone(word) for word in _borne(self.old, pair.old))
+
+    def _numbers(self, line: int, change: Change) -> Iterator[Reason]:
+        """The new numbers of a line that no fact that cites it has."""
+        unknown = [token.text for token in self._new_tokens(line, change) if not self._is_used(token)]
+        if unknown:
+            yield self._unknown(unknown, line, "number")
+
+    def _new_tokens(self, line: int, change: Change) -> Iterator[Token]:
+        fresh = {word for _, new in change.gaps for word in new}
+        text = self.editions.new
+        for token in self.new.manual.tokens[line - 1]:
+            words = range(text.at(line, token.column), text.at(line, token.column + len(token.text)))
+            if fresh.intersection(words):
+                yield token
+
+    def _is_used(self, token: Token) -> bool:
+        return (token.line, token.column) in self.new.used or token.text in self.new.codes
+
+    def _signs(self, number: int, change: Change) -> Iterator[Reason]:
+        """Numbers that got or lost a minus sign, where every fact that they bear has them otherwise."""
+        olds, news = self.editions.old, self.editions.new
+        for old, new in change.gaps:
+            signed = [(word + 1, True) for word in new if news.is_minus(word)]
+            signed += [(self.editions.there(word + 1), False) for word in old if olds.is_minus(word)]
+            for word, has_sign in signed:
+                bearing = [pair.claim for pair in self.pairs_of.get(number, ()) if word in _borne(self.new, pair.new)]
+                if bearing and all(("-" in claim.shown) != has_sign for claim in bearing):
+                    with_or_without = "with" if has_sign else "without"
+                    yield Reason(f"{_told(bearing[0])} is printed {with_or_without} a minus sign", bearing[0].where)
+
+    def _names(self, line: int, change: Change) -> Iterator[Reason]:
+        """The new words of a line that the description does not have for what cites it."""
+        manual, text = self.new.manual, self.editions.new
+        subjects = self.subjects_at.get(line, {})
+        if not subjects and not (manual.is_row(line) or line in self.headings):
+            return
+        in_numbers = {
+            word
+            for token in manual.tokens[line - 1]
+            for word in range(text.at(line, token.column), text.at(line, token.column + len(token.text)))
+        }
+        fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
+        words = [text.texts[word] for word in fresh if word not in in_numbers and is_name(text.texts[word])]
+        unknown = [word for word in words if not self.words.has(word, subjects)]
+        if unknown:
+            yield self._unknown(unknown, line, "word")
+
+    def _unknown(self, unknown: list[str], line: int, what: str) -> Reason:
+        subjects = [*self.subjects_at.get(line, ())]
+        shown = ", ".join(f"`{text}`" for text in dict.fromkeys(unknown[:_MOST]))
+        more = " and more" if len(unknown) > _MOST else ""
+        if not subjects:
+            return Reason(f"nothing cites line {line}: {shown}{more}")
+        return Reason(f"no {what} of what cites line {line} is {shown}{more}", self.place_of.get(subjects[0], ""))
+
+    def _units(self, number: int, change: Change) -> Iterator[Reason]:
+        """Units that no longer stand in the lines."""
+        olds, news = self.editions.old, self.editions.new
+        gone = {olds.texts[word] for old, _ in change.gaps for word in old}
+        stands = {news.texts[word] for line in change.new for word in news.of_line(line)}
+        for subject in dict.fromkeys(pair.claim.subject for pair in self.pairs_of.get(number, ())):
+            unit, place = self.words.unit_of(subject)
+            if unit in gone - stands:
+                yield Reason(f"{subject}: unit {unit} is not there", place)
+
+
+def failing(claim: Claim) -> Reason:
+    """The reason that a claim does not hold."""
+    return Reason(f"{_told(claim)} is not there", claim.where)
+
+
+def _told(claim: Claim) -> str:
+    return f"{claim.subject}: {claim.fact} {claim.shown}"
+
+
+def _borne(trace: Trace, claim: Claim | None) -> set[int]:
+    return trace.borne.get(claim, set()) if claim is not None else set()
+
+
+def _by_line(changes: Iterable[tuple[tuple[int, ...], int]]) -> dict[int, list[int]]:
+    by_line: dict[int, list[int]] = {}
+    for lines, number in changes:
+        for line in lines:
+            by_line.setdefault(line, []).append(number)
+    return by_line
