@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.audit.passage import letters_of
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
@@ -12,7 +13,7 @@ from fieldscribe.language.numbers import NumberError, parse_integer, parse_numbe
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator
     from fractions import Fraction
 
     from fieldscribe.diagnostics import Span
@@ -47,8 +48,15 @@ class Claim:
     about: About = ""
     """As errata name the subject: a point without its variant, or another thing."""
     optional: bool = False
-    """Whether the manual may lack it, such as a title in the author's own words; where it is printed, its numbers count
-    as used."""
+    """Whether the manual may lack it; where it is printed, its numbers count as used."""
+    in_order: tuple[frozenset[Fraction], ...] = ()
+    """Numbers that are printed one after the other, such as both ends of a range."""
+    beside: frozenset[Fraction] = frozenset()
+    """The numbers of which one is printed beside `words`."""
+    entry: tuple[int, int] | None = None
+    """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
+    rivals: tuple[str, ...] = ()
+    """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
     @property
     def where(self) -> str:
@@ -98,12 +106,61 @@ class Citing:
                 self.subject, fact, shown, wanted, words, cited, place, at_own_line, between, self.about, optional
             )
 
-    def title(self, titles: Mapping[str, str], kind: str = "", *, place: Span | None = None) -> Iterator[Claim]:
-        """Titles with digits in them: where the manual prints them alike, those digits count as used."""
-        words = tuple(text for text in titles.values() if any(char.isdigit() for char in text))
-        cited = self.lines_of_fact.get(kind, self.own_line)
-        if words and cited:
-            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, place or self.place, optional=True)
+    def in_order(
+        self, fact: str, shown: str, numbers: Iterable[Iterable[Fraction]], kind: str = "", *, place: Span
+    ) -> Iterator[Claim]:
+        """Numbers that are printed one after the other; each may be written in several ways."""
+        wanted = tuple(frozenset(abs(number) for number in readings) for readings in numbers)
+        cited = self.lines_of_fact.get(kind or fact, self.own_line)
+        if cited and wanted:
+            in_order = wanted if len(wanted) > 1 else ()
+            yield Claim(
+                self.subject,
+                fact,
+                shown,
+                frozenset().union(*wanted),
+                (),
+                cited,
+                place,
+                about=self.about,
+                in_order=in_order,
+            )
+
+    def label(  # noqa: PLR0913 - one line of a table of facts
+        self,
+        fact: str,
+        words: tuple[str, ...],
+        kind: str = "",
+        *,
+        beside: Iterable[Fraction] = (),
+        entry: tuple[int, int] | None = None,
+        place: Span,
+    ) -> Iterator[Claim]:
+        """Words of the manual, as a title or beside a number."""
+        cited = self.lines_of_fact.get(kind or fact, self.own_line)
+        numbers = list(map(abs, beside))
+        if cited and any(map(letters_of, words)):
+            shown = f"{numbers[0]} = {words[0]}" if numbers else words[0]
+            yield Claim(
+                self.subject,
+                fact,
+                shown,
+                frozenset(),
+                words,
+                cited,
+                place,
+                about=self.about,
+                beside=frozenset(numbers),
+                entry=entry,
+            )
+
+    def access(self, words: tuple[str, ...], rivals: tuple[str, ...], place: Span) -> Iterator[Claim]:
+        """Who may write, in the manual's notation; where the manual says nothing of it, it is no finding."""
+        cited = self.lines_of_fact.get("access", self.own_line)
+        if cited:
+            yield Claim(
+                self.subject, "access", words[0], frozenset(), words, cited, place, about=self.about, rivals=rivals
+            )
 
     def words(self, fact: str, *words: str, place: Span | None = None) -> Iterator[Claim]:
         """A fact that one of these words states."""

@@ -14,8 +14,10 @@ from fieldscribe.model import Named
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.audit.wordings import Wordings
 
-def claims_of_entry(kind: str, entry: Map) -> Iterator[Claim]:
+
+def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim]:
     """The numbers of a command, a message or a telegram."""
     citing = Citing(f"{kind} {entry['name']}", entry.span("name"), entry.get("line"), entry.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
@@ -30,8 +32,7 @@ def claims_of_entry(kind: str, entry: Map) -> Iterator[Claim]:
         for byte in range(first + 1, max(last, default=first)):
             at = layout.key_span(place)
             yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True, place=at)
-    title = entry.get("title")
-    yield from citing.title({"en": title} if isinstance(title, str) else title or {})
+    yield from citing.label("title", wordings.label(entry.get("title")), place=entry.span("title"))
 
 
 def claims_of_line_settings(bus: Map) -> Iterator[Claim]:
@@ -72,6 +73,8 @@ def claims_of_frames(file: Map) -> Iterator[Claim]:
         if citing.own_line:
             cited = citing.lines_of_fact.get("bytes", citing.own_line)
             yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, frame.span("bytes"))
+            for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
+                yield from citing.numbers("place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True)
         for number in numbers_in(frame.get("says")):  # beside the bytes, or not at all
             printed_apart = "printed" in citing.lines_of_fact
             yield from citing.numbers(

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.wordings import Wordings
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Flag, Point
     from fieldscribe.resolve.drafts import Draft
@@ -21,28 +22,6 @@ _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
 _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 """The keys of `printed` whose place `lines` names by another key."""
-
-
-class Wordings:
-    """The manual's own words for what the description writes otherwise, from the key `writes` of its documents."""
-
-    def __init__(self, documents: Map) -> None:
-        self._words: dict[str, list[str]] = {}
-        for document in documents.values():
-            for written, words in document.get("writes", {}).items():
-                self._words.setdefault(str(written), []).extend(words)
-
-    def code(self, letters: str) -> list[str]:
-        """The words that the manual has for the letters of a code: `Parameter` for `P`."""
-        return self._words.get(letters, [])
-
-    def bits(self, high: int, low: int) -> list[str]:
-        """The names that the manual has for a part of a word: `Highbyte` for 15..8."""
-        return self._words.get(f"{high}..{low}", [])
-
-    def number(self, number: Fraction) -> list[str]:
-        """The words that the manual has for a number: `zero` for 0."""
-        return self._words.get(str(number), [])
 
 
 def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings) -> Iterator[Claim]:
@@ -54,12 +33,26 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     if _says_itself(draft, "section"):
         yield from citing.words("section", str(draft.get("section")), place=draft.span("section"))
     yield from _address(citing, point, draft, code or "")
-    titles = {**point.title, "": "" if point.variant is None else point.variant.value}
-    yield from citing.title(titles, place=draft.span("title"))
+    yield from citing.label("title", wordings.label(_titles_of(draft)), place=draft.span("title"))
+    yield from _access(citing, draft, wordings)
     yield from _numbers_of(citing, point, draft, wordings)
-    yield from _enum_of(citing, point, draft, enums)
+    yield from _enum_of(citing, point, draft, enums, wordings)
     yield from _flags(citing, point, draft, wordings)
     yield from _printed(citing, draft)
+
+
+def _titles_of(draft: Draft) -> Any:
+    """The title of the row; of a further set, whose row the manual prints too, with what tells it apart."""
+    return draft.get("title", draft.title)
+
+
+def _access(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """How the manual prints who may write; rows that print nothing of it say nothing."""
+    access = str(draft.get("access"))
+    words = wordings.access.get(access, [])
+    rivals = [word for other, words in wordings.access.items() if other != access for word in words]
+    if words:
+        yield from citing.access(tuple(words), tuple(rivals), draft.span("access"))
 
 
 def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
@@ -110,13 +103,9 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
     """The limits, the bits of the word, the characters of a text and the scale."""
     for key in ("range", "range_in_units"):
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
-            for number in numbers_in(draft.get(key)):
-                yield from citing.numbers(
-                    "range",
-                    str(number),
-                    _in_both_units(point, number, in_units=key == "range_in_units"),
-                    place=draft.span(key),
-                )
+            for shown, numbers in _runs_of(draft.get(key)):
+                readings = [_in_both_units(point, number, in_units=key == "range_in_units") for number in numbers]
+                yield from citing.in_order("range", shown, readings, place=draft.span(key))
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
         characters = point.text.characters
@@ -169,36 +158,52 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
             )
 
 
-def _enum_of(citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
-    """The numbers of the point's enum, but for entries of a shared enum that cite a line themselves."""
+def _runs_of(raw: Any) -> Iterator[tuple[str, list[Fraction]]]:
+    """What is printed in one piece: each interval, or a list of single numbers."""
+    texts = [str(item) for item in raw] if isinstance(raw, list) else [str(raw)]
+    parts = [part.strip() for text in texts for part in text.split(",")]
+    singles = [part for part in parts if ".." not in part]
+    runs = [part for part in parts if ".." in part] + [", ".join(singles)] * bool(singles)
+    yield from ((run, numbers_in(run)) for run in runs if numbers_in(run))
+
+
+def _enum_of(
+    citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings
+) -> Iterator[Claim]:
+    """The numbers and labels of the point's enum, but for entries of a shared enum that cite a line themselves."""
     key = "digits" if point.digits else "enum"
-    enum = point.digits.enum if point.digits else point.enum
-    if not _says_itself(draft, key) or enum is None:
+    said: Any = draft.get(key)
+    if not _says_itself(draft, key) or said is None:
         return
-    enum_as_written: Any = draft.get(key)
-    enum_as_written = enum_as_written["enum"] if point.digits else enum_as_written
-    entries = enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
-    cited_themselves = {
-        number
-        for key, entry in entries.items()
-        if isinstance(entry, Map) and "line" in entry
-        for number in numbers_in(key)
-    }
-    places = {number: entries.key_span(entry) for entry in entries for number in numbers_in(entry)}
-    for entry in enum.entries:
-        if entry.raw not in cited_themselves or entries is enum_as_written:
-            place = places.get(Fraction(entry.raw), draft.span(key))
-            yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),), place=place)
-            yield from citing.title(entry.title, "enum", place=place)
-            for number in numbers_in(entry.quantity):
-                yield from citing.numbers("enum", str(entry.quantity), (number,), place=place)
+    said = said["enum"] if point.digits else said
+    entries: Map = enums[said] if isinstance(said, str) else said
+    for position, (number, entry) in enumerate(entries.items()):
+        if isinstance(entry, Map) and "line" in entry and entries is not said:
+            continue
+        place, numbers = entries.key_span(number), numbers_in(number)
+        label = wordings.label(entry) if isinstance(entry, Map) else ()
+        yield from citing.label("enum", label, beside=numbers, entry=(position, 0), place=place)
+        quantity = numbers_in(entry.get("quantity")) if isinstance(entry, Map) else []
+        if quantity and numbers:
+            shown = f"{number} = {entry['quantity']}"
+            yield from citing.in_order("enum", shown, ((numbers[0],), (quantity[0],)), place=place)
+        elif not label:
+            yield from citing.numbers("enum", str(number), numbers, place=place)
 
 
 def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     above = point.bits[1] if point.bits else 0
     always = point.fixed.bits if point.fixed is not None else 0
-    for flag in point.flags:
-        place = _place_of_flag(draft, flag)
+    alike = "values" in citing.lines_of_fact  # printed once for all flags
+    kind = "values" if alike else "flags"
+    for position, flag in enumerate(point.flags):
+        place, node = _node_of_flag(draft, flag)
+        label = wordings.label(node.get("title")) if isinstance(node, Map) else ()
+        values = [_label_of_value(node, entry.raw, wordings) for entry in flag.values]
+        by_value = any(values)  # the labels of the values stand beside numbers, the title is one of them or none
+        printed = node.get("printed", {}) if isinstance(node, Map) else {}
+        named = wordings.bits(flag.low + flag.width - 1, flag.low)
+        beside: list[Fraction] = []
         for bit in dict.fromkeys((flag.low + flag.width - 1, flag.low)):
             numbers = (
                 Fraction(bit + above),
@@ -206,24 +211,49 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
                 Fraction(1 << bit + above),
                 Fraction(1 << bit | always),
             )
+            beside += numbers_in(printed["bit"]) if "bit" in printed else numbers
             run = _ends_of_run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
-            words = (*wordings.bits(flag.low + flag.width - 1, flag.low), *_joined("bit", bit + above))
-            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words, place=place)
-        yield from citing.title(flag.title, "flags", place=place)
-        for entry in flag.values:
-            shown = f"{flag.name} {entry.raw}"
-            yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
+            words = (*named, *_joined("bit", bit + above))
+            if not label or by_value or named:
+                yield from citing.numbers(
+                    "flags", f"bit {bit + above}", numbers, between=between, words=words, place=place
+                )
+        at_bit = () if by_value or named else beside
+        yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
+        if label and flag.width > 1 and not named:
+            ends = ((Fraction(flag.low + flag.width - 1 + above),), (Fraction(flag.low + above),))
+            yield from citing.in_order("flags", f"bits {ends[0][0]} and {ends[1][0]}", ends, place=place)
+        for key in ("mask", "active"):
+            for number in numbers_in(printed.get(key)):
+                yield from citing.numbers(f"printed {key}", str(number), (number,), "flags", place=place)
+        for part, (entry, words) in enumerate(zip(flag.values, values, strict=True)):
+            at = (0 if alike else position, part)
+            numbers_of_value = (Fraction(entry.raw), *(() if alike else beside))  # beside its number, or beside the bit
+            yield from citing.label("flag values", words, kind, beside=numbers_of_value, entry=at, place=place)
+            if not words:
+                shown = f"{flag.name} {entry.raw}"
+                yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
 
 
-def _place_of_flag(draft: Draft, flag: Flag) -> Span:
-    """Where the description names the bits of a flag."""
+def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
+    if not isinstance(node, Map):
+        return ()
+    values = {int(number): entry for key, entry in node.get("values", {}).items() for number in numbers_in(key)}
+    values |= {number: node[key] for number, key in enumerate(("zero", "one")) if key in node}
+    entry = values.get(raw)
+    titles = entry.get("title", entry) if isinstance(entry, Map) else None
+    return wordings.label(titles) if isinstance(titles, Map) else ()
+
+
+def _node_of_flag(draft: Draft, flag: Flag) -> tuple[Span, Any]:
+    """Where the description names the bits of a flag, and what it says of them."""
     flags = draft.get("flags")
     if isinstance(flags, Map):
         ends = {flag.low, flag.low + flag.width - 1}
         key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
-        return flags.span() if key is None else flags.key_span(key)
-    return draft.span("flags")
+        return (flags.span(), None) if key is None else (flags.key_span(key), flags[key])
+    return draft.span("flags"), None
 
 
 def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
@@ -240,14 +270,25 @@ def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
 def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
-        printed_numbers = [*value.keys(), *value.values()] if key == "pairs" else value
-        for number in numbers_in(printed_numbers):
-            if key == "resolution" and number == 1:
-                continue  # "resolution: A" means one ampere: no 1 is printed
-            kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
+        kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
+        place = printed.span(key)
+        if key in ("range", "range_in_units"):
+            for shown, numbers in _runs_of(value):
+                yield from citing.in_order(
+                    f"printed {key}", shown, [(number,) for number in numbers], kind, place=place
+                )
+            continue
+        if key == "pairs":
+            for raw, number in value.items():
+                readings = [numbers_in(raw), numbers_in(number)]
+                yield from citing.in_order("printed pairs", f"{raw} = {number}", readings, kind, place=place)
+            continue
+        for number in numbers_in(value):
             words = _joined(key, number) if kind == "address" else ()
-            place = printed.span(key)
-            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words, place=place)
+            unsaid = key == "resolution" and number == 1  # "resolution: A" means one ampere: no 1 is printed
+            yield from citing.numbers(
+                f"printed {key}", str(number), (number,), kind, words=words, optional=unsaid, place=place
+            )
 
 
 def _says_itself(draft: Draft, key: str) -> bool:

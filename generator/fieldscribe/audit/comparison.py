@@ -7,13 +7,17 @@ from bisect import bisect_left, bisect_right
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
+from fieldscribe.audit.instead import instead, printed_access
+from fieldscribe.audit.labels import standing
 from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
+from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.placement import placement
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
+from fieldscribe.audit.wordings import Wordings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
@@ -30,7 +34,7 @@ _FAR = 400
 
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
-    manual = Manual(text)
+    manual = Manual(text, Wordings(subject.scope.header["documents"]).names)
     claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
     errata = list(printed_errata_of(subject))
     outcome = Audit(device, manual_name, same_text, len(manual))
@@ -45,7 +49,7 @@ class Comparison:
         manual: Manual,
         claims: list[Claim],
         errata: list[PrintedErratum],
-        looked_through: set[int],
+        looked_through: Mapping[int, frozenset[str]],
         outcome: Audit,
     ) -> None:
         self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
@@ -55,21 +59,31 @@ class Comparison:
             for name in erratum.subjects:
                 self.taken.setdefault(name, []).append(erratum)
         self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
-        self.subjects: dict[Extent, dict[str, None]] = {}
+        self.subjects: dict[Extent, dict[str, str]] = {}
+        self.absent: list[tuple[Claim, list[Extent]]] = []
         cited = sorted({first for claim in claims for first, _ in claim.cited})
         self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
         self.cited = sorted(self.now)
-        self.starts = sorted({self.now[line] for line in cited})
-        self.empty = {self._now(line) for line in looked_through}
+        self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
+        self.empty = {self._now(line) for line, numbers in looked_through.items() if not numbers}
+        self.no_facts = {self._now(line): numbers for line, numbers in looked_through.items() if numbers}
         self._extents: dict[tuple[int, int], Extent] = {}
+        self._passages: dict[Extent, Passage] = {}
 
     def run(self) -> Audit:
         """All findings."""
+        labels: dict[tuple[str, str, tuple[tuple[int, int], ...]], list[Claim]] = {}
         for claim in self.claims:
-            self._check(claim)
+            if claim.entry is None:
+                self._check(claim)
+            else:
+                labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
+        for together in labels.values():
+            self._check_labels(together)
         for erratum in self.errata:
             self._check_erratum(erratum)
         self._unused()
+        self._report_absent()
         self._uncited()
         self.outcome.facts = sum(not claim.optional for claim in self.claims)
         self.outcome.errata = len(self.errata)
@@ -92,22 +106,38 @@ class Comparison:
             self._extents[key] = extent
         return self._extents[key]
 
+    def _passage(self, extent: Extent) -> Passage:
+        if extent not in self._passages:
+            lines = [(line, 0, self.manual.line(line)) for line in range(extent.first, extent.last + 1)]
+            self._passages[extent] = Passage(self.manual, (*lines, *self.manual.merged_cells(extent.first)))
+        return self._passages[extent]
+
     def _tokens(self, extent: Extent) -> list[Token]:
-        tokens = [token for line in range(extent.first, extent.last + 1) for token in self._of_line(line)]
-        merged = self.manual.merged_cells(extent.first)
-        return tokens + [token for line, cell in merged for token in tokens_of(cell, line)]
+        return self._passage(extent).tokens
 
     def _text(self, extent: Extent) -> str:
-        lines = [self.manual.line(line) for line in range(extent.first, extent.last + 1)]
-        return "\n".join((*lines, *(cell for _, cell in self.manual.merged_cells(extent.first))))
+        return self._passage(extent).text
 
     def _of_line(self, line: int) -> list[Token]:
         return self.manual.tokens[line - 1] if 1 <= line <= len(self.manual) else []
 
+    def _check_labels(self, claims: list[Claim]) -> None:
+        """Labels of one list are looked for together: beside their numbers, in their order."""
+        extents = self._cited_by(claims[0])
+        labels = [label for extent in extents for label in standing(claims, self._passage(extent))]
+        self._use(token for label in labels for token in label.tokens)
+        stands = {label.claim for label in labels}
+        for claim in claims:
+            if claim not in stands:
+                self._misses(claim, extents)
+
+    def _use(self, tokens: Iterable[Token]) -> None:
+        self.used.update((token.line, token.column) for token in tokens)
+
     def _cited_by(self, claim: Claim) -> list[Extent]:
         extents = [self._extent(*cited) for cited in claim.cited]
         for extent in extents:
-            self.subjects.setdefault(extent, {})[claim.subject] = None
+            self.subjects.setdefault(extent, {}).setdefault(claim.subject, claim.where)
         return extents
 
     def _check(self, claim: Claim) -> None:
@@ -119,21 +149,39 @@ class Comparison:
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
         if self._is_taken(claim):
             return
-        nearest = self._nearest(claim, extents[0].first)
-        missing = Missing(
-            claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest, claim.where
-        )
-        self.outcome.missing.append(missing)
+        self.absent.append((claim, extents))
+
+    def _report_absent(self) -> None:
+        """What does not stand where it is cited, with what stands there instead."""
+        unused = {
+            extent: [number for number in self.outcome.unused if number.line in extent] for extent in self.subjects
+        }
+        told: set[Unused] = set()
+        for claim, extents in self.absent:
+            numbers = [number for extent in extents for number in unused[extent]]
+            printed = instead(claim, [self._passage(extent) for extent in extents], numbers)
+            told.update(number for number in numbers if number.number == printed)
+            first, last = extents[0].first, extents[0].last
+            nearest = None if printed else self._nearest(claim, first)
+            missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
+            self.outcome.missing.append(missing)
+        self.outcome.unused = [number for number in self.outcome.unused if number not in told]
 
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
-        codes = claim.words if claim.fact == "code" else ()
+        codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
         for erratum in self.taken.get(claim.about, ()):
             if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
 
     def _stands(self, claim: Claim, extent: Extent) -> bool:
+        if claim.fact == "access":
+            return self._access_agrees(claim, extent)
+        if claim.fact in ("title", "enum") and claim.words:
+            labels = standing([claim], self._passage(extent))
+            self._use(token for label in labels for token in label.tokens)
+            return bool(labels)
         word_stands = [
             self._has(word, extent) for word in claim.words
         ]  # no short cut: each call marks the numbers used
@@ -145,13 +193,30 @@ class Comparison:
             return self._has_bytes(claim.shown, extent)
         if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
             extent = Extent(extent.first, extent.first, "row")  # the rows below belong to the point's other words
-        tokens = self._tokens(extent)
-        hits = [token for token in tokens if token.readings & claim.numbers]
-        self.used.update((token.line, token.column) for token in hits)
+        passage = self._passage(extent)
+        if claim.in_order:
+            return self._stand_in_order(claim, passage)
+        hits = passage.reading(claim.numbers)
+        self._use(hits)
         if hits or not claim.between:
             return bool(hits)
-        readings = {reading for token in tokens for reading in token.readings}
+        readings = {reading for token in passage.tokens for reading in token.readings}
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
+        """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""
+        runs = list(passage.in_order(claim.in_order))
+        self._use(token for run in runs for token in run)
+        if runs:
+            return True
+        hits = [passage.reading(numbers) for numbers in claim.in_order]
+        self._use(token for tokens in hits for token in tokens)
+        return all(hits)
+
+    def _access_agrees(self, claim: Claim, extent: Extent) -> bool:
+        """Whether the row prints this access, or none at all."""
+        printed = printed_access(claim, self.manual.line(extent.first))
+        return not printed or not set(claim.words).isdisjoint(printed)
 
     def _has(self, word: str, extent: Extent) -> bool:
         """Whether a word stands in the extent; if so, the numbers in it count as used."""
@@ -197,7 +262,7 @@ class Comparison:
             hits = [token for extent in extents for token in self._with(number, extent)]
             near = (token for token in hits if any(token.line in extent for extent in cited))
             self.used.update((token.line, token.column) for token in near)
-            absent = absent or not hits
+            absent = absent or not (hits or any(self._in_a_name(number, extent) for extent in extents))
         if absent or (erratum.texts and self._lacks(erratum.texts, extents)):
             first = extents[0].first
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
@@ -215,13 +280,18 @@ class Comparison:
             for extent, section in zip(cited, sections, strict=True)
         ]
 
+    def _in_a_name(self, number: Fraction, extent: Extent) -> bool:
+        """Whether a number stands in an extent at least as part of a name."""
+        lines = range(extent.first, extent.last + 1)
+        return any(number in token.readings for line in lines for token in tokens_of(self.manual.line(line), line))
+
     def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
         """The tokens of an extent that can mean a number."""
         lines = self.manual.lines_of.get(number, [])
         for line in lines[bisect_left(lines, extent.first) : bisect_right(lines, extent.last)]:
             yield from (token for token in self._of_line(line) if number in token.readings)
-        for line, cell in self.manual.merged_cells(extent.first):
-            yield from (token for token in tokens_of(cell, line) if number in token.readings)
+        for line, column, cell in self.manual.merged_cells(extent.first):
+            yield from (token for token in self.manual.tokens_in(cell, line, column) if number in token.readings)
 
     def _lacks(self, texts: Iterable[str], extents: list[Extent]) -> bool:
         """Whether one of the texts does not stand in the extents."""
@@ -239,9 +309,11 @@ class Comparison:
         for extent, subjects in self.subjects.items():
             for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
                 for token in self._of_line(line):
-                    if (token.line, token.column) not in self.used and token.text not in self.codes:
+                    passed_over = token.text in self.codes or token.text in self.no_facts.get(line, ())
+                    if (token.line, token.column) not in self.used and not passed_over:
                         self.used.add((token.line, token.column))
-                        unused = Unused(token.line, token.column, token.text, tuple(subjects))
+                        place = next(iter(subjects.values()))
+                        unused = Unused(token.line, token.column, token.text, tuple(subjects), place)
                         self.outcome.unused.append(unused)
         self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
 
@@ -257,7 +329,10 @@ class Comparison:
                 self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
         for line in range(1, len(manual) + 1):
             if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
-                self.outcome.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
+                section = manual.section_of(line)
+                among_cited = any(number in covered for number in range(section.first, section.last + 1))
+                shown = manual.line(line).strip()[:_SHORT]
+                self.outcome.uncited.append(Uncited(line, "row", shown, among_cited=among_cited))
         self.outcome.uncited.sort(key=lambda uncited: uncited.line)
 
     def _moved(self, cited: list[int]) -> dict[int, int]:

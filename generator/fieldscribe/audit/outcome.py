@@ -11,7 +11,7 @@ from fieldscribe.records import dataclass, field, values_of
 class Missing:
     """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does.
 
-    `place` is where the description says it: file:line:column.
+    `place` is where the description says it: file:line:column. `printed` is what stands there instead, if that is known.
     """
 
     subject: str
@@ -21,6 +21,7 @@ class Missing:
     last: int
     nearest: int | None
     place: str
+    printed: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,21 +35,23 @@ class Moved:
 
 @dataclass(frozen=True, slots=True)
 class Unused:
-    """A number in a cited place that no fact uses."""
+    """A number in a cited place that no fact uses. `place` is where the description says the first of the subjects."""
 
     line: int
     column: int
     number: str
     subjects: tuple[str, ...]
+    place: str
 
 
 @dataclass(frozen=True, slots=True)
 class Uncited:
-    """A section, or a row of a table, that nothing cites."""
+    """A section, or a row of a table, that nothing cites; `among_cited` if others of its section are cited."""
 
     line: int
     kind: str
     text: str
+    among_cited: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +83,13 @@ class Audit:
 
     @property
     def clean(self) -> bool:
-        """Whether every cited fact stands where it is cited, and every erratum too."""
-        return not (self.missing or self.moved or self.unprinted)
+        """Whether all that is cited stands there, errata too, and nothing more than that."""
+        return not (self.missing or self.moved or self.unprinted or self.unused or self.added)
+
+    @property
+    def added(self) -> list[Uncited]:
+        """The rows that nothing cites among rows that are cited."""
+        return [place for place in self.uncited if place.among_cited]
 
     @property
     def counts(self) -> dict[str, int]:
