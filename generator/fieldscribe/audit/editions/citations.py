@@ -33,9 +33,10 @@ T = TypeVar("T", Claim, "PrintedErratum")
 
 @dataclass(frozen=True, slots=True)
 class LookedThrough:
-    """Lines that the description says hold nothing for it, and where it says so."""
+    """Lines that the description says hold nothing for it, or only these numbers besides facts; where it says so."""
 
     lines: frozenset[int]
+    numbers: frozenset[str]
     place: Span
 
 
@@ -45,13 +46,16 @@ class Cited:
 
     claims: list[Claim | None]
     errata: list[PrintedErratum | None]
-    looked_through: list[frozenset[int]]
+    looked_through: list[LookedThrough]
 
     def trace(self, manual: Manual, text: Words) -> Trace:
         """All of it held against the text."""
         claims = list(dict.fromkeys(claim for claim in self.claims if claim is not None))
         errata = [erratum for erratum in self.errata if erratum is not None]
-        return Trace(text, manual, claims, errata, set().union(*self.looked_through))
+        numbers: dict[int, frozenset[str]] = {}
+        for passage in self.looked_through:
+            numbers.update((line, numbers.get(line, frozenset()) | passage.numbers) for line in passage.lines)
+        return Trace(text, manual, claims, errata, numbers)
 
 
 class Citations:
@@ -95,7 +99,7 @@ class Citations:
             [moved(claim, then) if claim.subject in self.counts_new else claim for claim in self.claims],
             [moved(erratum, then) if erratum.id in self.counts_new else erratum for erratum in self.errata],
             [
-                _moved_lines(passage.lines, then) if self.is_of_new(passage) else passage.lines
+                _with_lines(passage, then, self.editions.new) if self.is_of_new(passage) else passage
                 for passage in self.looked_through
             ],
         )
@@ -107,7 +111,7 @@ class Citations:
             [claim if claim.subject in self.counts_new else moved(claim, now) for claim in self.claims],
             [erratum if erratum.id in self.counts_new else moved(erratum, now) for erratum in self.errata],
             [
-                passage.lines if self.is_of_new(passage) else _moved_lines(passage.lines, now)
+                passage if self.is_of_new(passage) else _with_lines(passage, now, self.editions.old)
                 for passage in self.looked_through
             ],
         )
@@ -153,7 +157,7 @@ def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:
         for passage in file.get("looked_through", ()):
             spans = spans_of(passage["lines"])
             lines = frozenset(line for first, last in spans for line in range(first, max(first, last) + 1))
-            yield LookedThrough(lines, passage.span("lines"))
+            yield LookedThrough(lines, frozenset(map(str, passage.get("numbers", ()))), passage.span("lines"))
 
 
 def _distance(place: Span, other: Span) -> tuple[bool, int]:
@@ -177,6 +181,7 @@ def moved(item: T, there: Where) -> T | None:
     return replace(item, cited=cited) if cited else None
 
 
-def _moved_lines(lines: Iterable[int], there: Where) -> frozenset[int]:
-    spans = [place for line in lines if (place := there(line)) is not None]
-    return frozenset(line for first, last in spans for line in range(first, last + 1))
+def _with_lines(passage: LookedThrough, there: Where, text: Words) -> LookedThrough:
+    spans = [place for line in passage.lines if text.of_line(line) and (place := there(line)) is not None]
+    lines = frozenset(line for first, last in spans for line in range(first, last + 1))
+    return replace(passage, lines=lines)

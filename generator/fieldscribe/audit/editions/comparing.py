@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.citing import Claim
 from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.citations import Citations
+from fieldscribe.audit.editions.drafts import Drafts
 from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
 from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Reason, Void
 from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK
 from fieldscribe.audit.manual import Manual
+from fieldscribe.audit.wordings import Wordings
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -40,7 +42,8 @@ def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, C
     """What the new edition means for the description, and what that cites."""
     editions = Editions(old.text, new.text)
     citations = Citations(subject, editions)
-    manuals = Manual(old.text), Manual(new.text)
+    names = Wordings(subject.scope.header["documents"]).names
+    manuals = Manual(old.text, names), Manual(new.text, names)
     citations.settle(*manuals, accepted=bool(new.is_recorded))
     device = str(subject.scope.header["device"])
     outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
@@ -57,6 +60,7 @@ class _Comparing:
         pairs = list(map(Pair, citations.claims, in_old.claims, in_new.claims))
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
+        self.drafts = Drafts(subject, self.new, pairs)
         self.explaining = Explaining(self.editions, citations, self.old, self.new, pairs, Vocabulary(subject))
 
     def run(self) -> None:
@@ -98,7 +102,12 @@ class _Comparing:
             words,
             tuple(dict.fromkeys(cites)),
             reasons,
+            tuple(self.drafts.of(line for line in change.new if self._is_new(line))) if reasons else (),
         )
+
+    def _is_new(self, line: int) -> bool:
+        words = self.editions.new.of_line(line)
+        return bool(words) and all(map(self.editions.is_new, words))
 
     def _errata_at(self, change: Change) -> Iterator[Cite]:
         for erratum, in_old, in_new in self.errata:
@@ -112,7 +121,7 @@ class _Comparing:
     def _looked_through_at(self, change: Change) -> Iterator[Cite]:
         lines = set(change.new)
         for passage, in_new in zip(self.citations.looked_through, self._looked_through, strict=True):
-            if lines & in_new:
+            if lines & in_new.lines:
                 yield Cite("looked_through", "", "", _told(passage.place))
 
     def _of_move(self, move: Move) -> Finding:

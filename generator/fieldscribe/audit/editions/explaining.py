@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.citing import Claim
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.vocabulary import Vocabulary
     from fieldscribe.audit.manual import Token
 
+_PARTS = re.compile(r"[.,]")
 _MOST = 8
 """A reason names at most so many numbers or words."""
 
@@ -47,7 +50,8 @@ class Explaining:
             touched = self._touched(pair)
             for number in touched:
                 self.pairs_of.setdefault(number, []).append(pair)
-            if not touched and self.fails(pair):
+            failed_before = pair.old is not None and pair.old in self.old.missed
+            if not touched and not failed_before and self.fails(pair):
                 self.elsewhere.append(pair)
         self.subjects_at: dict[int, dict[str, None]] = {}
         for extent, subjects in new.subjects.items():
@@ -65,6 +69,8 @@ class Explaining:
 
     def fails(self, pair: Pair) -> bool:
         """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
+        if pair.claim.fact == "access" and self._lost_access(pair):
+            return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
             return False
         if pair.old is None or pair.old in self.old.missed:
@@ -73,6 +79,11 @@ class Explaining:
         if borne:
             return any(map(self.editions.is_gone, borne))
         return bool(self._touched(pair)) or pair.new is None
+
+    def _lost_access(self, pair: Pair) -> bool:
+        """Whether a row that printed an access does not print it any more."""
+        was = self.old.named.get(pair.old, ()) if pair.old else ()
+        return any(map(self.editions.is_gone, was)) and not (pair.new and self.new.named.get(pair.new))
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
         """What cites a changed line: the facts that stood on its words, else the subjects."""
@@ -101,23 +112,35 @@ class Explaining:
         yield from self._units(number, change)
 
     def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
-        """Facts that were printed twice, and once otherwise now, where the new number is no news to the description."""
+        """Facts that were printed twice, and once otherwise now, where the new word is no news to the description."""
         pairs = self.pairs_of.get(number, ())
         for old, new in change.gaps:
-            if not old or not new or not self._is_known_already(new, pairs):
+            if not old or not new or self._is_passed_over(new) or not self._is_known_already(new, pairs):
                 continue
             for pair in pairs:
-                lost = pair.claim.numbers and _borne(self.old, pair.old).intersection(old)
-                if lost and pair.new not in self.new.missed and not _borne(self.new, pair.new).intersection(new):
-                    text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} too"
+                if pair.new not in self.new.missed and _is_of_numbers(pair.claim) and self._lost_one(pair, old, new):
+                    text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} here"
                     yield Reason(text, pair.claim.where)
 
+    def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
+        """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
+        return not _borne(self.old, pair.old).isdisjoint(old) and _borne(self.new, pair.new).isdisjoint(new)
+
+    def _is_passed_over(self, words: range) -> bool:
+        """Whether the description says of these words that they are no fact, and means no others of the line."""
+        text = self.editions.new
+        line = text.line_of[words[0]]
+        shown = text.shown(words)
+        kept = (word for word in text.of_line(line) if not self.editions.is_new(word))
+        return shown in self.new.no_facts.get(line, ()) and shown not in {text.texts[word] for word in kept}
+
     def _is_known_already(self, words: range, pairs: Iterable[Pair]) -> bool:
-        """Whether one of these words bears facts only that stand elsewhere, too, where nothing changed."""
+        """Whether one of these words bears only facts that stand elsewhere, too, where nothing changed."""
         for word in words:
-            bearing = [pair for pair in pairs if word in _borne(self.new, pair.new)]
-            if bearing and all(self._stood_before(pair) for pair in bearing):
-                return True
+            if self.editions.new.texts[word].isalnum():
+                bearing = [pair for pair in pairs if word in _borne(self.new, pair.new) and not pair.claim.optional]
+                if all(self._stood_before(pair) for pair in bearing):
+                    return True
         return False
 
     def _stood_before(self, pair: Pair) -> bool:
@@ -125,20 +148,33 @@ class Explaining:
 
     def _numbers(self, line: int, change: Change) -> Iterator[Reason]:
         """The new numbers of a line that no fact that cites it has."""
-        unknown = [token.text for token in self._new_tokens(line, change) if not self._is_used(token)]
+        tokens = self._new_tokens(line, change)
+        unknown = [token.text for token, words in tokens if not self._is_known(token, words)]
         if unknown:
             yield self._unknown(unknown, line, "number")
 
-    def _new_tokens(self, line: int, change: Change) -> Iterator[Token]:
+    def _new_tokens(self, line: int, change: Change) -> Iterator[tuple[Token, range]]:
         fresh = {word for _, new in change.gaps for word in new}
-        text = self.editions.new
         for token in self.new.manual.tokens[line - 1]:
-            words = range(text.at(line, token.column), text.at(line, token.column + len(token.text)))
+            words = self.new.words_of_token(token)
             if fresh.intersection(words):
-                yield token
+                yield token, words
 
-    def _is_used(self, token: Token) -> bool:
-        return (token.line, token.column) in self.new.used or token.text in self.new.codes
+    def _is_known(self, token: Token, words: range) -> bool:
+        return self._is_passed_over(words) or (self.new.is_used(token) and self._fits(token, words))
+
+    def _fits(self, token: Token, words: range) -> bool:
+        """Whether what uses a number means all of it: 50 is not the 50 of 50,03, nor any number beside a frame."""
+        bearing = [claim for claim in self.new.claims if not self.new.borne[claim].isdisjoint(words)]
+        if not bearing or any(not self.new.named[claim].isdisjoint(words) for claim in bearing):
+            return True
+        numbers = {number for claim in bearing for number in (*claim.numbers, *claim.beside, *claim.between)}
+        parts = {Fraction(int(part)) for part in _PARTS.split(token.text) if part.isdigit()}
+        if len(_PARTS.split(token.text)) > 1:
+            return parts <= numbers or not numbers.isdisjoint(_whole(token))
+        digits = "".join(char for char in token.text.upper().removeprefix("0X") if char in "0123456789ABCDEF")
+        in_frames = any(claim.fact == "bytes" and digits in claim.shown for claim in bearing)
+        return in_frames or not numbers.isdisjoint(token.readings)
 
     def _signs(self, number: int, change: Change) -> Iterator[Reason]:
         """Numbers that got or lost a minus sign, where every fact that they bear has them otherwise."""
@@ -158,11 +194,7 @@ class Explaining:
         subjects = self.subjects_at.get(line, {})
         if not subjects and not (manual.is_row(line) or line in self.headings):
             return
-        in_numbers = {
-            word
-            for token in manual.tokens[line - 1]
-            for word in range(text.at(line, token.column), text.at(line, token.column + len(token.text)))
-        }
+        in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
         fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
         words = [text.texts[word] for word in fresh if word not in in_numbers and is_name(text.texts[word])]
         unknown = [word for word in words if not self.words.has(word, subjects)]
@@ -186,6 +218,18 @@ class Explaining:
             unit, place = self.words.unit_of(subject)
             if unit in gone - stands:
                 yield Reason(f"{subject}: unit {unit} is not there", place)
+
+
+def _is_of_numbers(claim: Claim) -> bool:
+    """Whether a claim needs the numbers, codes or bytes that bear it."""
+    return not claim.optional and (bool(claim.numbers or claim.beside) or claim.anchor or claim.fact == "bytes")
+
+
+def _whole(token: Token) -> frozenset[Fraction]:
+    """What a number with points or commas means as a whole."""
+    *_, fraction = _PARTS.split(token.text)
+    digits = int("".join(_PARTS.split(token.text)))
+    return frozenset((Fraction(digits, 10 ** len(fraction)), Fraction(digits))) & token.readings
 
 
 def failing(claim: Claim) -> Reason:

@@ -23,6 +23,7 @@ _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P
 _SENTENCES = ("note", "printed", "taken", "where", "why")
 """The keys whose texts may name lines."""
 _LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
+_COMMENT = re.compile(r"(?:^|\s)#")
 _NUMBER = re.compile(r"(?P<run>to\s+|\.\.\s*)?(?P<line>[0-9]+)")
 
 
@@ -131,6 +132,15 @@ class _Walk:
                 first, last = (0, line) if number["run"] else (line, 0)
                 place = number.span("line")
                 self.found.append(Citation(source, *place, first, last, "sentence", span))
+
+
+def lines_in_comments(source: SourceFile) -> Iterator[tuple[int, int]]:
+    """The numbers of lines that comments name: the line of the file, and the number."""
+    for named in _LINES_NAMED.finditer(source.text):
+        before = source.text[source.text.rfind("\n", 0, named.start()) + 1 : named.start()]
+        if _COMMENT.search(before) and not any(first <= named.start() < end for first, end in _scalars(source.text)):
+            for number in _NUMBER.finditer(source.text, named.start(), named.end()):
+                yield source.text.count("\n", 0, named.start()) + 1, int(number["line"])
 
 
 def _written(source: SourceFile, offset: int, kind: str, key: Span, *, is_item: bool = False) -> Citation:

@@ -5,23 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.citations import span_there
-from fieldscribe.audit.editions.places import UnclearPlaceError, citations_in
+from fieldscribe.audit.editions.places import UnclearPlaceError, citations_in, lines_in_comments
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.audit.editions.changes import Editions
     from fieldscribe.audit.editions.citations import Citations
     from fieldscribe.audit.editions.places import Citation
     from fieldscribe.language.nodes import Map
+    from fieldscribe.language.source import SourceFile
 
 
 @dataclass(slots=True)
 class Renumbered:
     """The texts of the files that change, by name; how many numbers that are; and what stands in the way.
 
-    `by_hand` are sentences that name lines that are gone.
+    `by_hand` are sentences that name lines that are gone, and comments, which stay as they are.
     """
 
     texts: dict[str, str] = field(default_factory=dict)
@@ -54,7 +55,17 @@ def renumber(files: Iterable[Map], document: str, citations: Citations) -> Renum
         text = "".join((*pieces[name], source.text[ends[name] :]))
         if text != source.text:
             outcome.texts[name] = text
+            outcome.by_hand += _in_comments(source, citations.editions)
     return outcome
+
+
+def _in_comments(source: SourceFile, editions: Editions) -> Iterator[str]:
+    """Comments are left as they are; what they name is told."""
+    for place, line in lines_in_comments(source):
+        now = editions.now(line) if line <= len(editions.old.lines) else None
+        if now is None or now[0] != line:
+            said = "is gone" if now is None else f"is {now[0]} now"
+            yield f"{source.name}:{place}: a comment names line {line}, which {said}"
 
 
 def _wanted(place: Citation, citations: Citations, outcome: Renumbered) -> str | None:
@@ -67,7 +78,8 @@ def _wanted(place: Citation, citations: Citations, outcome: Renumbered) -> str |
     if place.kind == "looked_through":
         ranges = _ranges(place.first, place.last or place.first, editions)
         if ranges:
-            written = ", ".join(map(_range, ranges))
+            is_range = place.last > 0 and len(ranges) == 1
+            written = ", ".join(_range((first, last if last > first or is_range else 0)) for first, last in ranges)
             return written if place.is_item or len(ranges) == 1 else f"[{written}]"
     elif (span := span_there(place.first, place.last, editions.now)) is not None:
         return _range(span)
@@ -117,5 +129,6 @@ def _with_blank_ends(lines: tuple[int, int], above: int, below: int, editions: E
 
 
 def _range(lines: tuple[int, int]) -> str:
+    """A line, or a range; `780..780` is that line alone, where `780` opens a row."""
     first, last = lines
-    return f"{first}..{last}" if last > first else str(first)
+    return f"{first}..{last}" if last else str(first)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.report import visible
-from fieldscribe.text import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -59,7 +58,7 @@ def _head(finding: Finding) -> str:
 def _where(finding: Finding) -> str:
     old, new = _lines(finding.old), _lines(finding.new)
     if not old or not new:
-        return f"{new} is new" if new else f"{old} is gone"
+        return f"{new} in the new edition" if new else f"{old} of the old edition"
     return old if finding.old == finding.new else f"{old}, now {new.removeprefix('line ').removeprefix('lines ')}"
 
 
@@ -74,7 +73,7 @@ def _shown(sign: str, lines: Iterable[str]) -> Iterator[Line]:
     for line in lines[:_MOST_LINES]:
         yield [("", visible(f"  {sign} {line}"))]
     if len(lines) > _MOST_LINES:
-        yield [("", f"  {sign} and {len(lines) - _MOST_LINES} more lines")]
+        yield [("", f"  {sign} ... ({len(lines)} lines)")]
 
 
 def _of_draft(draft: Draft) -> Iterator[Line]:
@@ -100,6 +99,7 @@ def _figures(outcome: Comparison) -> Iterator[Line]:
     if outcome.renumbered:
         yield [("", "  numbers   the description counts the lines of the new edition")]
     elif outcome.shifted:
-        yield [("", f"  numbers   {counted(outcome.shifted, 'cited line')} moved: --renumber writes them")]
+        cited = f"{outcome.shifted} cited line{'' if outcome.shifted == 1 else 's'}"
+        yield [("", f"  numbers   {cited} moved: --renumber writes the new numbers")]
     if outcome.old_is_known is False and not outcome.renumbered:
         yield [("", visible(f"  note      {outcome.old} is not the text that was transcribed"))]

@@ -10,30 +10,36 @@ from fieldscribe.audit.manual import places_in
 from fieldscribe.audit.outcome import Audit
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.audit.manual import Extent, Manual
-    from fieldscribe.audit.outcome import Missing
+    from fieldscribe.audit.manual import Extent, Manual, Token
     from fieldscribe.audit.printed_errata import PrintedErratum
 
 
 class Trace(Comparison):
     """What stands in one edition. All lines are those of this edition.
 
-    `missed` are the claims that do not stand, `borne` the words that bear each of the others; `void` are the errata
-    that are not printed.
+    `missed` are the claims that do not stand, `borne` the words that bear each of the others (`named`: those that are
+    its own words); `void` are the errata that are not printed.
     """
 
     def __init__(
-        self, text: Words, manual: Manual, claims: list[Claim], errata: list[PrintedErratum], looked_through: set[int]
+        self,
+        text: Words,
+        manual: Manual,
+        claims: list[Claim],
+        errata: list[PrintedErratum],
+        looked_through: Mapping[int, frozenset[str]],
     ) -> None:
         super().__init__(manual, claims, errata, looked_through, Audit("", "", True, len(manual)))
         self.text = text
-        self.missed: dict[Claim, Missing] = {}
         self.borne: dict[Claim, set[int]] = {}
+        self.named: dict[Claim, set[int]] = {}
+        self._used_by_facts: set[tuple[int, int]] = set()
         self.run()
+        self.missed = {claim for claim, _ in self.absent}
         self.void = {unprinted.erratum for unprinted in self.outcome.unprinted}
 
     def extents_of(self, cited: Iterable[tuple[int, int]]) -> list[Extent]:
@@ -44,7 +50,7 @@ class Trace(Comparison):
         """The words of each number that an erratum may mean."""
         for extent in self._spoken_of(erratum):
             for token in self._with(abs(number), extent):
-                yield self._between(token.line, token.column, len(token.text))
+                yield self.words_of_token(token)
 
     def words_of_quote(self, quote: str, erratum: PrintedErratum) -> Iterator[range]:
         """The words of each place that an erratum may quote."""
@@ -55,25 +61,31 @@ class Trace(Comparison):
                 if self.text.texts[start] == wanted[0] and self.text.texts[start : start + len(wanted)] == wanted:
                     yield range(start, start + len(wanted))
 
+    def is_used(self, token: Token) -> bool:
+        """Whether a number is a fact of what cites its line, or a code."""
+        return token.text in self.codes or (token.line, token.column) in self._used_by_facts
+
     def _check(self, claim: Claim) -> None:
+        self._note([claim], lambda: super(Trace, self)._check(claim))
+
+    def _check_labels(self, claims: list[Claim]) -> None:
+        self._note(claims, lambda: super(Trace, self)._check_labels(claims))
+
+    def _note(self, claims: list[Claim], check: Callable[[], None]) -> None:
+        """Note the words that a check finds used; a label stands on its own numbers."""
         before, self.used = self.used, set()
-        super()._check(claim)
-        self.borne[claim] = self._words_at(self.used) | self._words_of(claim)
+        check()
+        tokens = [token for place in self.used for token in self._of_line(place[0]) if token.column == place[1]]
+        for claim in claims:
+            own = [token for token in tokens if not claim.beside or token.readings & claim.beside]
+            self.named[claim] = self._words_of(claim)
+            self.borne[claim] = {word for token in own for word in self.words_of_token(token)} | self.named[claim]
         before |= self.used
         self.used = before
 
-    def _misses(self, claim: Claim, extents: list[Extent]) -> None:
-        count = len(self.outcome.missing)
-        super()._misses(claim, extents)
-        self.missed.update((claim, missing) for missing in self.outcome.missing[count:])
-
-    def _words_at(self, places: Iterable[tuple[int, int]]) -> set[int]:
-        """The words of the numbers that stand at these places."""
-        words = set()
-        for line, column in places:
-            token = next((token for token in self._of_line(line) if token.column == column), None)
-            words.update(self._between(line, column, len(token.text) if token else 1))
-        return words
+    def _unused(self) -> None:
+        self._used_by_facts = set(self.used)
+        super()._unused()
 
     def _words_of(self, claim: Claim) -> set[int]:
         """The words of the text that are those of a claim."""
@@ -85,6 +97,10 @@ class Trace(Comparison):
             for at in places_in(self.manual.line(line), word)
             for place in self._between(line, at + 1, len(word))
         }
+
+    def words_of_token(self, token: Token) -> range:
+        """The words that a number is made of."""
+        return self._between(token.line, token.column, len(token.text))
 
     def _between(self, line: int, column: int, width: int) -> range:
         return range(self.text.at(line, column), self.text.at(line, column + width))

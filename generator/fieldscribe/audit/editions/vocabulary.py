@@ -25,7 +25,7 @@ _OF_ACCESS = {
 
 def is_name(word: str) -> bool:
     """Whether a word or sign says something by itself."""
-    return bool(_WORD.fullmatch(word)) and not word.isdigit() and word.casefold() not in _SMALL_WORDS
+    return bool(_WORD.fullmatch(word)) and word.casefold() not in _SMALL_WORDS
 
 
 class Vocabulary:
