@@ -36,7 +36,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report"
     )
     parser.add_argument(
-        "--old", type=some_path, metavar="FILE", help="the text of the edition before: say what changed, and what is open"
+        "--old",
+        type=some_path,
+        metavar="FILE",
+        help="the text of the edition before: say what changed, and what is open",
     )
     parser.add_argument(
         "--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description"
@@ -117,9 +120,7 @@ def manual_of(subject: Subject, place: Path) -> tuple[Path, Document]:
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
     # only plain names, so that a description cannot lead out of the given folder
     known = {
-        document.file: document
-        for document in documents
-        if document.file and Path(document.file).name == document.file
+        document.file: document for document in documents if document.file and Path(document.file).name == document.file
     }
     if place.is_dir():
         present = [name for name in known if (place / name).is_file()]

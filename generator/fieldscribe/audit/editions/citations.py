@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from fieldscribe.audit.citing import Claim, spans_of
 from fieldscribe.audit.claims import claims_of
 from fieldscribe.audit.editions.tracing import Trace
-from fieldscribe.audit.printed_errata import printed_errata_of
+from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
@@ -21,14 +21,13 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.changes import Editions, Lines
     from fieldscribe.audit.editions.words import Words
     from fieldscribe.audit.manual import Manual
-    from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.subject import Subject
 
     Where = Callable[[int], Lines | None]
 
-T = TypeVar("T", Claim, "PrintedErratum")
+T = TypeVar("T", Claim, PrintedErratum)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +82,8 @@ class Citations:
     @property
     def is_unmoved(self) -> bool:
         """Whether all cited lines have the same number in both editions."""
-        lines = {line for item in (*self.claims, *self.errata) for span in item.cited for line in span if line}
+        cited = [*(claim.cited for claim in self.claims), *(erratum.cited for erratum in self.errata)]
+        lines = {line for spans in cited for span in spans for line in span if line}
         lines |= {line for passage in self.looked_through for line in passage.lines}
         return all(self.editions.now(line) in (None, (line, line)) for line in lines)
 
@@ -144,11 +144,15 @@ class Citations:
 
     def gone(self) -> Iterator[tuple[Claim | PrintedErratum, int]]:
         """What cites a line of the old edition that the new one does not have, with that line."""
-        for item in (*self.claims, *self.errata):
-            if (item.subject if isinstance(item, Claim) else item.id) not in self.counts_new:
-                for first, last in item.cited:
-                    if span_there(first, last, self.editions.now) is None:
-                        yield item, first
+        for claim in self.claims:
+            yield from ((claim, line) for line in self._gone(claim.subject, claim.cited))
+        for erratum in self.errata:
+            yield from ((erratum, line) for line in self._gone(erratum.id, erratum.cited))
+
+    def _gone(self, name: str, cited: Iterable[tuple[int, int]]) -> list[int]:
+        if name in self.counts_new:
+            return []
+        return [first for first, last in cited if span_there(first, last, self.editions.now) is None]
 
 
 def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.audit.editions.changes import Change, Move
-    from fieldscribe.audit.editions.tracing import Trace
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.subject import Subject
@@ -61,7 +60,7 @@ class _Comparing:
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
         self.drafts = Drafts(subject, self.new, pairs)
-        self.explaining = Explaining(self.editions, citations, self.old, self.new, pairs, Vocabulary(subject))
+        self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
 
     def run(self) -> None:
         """All findings, in the order of the new edition."""

@@ -133,7 +133,9 @@ class Drafts:
         address = model.resolved.point.address
         if address is None:
             return None
-        pairs = [(model.row.tokens[cell][place], self._token(row, cell, place)) for cell, place in model.tokens_of["address"]]
+        pairs = [
+            (model.row.tokens[cell][place], self._token(row, cell, place)) for cell, place in model.tokens_of["address"]
+        ]
         for beside, token in pairs:
             if token is not None and address in beside.readings:
                 return token.text
@@ -167,7 +169,9 @@ class Drafts:
         """The step and the unit, from the cell where the neighbour has them."""
         unit = str(model.resolved.draft.get("unit", ""))
         cells = [model.cell_of.get("scale"), model.cell_of.get("printed resolution")]
-        cells += [cell for cell, text in enumerate(model.row.cells) if unit and re.search(rf"(?<!\w){re.escape(unit)}", text)]
+        cells += [
+            cell for cell, text in enumerate(model.row.cells) if unit and re.search(rf"(?<!\w){re.escape(unit)}", text)
+        ]
         for cell in (cell for cell in cells if cell is not None):
             match = _STEP.fullmatch(row.cells[cell])
             if match and match[2] and self.scope.unit(match[2]) is not None:
@@ -195,6 +199,10 @@ def _name_of(title: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    if _PLAIN.fullmatch(text) and text == text.strip() and text.casefold() not in ("yes", "no", "on", "off", "true", "false", "null"):
+    if (
+        _PLAIN.fullmatch(text)
+        and text == text.strip()
+        and text.casefold() not in ("yes", "no", "on", "off", "true", "false", "null")
+    ):
         return text
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

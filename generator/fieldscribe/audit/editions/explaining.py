@@ -6,15 +6,14 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.audit.citing import Claim
 from fieldscribe.audit.editions.findings import Cite, Reason
 from fieldscribe.audit.editions.vocabulary import is_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.editions.changes import Change, Editions
-    from fieldscribe.audit.editions.citations import Citations
     from fieldscribe.audit.editions.tracing import Trace
     from fieldscribe.audit.editions.vocabulary import Vocabulary
     from fieldscribe.audit.manual import Token
@@ -35,10 +34,8 @@ class Pair(NamedTuple):
 class Explaining:
     """The claims of a description beside the changes of its manual."""
 
-    def __init__(
-        self, editions: Editions, citations: Citations, old: Trace, new: Trace, pairs: list[Pair], words: Vocabulary
-    ) -> None:
-        self.editions, self.citations, self.old, self.new, self.words = editions, citations, old, new, words
+    def __init__(self, editions: Editions, old: Trace, new: Trace, pairs: list[Pair], words: Vocabulary) -> None:
+        self.editions, self.old, self.new, self.words = editions, old, new, words
         self.pairs_of: dict[int, list[Pair]] = {}
         self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
@@ -56,7 +53,7 @@ class Explaining:
         self.subjects_at: dict[int, dict[str, None]] = {}
         for extent, subjects in new.subjects.items():
             for line in range(extent.first, extent.last + 1):
-                self.subjects_at.setdefault(line, {}).update(subjects)
+                self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
 
     def _touched(self, pair: Pair) -> set[int]:
         """The changes in the lines that a claim takes its fact from."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.words import Words
 
 _LENGTHS = (8, 4, 2, 1)
-"""So many words in a row that occur once tell a place from all others; shorter ones are tried where longer ones lack."""
+"""So many words in a row tell a place if they occur once; shorter rows are tried where longer ones lack."""
 _SMALL = 60_000
 """A gap is compared word by word if it has at most so many pairs of words."""
 _MOVED = 3
@@ -30,7 +30,7 @@ Gap = tuple[int, int, int, int]
 
 
 class Matching:
-    """`there[i]` is the word of the new text that word i of the old one is, -1 if none; `back` is the same turned round.
+    """`there[i]` is the word of the new text that word i of the old one is, -1 if none; `back` is that turned round.
 
     `moved` holds the words of the old text that stand in another order in the new one.
     """
@@ -180,14 +180,12 @@ class Matching:
         """What was added or removed whole may begin at several words: at the first of a line, where that is one."""
         for first, last, start, end in list(self.gaps()):
             if first == last and start < end:
-                self._slide_one(self._b, self.new, start, end, self.back, self.there)
+                self._slide_one(self.new, start, end, self.back, self.there)
             elif first < last and start == end:
-                self._slide_one(self._a, self.old, first, last, self.there, self.back)
+                self._slide_one(self.old, first, last, self.there, self.back)
 
-    def _slide_one(  # noqa: PLR0913 - the same for both texts
-        self, words: list[int], text: Words, start: int, end: int, here: list[int], other: list[int]
-    ) -> None:
-        low, high = start, end
+    def _slide_one(self, text: Words, start: int, end: int, here: list[int], other: list[int]) -> None:
+        words, low, high = text.texts, start, end
         while low and here[low - 1] >= 0 and words[low - 1] == words[high - 1]:
             low, high = low - 1, high - 1
         steps = start - low

@@ -97,10 +97,10 @@ class _Walk:
             else:
                 self.mapping(value, shape, document)
         elif isinstance(value, Seq):
-            item_shape = next((kind.item for kind in shape.kinds if isinstance(kind, Items)), None)
-            for item in value if item_shape is not None else ():
-                if isinstance(item, Map):
-                    self.mapping(item, item_shape, document)
+            for item_shape in (kind.item for kind in shape.kinds if isinstance(kind, Items)):
+                for item in value:
+                    if isinstance(item, Map):
+                        self.mapping(item, item_shape, document)
 
     def _texts_of(self, value: Map, document: str) -> None:
         """A note in several languages; what is printed as facts names no lines."""

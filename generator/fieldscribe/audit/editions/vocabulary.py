@@ -10,10 +10,9 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.subject import Subject
 
 _WORD = re.compile(r"[^\W_]+|[%\u2030\u00b0\u03a9\u2126]")
-_SMALL_WORDS = frozenset(
-    "a an and are as at be by for from in is it of on or that the this to was with "
-    "als am an auf aus bei bis das dem den der des die ein eine einen einer ist im in mit oder sind und vom von wird "
-    "zu zum zur \u00fcber f\u00fcr".split()
+_SMALL_WORDS = re.compile(
+    "an?|and|are|as|at|be|by|for|from|in|is|it|of|on|or|that|the|this|to|was|with|als|am|auf|aus|bei|bis|das|de[mnrs]|die|"
+    "eine?[nr]?|ist|im|mit|oder|sind|und|vom|von|wird|zu[mr]?|\u00fcber|f\u00fcr"
 )
 """What says nothing by itself; `not`, `nicht` and `kein` do."""
 _OF_ACCESS = {
@@ -25,7 +24,7 @@ _OF_ACCESS = {
 
 def is_name(word: str) -> bool:
     """Whether a word or sign says something by itself."""
-    return bool(_WORD.fullmatch(word)) and word.casefold() not in _SMALL_WORDS
+    return bool(_WORD.fullmatch(word)) and _SMALL_WORDS.fullmatch(word.casefold()) is None
 
 
 class Vocabulary:
