@@ -55,6 +55,10 @@ class Claim:
     """The numbers of which one is printed beside `words`."""
     entry: tuple[int, int] | None = None
     """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
+    times: int = 1
+    """In how many notations the description says that it is printed, so that one of them is not enough."""
+    unit: str = ""
+    """What is printed behind the number, if it is printed so anywhere in the place."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
@@ -94,6 +98,9 @@ class Citing:
         between: frozenset[Fraction] = frozenset(),
         words: tuple[str, ...] = (),
         optional: bool = False,
+        times: int = 1,
+        unit: str = "",
+        entry: tuple[int, int] | None = None,
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -101,9 +108,21 @@ class Citing:
         wanted = frozenset(abs(number) for number in numbers)
         at_own_line = anchor and cited == self.own_line
         if cited and wanted:
-            place = place or self.place
             yield Claim(
-                self.subject, fact, shown, wanted, words, cited, place, at_own_line, between, self.about, optional
+                self.subject,
+                fact,
+                shown,
+                wanted,
+                words,
+                cited,
+                place or self.place,
+                at_own_line,
+                between,
+                self.about,
+                optional,
+                entry=entry,
+                times=times,
+                unit=unit,
             )
 
     def in_order(

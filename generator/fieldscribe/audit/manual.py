@@ -254,9 +254,10 @@ def _decimals(text: str) -> set[Fraction]:
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}
-    readings = {Fraction(int(part)) for part in parts}
     if len(parts) == 2:
-        readings.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
+        readings = {Fraction(int("".join(parts)), 10 ** len(parts[1]))}
+    else:
+        readings = {Fraction(int(part)) for part in parts}
     if all(len(part) == 3 for part in parts[1:]):
         readings.add(Fraction(int("".join(parts))))
     return readings
