@@ -53,6 +53,8 @@ class Claim:
     """Numbers that are printed one after the other, such as both ends of a range."""
     beside: frozenset[Fraction] = frozenset()
     """The numbers of which one is printed beside `words`."""
+    or_beside: frozenset[Fraction] = frozenset()
+    """Other numbers that all labels of a list may stand beside in place of those, such as the bit of a flag's value."""
     entry: tuple[int, int] | None = None
     """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
     times: int = 1
@@ -152,6 +154,7 @@ class Citing:
         kind: str = "",
         *,
         beside: Iterable[Fraction] = (),
+        or_beside: Iterable[Fraction] = (),
         entry: tuple[int, int] | None = None,
         place: Span,
     ) -> Iterator[Claim]:
@@ -170,6 +173,7 @@ class Citing:
                 place,
                 about=self.about,
                 beside=frozenset(numbers),
+                or_beside=frozenset(map(abs, or_beside)),
                 entry=entry,
             )
 

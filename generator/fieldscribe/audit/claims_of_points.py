@@ -229,7 +229,8 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
                     place=place,
                 )
         at_bit = () if named or (by_value and not alike) else beside
-        yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
+        if label not in values:
+            yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
             ends = ((Fraction(flag.low + flag.width - 1 + above),), (Fraction(flag.low + above),))
             yield from citing.in_order("flags", f"bits {ends[0][0]} and {ends[1][0]}", ends, place=place)
@@ -246,8 +247,9 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
                 )
         for part, (entry, words) in enumerate(zip(flag.values, values, strict=True)):
             at = (0 if alike else position, part)
-            numbers_of_value = (Fraction(entry.raw), *(() if alike else beside))  # beside its number, or beside the bit
-            yield from citing.label("flag values", words, kind, beside=numbers_of_value, entry=at, place=place)
+            bits = () if alike else beside
+            number = Fraction(entry.raw)
+            yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
             if not words:
                 shown = f"{flag.name} {entry.raw}"
                 yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)

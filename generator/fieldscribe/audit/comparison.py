@@ -206,7 +206,8 @@ class Comparison:
     def _check(self, claim: Claim) -> None:
         extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
-        if sum(stands) < claim.times and not claim.optional:
+        enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
+        if not enough and not claim.optional:
             self._misses(claim, extents)
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
@@ -306,12 +307,12 @@ class Comparison:
 
     def _has_bytes(self, digits: str, extent: Extent) -> bool:
         """Whether the bytes stand there in one piece, or each of them as a number of its own, in any notation."""
-        text = "".join(self.manual.line(line) for line in range(extent.first, extent.last + 1)).upper()
-        tokens = self._tokens(extent)
-        joined = "".join(text.split())
-        if digits in joined or (digits[:-4] in joined and "CRC" in joined):  # its checksum may be left out
-            self.used.update((token.line, token.column) for token in tokens)
+        passage = self.passage(extent)
+        pieces = list(passage.pieces_of_bytes(digits))
+        self._use(token for first, end in pieces for token in passage.overlapping(first, end))
+        if pieces:
             return True
+        tokens = passage.tokens
         wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
         hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
         self.used.update((token.line, token.column) for token in hits)

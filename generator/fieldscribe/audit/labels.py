@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from itertools import product
 from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
@@ -34,8 +35,9 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     A label may also stand apart from the list, before or behind all others.
     """
     best: list[Standing] = []
-    for after in (False, True):
-        candidates = {claim: list(_candidates(claim, passage, after=after)) for claim in claims}
+    numberings = (False, True) if any(claim.or_beside for claim in claims) else (False,)
+    for after, otherwise in product((False, True), numberings):
+        candidates = {claim: list(_candidates(claim, passage, after=after, otherwise=otherwise)) for claim in claims}
         for backwards in (False, True):
             ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
             chain = _weightiest_chain([candidates[claim] for claim in ordered])
@@ -65,16 +67,17 @@ def _rank(claim: Claim, *, backwards: bool) -> tuple[int, int]:
     return (-entry if backwards else entry, part)
 
 
-def _candidates(claim: Claim, passage: Passage, *, after: bool) -> Iterator[Standing]:
+def _candidates(claim: Claim, passage: Passage, *, after: bool, otherwise: bool) -> Iterator[Standing]:
+    wanted = claim.or_beside if otherwise and claim.or_beside else claim.beside
     if not claim.words:
         for token, start in zip(passage.tokens, passage.starts, strict=True):
             if token.readings & claim.numbers:
                 yield Standing(claim, start, (token,))
     for first, end in sorted({place for words in claim.words for place in passage.places(words)}):
         beside = passage.after(end) if after else passage.before(first)
-        if not claim.beside:
+        if not wanted:
             yield Standing(claim, first, tuple(passage.inside(first, end)))
-        elif beside is not None and beside.readings & claim.beside:
+        elif beside is not None and beside.readings & wanted:
             yield Standing(claim, first, (beside, *passage.inside(first, end)))
 
 

@@ -92,6 +92,17 @@ class Passage:
             start += len(text) + 1
         return Passage(self.manual, pieces)
 
+    def pieces_of_bytes(self, digits: str) -> Iterator[tuple[int, int]]:
+        """Where these digits stand in one piece, blanks aside; in place of a checksum may stand a word."""
+        for pattern in (digits, f"{digits[:-4]}(?=CRC)"):
+            spaced = r"\s*".join(re.findall(r"[0-9A-F]|\(.*\)", pattern))
+            for match in re.finditer(spaced, self.text, re.IGNORECASE):
+                yield match.span()
+
+    def overlapping(self, first: int, end: int) -> list[Token]:
+        """The numbers of which a part stands between two places."""
+        return self.tokens[bisect_right(self.ends, first) : bisect_left(self.starts, end)]
+
     def inside(self, first: int, end: int) -> list[Token]:
         """The numbers that stand in a part of the text."""
         return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
