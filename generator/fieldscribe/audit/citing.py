@@ -61,6 +61,10 @@ class Claim:
     """In how many notations the description says that it is printed, so that one of them is not enough."""
     unit: str = ""
     """What is printed behind the number, if it is printed so anywhere in the place."""
+    names: tuple[str, ...] = ()
+    """What the number belongs to, such as `Mux`: where the place prints such a name, the number stands behind it."""
+    first: bool = False
+    """Whether the number names its row: it stands in the first cell."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
@@ -103,6 +107,8 @@ class Citing:
         times: int = 1,
         unit: str = "",
         entry: tuple[int, int] | None = None,
+        names: tuple[str, ...] = (),
+        first: bool = False,
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -124,6 +130,8 @@ class Citing:
                 optional,
                 entry=entry,
                 times=times,
+                names=names,
+                first=first,
                 unit=unit,
             )
 

@@ -56,7 +56,7 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
             row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
             for number in numbers_in(key):
-                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
+                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends, first=True)
             for fact in ("max", "answers", "refusals"):
                 for number in numbers_in(entry.get(fact)):
                     yield from citing.numbers(fact, str(number), (number,), place=entry.span(fact))

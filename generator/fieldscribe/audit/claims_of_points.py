@@ -38,7 +38,7 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums, wordings)
     yield from _flags(citing, point, draft, wordings)
-    yield from _printed(citing, draft)
+    yield from _printed(citing, draft, wordings)
 
 
 def _titles_of(draft: Draft) -> Any:
@@ -286,7 +286,7 @@ def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
     return low, high
 
 
-def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
+def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
         kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
@@ -304,6 +304,7 @@ def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
             continue
         unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
         numbers = numbers_in(value)
+        names = (*(key, key.capitalize(), key.upper()), *wordings.code(key)) if kind == "address" else ()
         for number in dict.fromkeys(numbers):
             words = _joined(key, number) if kind == "address" else ()
             unsaid = key == "resolution" and number == 1  # "resolution: A" means one ampere: no 1 is printed
@@ -316,6 +317,7 @@ def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
                 optional=unsaid,
                 times=numbers.count(number),
                 unit=unit,
+                names=names,
                 place=place,
             )
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
+from collections import Counter
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -19,7 +21,6 @@ from fieldscribe.audit.wordings import Wordings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
-    from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.model import About
@@ -273,6 +274,10 @@ class Comparison:
         if claim.in_order:
             return self._stand_in_order(claim, passage)
         hits = passage.reading(claim.numbers)
+        if claim.names and (named := passage.behind_names(claim.names)):
+            hits = [token for token in hits if token in named]
+        if claim.first:
+            hits = [token for token in hits if token in passage.in_first_cell]
         if claim.unit:
             hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
         self._use(hits)
@@ -312,13 +317,13 @@ class Comparison:
         self._use(token for first, end in pieces for token in passage.overlapping(first, end))
         if pieces:
             return True
-        tokens = passage.tokens
-        wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
-        hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
-        self.used.update((token.line, token.column) for token in hits)
-        readings = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
-        return all(int(digits[at : at + 2], 16) in readings for at in range(0, len(digits), 2)) or all(
-            int(digits[at : at + 4], 16) in readings for at in range(0, len(digits), 4)
+        wholes = [int(digits[at : at + 2], 16) for at in range(0, len(digits), 2)]
+        words = [int(digits[at : at + 4], 16) for at in range(0, len(digits), 4)]
+        self._use(passage.reading(frozenset(map(Fraction, {*wholes, *words}))))
+        readings = Counter(reading for token in passage.tokens for reading in token.readings)
+        return any(
+            all(readings[Fraction(part)] >= times for part, times in Counter(parts).items())
+            for parts in (wholes, words)
         )
 
     def _nearest(self, claim: Claim, line: int) -> int | None:

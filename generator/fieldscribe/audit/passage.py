@@ -121,6 +121,19 @@ class Passage:
         """The numbers that can mean one of these."""
         return [token for token in self.tokens if token.readings & numbers]
 
+    def behind_names(self, names: tuple[str, ...]) -> list[Token]:
+        """The numbers that stand right behind one of these names, as in `Mux 3`."""
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[ ]*(?=[0-9])"
+        return [
+            token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
+        ]
+
+    @cached_property
+    def in_first_cell(self) -> list[Token]:
+        """The numbers in the first cell of a row; all where there are no cells."""
+        cells = re.match(r"\|?[^|\t\n]*(?=[|\t])", self.text)
+        return self.inside(0, cells.end()) if cells else self.tokens
+
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""
         at = next(end for other, end in zip(self.tokens, self.ends, strict=True) if other is token)
