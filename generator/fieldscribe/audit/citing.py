@@ -53,8 +53,18 @@ class Claim:
     """Numbers that are printed one after the other, such as both ends of a range."""
     beside: frozenset[Fraction] = frozenset()
     """The numbers of which one is printed beside `words`."""
+    or_beside: frozenset[Fraction] = frozenset()
+    """Other numbers that all labels of a list may stand beside in place of those, such as the bit of a flag's value."""
     entry: tuple[int, int] | None = None
     """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
+    times: int = 1
+    """In how many notations the description says that it is printed, so that one of them is not enough."""
+    unit: str = ""
+    """What is printed behind the number, if it is printed so anywhere in the place."""
+    names: tuple[str, ...] = ()
+    """What the number belongs to, such as `Mux`: where the place prints such a name, the number stands behind it."""
+    first: bool = False
+    """Whether the number names its row: it stands in the first cell."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
@@ -94,6 +104,11 @@ class Citing:
         between: frozenset[Fraction] = frozenset(),
         words: tuple[str, ...] = (),
         optional: bool = False,
+        times: int = 1,
+        unit: str = "",
+        entry: tuple[int, int] | None = None,
+        names: tuple[str, ...] = (),
+        first: bool = False,
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -101,9 +116,23 @@ class Citing:
         wanted = frozenset(abs(number) for number in numbers)
         at_own_line = anchor and cited == self.own_line
         if cited and wanted:
-            place = place or self.place
             yield Claim(
-                self.subject, fact, shown, wanted, words, cited, place, at_own_line, between, self.about, optional
+                self.subject,
+                fact,
+                shown,
+                wanted,
+                words,
+                cited,
+                place or self.place,
+                at_own_line,
+                between,
+                self.about,
+                optional,
+                entry=entry,
+                times=times,
+                names=names,
+                first=first,
+                unit=unit,
             )
 
     def in_order(
@@ -133,6 +162,7 @@ class Citing:
         kind: str = "",
         *,
         beside: Iterable[Fraction] = (),
+        or_beside: Iterable[Fraction] = (),
         entry: tuple[int, int] | None = None,
         place: Span,
     ) -> Iterator[Claim]:
@@ -151,6 +181,7 @@ class Citing:
                 place,
                 about=self.about,
                 beside=frozenset(numbers),
+                or_beside=frozenset(map(abs, or_beside)),
                 entry=entry,
             )
 

@@ -56,7 +56,7 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
             row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
             for number in numbers_in(key):
-                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
+                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends, first=True)
             for fact in ("max", "answers", "refusals"):
                 for number in numbers_in(entry.get(fact)):
                     yield from citing.numbers(fact, str(number), (number,), place=entry.span(fact))
@@ -75,8 +75,15 @@ def claims_of_frames(file: Map) -> Iterator[Claim]:
             yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, frame.span("bytes"))
             for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
                 yield from citing.numbers("place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True)
-        for number in numbers_in(frame.get("says")):  # beside the bytes, or not at all
+        said = numbers_in(frame.get("says"))
+        for number in dict.fromkeys(said):  # beside the bytes, or not at all
             printed_apart = "printed" in citing.lines_of_fact
             yield from citing.numbers(
-                "says", str(number), (number,), "printed", optional=not printed_apart, place=frame.span("says")
+                "says",
+                str(number),
+                (number,),
+                "printed",
+                optional=not printed_apart,
+                times=said.count(number),
+                place=frame.span("says"),
             )

@@ -38,12 +38,13 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums, wordings)
     yield from _flags(citing, point, draft, wordings)
-    yield from _printed(citing, draft)
+    yield from _printed(citing, draft, wordings)
 
 
 def _titles_of(draft: Draft) -> Any:
     """The title of the row; of a further set, whose row the manual prints too, with what tells it apart."""
-    return draft.get("title", draft.title)
+    made_of_the_first = {language: text for language, text in draft.title.items() if language != "en"}
+    return draft.get("title", made_of_the_first)
 
 
 def _access(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
@@ -215,22 +216,40 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             run = _ends_of_run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
             words = (*named, *_joined("bit", bit + above))
-            if not label or by_value or named:
+            if not label or named or (by_value and not alike):
+                in_list = (position, -1) if by_value and not named and bit == flag.low else None
                 yield from citing.numbers(
-                    "flags", f"bit {bit + above}", numbers, between=between, words=words, place=place
+                    "flag values" if in_list else "flags",
+                    f"bit {bit + above}",
+                    numbers,
+                    "flags",
+                    between=between,
+                    words=() if in_list else words,
+                    entry=in_list,
+                    place=place,
                 )
-        at_bit = () if by_value or named else beside
-        yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
+        at_bit = () if named or (by_value and not alike) else beside
+        if label not in values:
+            yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
             ends = ((Fraction(flag.low + flag.width - 1 + above),), (Fraction(flag.low + above),))
             yield from citing.in_order("flags", f"bits {ends[0][0]} and {ends[1][0]}", ends, place=place)
         for key in ("mask", "active"):
             for number in numbers_in(printed.get(key)):
-                yield from citing.numbers(f"printed {key}", str(number), (number,), "flags", place=place)
+                in_list = (position, 1) if at_bit and key == "mask" else None
+                yield from citing.numbers(
+                    "flags" if in_list else f"printed {key}",
+                    f"{key} {number}",
+                    (number,),
+                    "flags",
+                    entry=in_list,
+                    place=place,
+                )
         for part, (entry, words) in enumerate(zip(flag.values, values, strict=True)):
             at = (0 if alike else position, part)
-            numbers_of_value = (Fraction(entry.raw), *(() if alike else beside))  # beside its number, or beside the bit
-            yield from citing.label("flag values", words, kind, beside=numbers_of_value, entry=at, place=place)
+            bits = () if alike else beside
+            number = Fraction(entry.raw)
+            yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
             if not words:
                 shown = f"{flag.name} {entry.raw}"
                 yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
@@ -267,7 +286,7 @@ def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
     return low, high
 
 
-def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
+def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
         kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
@@ -283,11 +302,23 @@ def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
                 readings = [numbers_in(raw), numbers_in(number)]
                 yield from citing.in_order("printed pairs", f"{raw} = {number}", readings, kind, place=place)
             continue
-        for number in numbers_in(value):
+        unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
+        numbers = numbers_in(value)
+        names = (*(key, key.capitalize(), key.upper()), *wordings.code(key)) if kind == "address" else ()
+        for number in dict.fromkeys(numbers):
             words = _joined(key, number) if kind == "address" else ()
             unsaid = key == "resolution" and number == 1  # "resolution: A" means one ampere: no 1 is printed
             yield from citing.numbers(
-                f"printed {key}", str(number), (number,), kind, words=words, optional=unsaid, place=place
+                f"printed {key}",
+                str(number),
+                (number,),
+                kind,
+                words=words,
+                optional=unsaid,
+                times=numbers.count(number),
+                unit=unit,
+                names=names,
+                place=place,
             )
 
 

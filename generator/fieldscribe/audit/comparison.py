@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
+from collections import Counter
+from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.instead import instead, printed_access
-from fieldscribe.audit.labels import standing
-from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
+from fieldscribe.audit.labels import Standing, standing
+from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
 from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.placement import placement
@@ -17,8 +20,7 @@ from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 from fieldscribe.audit.wordings import Wordings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from fractions import Fraction
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.model import About
@@ -28,30 +30,46 @@ _SHORT = 100
 """Findings show at most so many characters of a line."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
+_PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
+"""Facts that a place may print anew behind the address of each of its subjects."""
+_NEARLY_ALL = 0.75
 _FAR = 400
 """A section number that is no heading is searched in at most so many lines above."""
 
 
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
-    manual = Manual(text, Wordings(subject.scope.header["documents"]).names)
-    claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
-    errata = list(printed_errata_of(subject))
-    outcome = Audit(device, manual_name, same_text, len(manual))
-    return Comparison(manual, claims, errata, looked_through_of(subject), outcome).run()
+    return Auditor(subject).audit(device, manual_name, text, same_text=same_text)
+
+
+class Asked:
+    """What is looked for in a text."""
+
+    def __init__(
+        self, claims: list[Claim], errata: list[PrintedErratum], looked_through: Mapping[int, frozenset[str]]
+    ) -> None:
+        self.claims, self.errata, self.looked_through = claims, errata, looked_through
+
+
+class Auditor(Asked):
+    """What a description takes from its manual, read once for any number of texts."""
+
+    def __init__(self, subject: Subject) -> None:
+        claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
+        super().__init__(claims, list(printed_errata_of(subject)), looked_through_of(subject))
+        self.names = Wordings(subject.scope.header["documents"]).names
+
+    def audit(self, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
+        """Everything that does not agree with a text."""
+        manual = Manual(text, self.names)
+        return Comparison(manual, self, Audit(device, manual_name, same_text, len(manual))).run()
 
 
 class Comparison:
     """The state of one audit: where cited lines stand now, and which numbers were used."""
 
-    def __init__(
-        self,
-        manual: Manual,
-        claims: list[Claim],
-        errata: list[PrintedErratum],
-        looked_through: Mapping[int, frozenset[str]],
-        outcome: Audit,
-    ) -> None:
+    def __init__(self, manual: Manual, asked: Asked, outcome: Audit) -> None:
+        claims, errata, looked_through = asked.claims, asked.errata, asked.looked_through
         self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
         self.used: set[tuple[int, int]] = set()
         self.taken: dict[About, list[PrintedErratum]] = {}
@@ -69,12 +87,14 @@ class Comparison:
         self.no_facts = {self._now(line): numbers for line, numbers in looked_through.items() if numbers}
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
+        self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
+        self._parted: dict[tuple[Extent, str], bool] = {}
 
     def run(self) -> Audit:
         """All findings."""
         labels: dict[tuple[str, str, tuple[tuple[int, int], ...]], list[Claim]] = {}
         for claim in self.claims:
-            if claim.entry is None:
+            if claim.entry is None and not claim.beside and claim.fact != "title":
                 self._check(claim)
             else:
                 labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
@@ -94,7 +114,8 @@ class Comparison:
         place = bisect_right(self.cited, line)
         return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
 
-    def _extent(self, first: int, last: int) -> Extent:
+    def extent(self, first: int, last: int) -> Extent:
+        """The lines that a citation means in this text."""
         key = (first, last)
         if key not in self._extents:
             start = self._now(first)
@@ -106,17 +127,18 @@ class Comparison:
             self._extents[key] = extent
         return self._extents[key]
 
-    def _passage(self, extent: Extent) -> Passage:
+    def passage(self, extent: Extent) -> Passage:
+        """Their text, with the cells that are merged from above."""
         if extent not in self._passages:
             lines = [(line, 0, self.manual.line(line)) for line in range(extent.first, extent.last + 1)]
             self._passages[extent] = Passage(self.manual, (*lines, *self.manual.merged_cells(extent.first)))
         return self._passages[extent]
 
     def _tokens(self, extent: Extent) -> list[Token]:
-        return self._passage(extent).tokens
+        return self.passage(extent).tokens
 
     def _text(self, extent: Extent) -> str:
-        return self._passage(extent).text
+        return self.passage(extent).text
 
     def _of_line(self, line: int) -> list[Token]:
         return self.manual.tokens[line - 1] if 1 <= line <= len(self.manual) else []
@@ -124,18 +146,68 @@ class Comparison:
     def _check_labels(self, claims: list[Claim]) -> None:
         """Labels of one list are looked for together: beside their numbers, in their order."""
         extents = self._cited_by(claims[0])
-        labels = [label for extent in extents for label in standing(claims, self._passage(extent))]
+        labels = [label for extent in extents for label in self._standing(claims, extent)]
         self._use(token for label in labels for token in label.tokens)
         stands = {label.claim for label in labels}
+        for extent in extents:  # a number of a list may stand beside each of its meanings
+            passage = self._own_passage(claims[0], extent)
+            self._use(token for claim in stands if not claim.words for token in passage.reading(claim.numbers))
         for claim in claims:
             if claim not in stands:
                 self._misses(claim, extents)
+
+    def _standing(self, claims: list[Claim], extent: Extent) -> list[Standing]:
+        """The labels that stand in a place, or in the claims' own part of it."""
+        return standing(claims, self._own_passage(claims[0], extent))
+
+    def _own_passage(self, claim: Claim, extent: Extent) -> Passage:
+        """A place, or the part of it behind the subject's own address where the manual prints such facts so."""
+        part = self._part(claim.subject, extent) if claim.fact in _PARTED else None
+        return part if part is not None and self._parts(extent, claim.fact) else self.passage(extent)
+
+    @cached_property
+    def _addresses(self) -> dict[Extent, dict[str, frozenset[Fraction]]]:
+        """Whose addresses are cited in each place."""
+        addresses: dict[Extent, dict[str, frozenset[Fraction]]] = {}
+        for claim in self.claims:
+            if claim.fact == "address" and claim.anchor:
+                for cited in claim.cited:
+                    addresses.setdefault(self.extent(*cited), {})[claim.subject] = claim.numbers
+        return addresses
+
+    @cached_property
+    def _claims_in(self) -> dict[tuple[Extent, str], list[Claim]]:
+        claims: dict[tuple[Extent, str], list[Claim]] = {}
+        for claim in self.claims:
+            for cited in claim.cited:
+                claims.setdefault((self.extent(*cited), claim.fact), []).append(claim)
+        return claims
+
+    def _part(self, subject: str, extent: Extent) -> Passage | None:
+        """What stands behind a subject's own address, up to the next one; None if the place has only one address."""
+        addresses = self._addresses.get(extent, {})
+        if subject not in addresses or len(set(addresses.values())) == 1:
+            return None
+        key = (extent, addresses[subject])
+        if key not in self._own_parts:
+            others = frozenset().union(*addresses.values())
+            self._own_parts[key] = self.passage(extent).part(addresses[subject], others)
+        return self._own_parts[key]
+
+    def _parts(self, extent: Extent, fact: str) -> bool:
+        """Whether the manual prints such a fact behind the address of each subject: for nearly all of them."""
+        key = (extent, fact)
+        if key not in self._parted:
+            parts = [(claim, self._part(claim.subject, extent)) for claim in self._claims_in[key] if not claim.optional]
+            stand = [part is not None and bool(standing([claim], part)) for claim, part in parts]
+            self._parted[key] = sum(stand) > _NEARLY_ALL * len(stand)
+        return self._parted[key]
 
     def _use(self, tokens: Iterable[Token]) -> None:
         self.used.update((token.line, token.column) for token in tokens)
 
     def _cited_by(self, claim: Claim) -> list[Extent]:
-        extents = [self._extent(*cited) for cited in claim.cited]
+        extents = [self.extent(*cited) for cited in claim.cited]
         for extent in extents:
             self.subjects.setdefault(extent, {}).setdefault(claim.subject, claim.where)
         return extents
@@ -143,7 +215,8 @@ class Comparison:
     def _check(self, claim: Claim) -> None:
         extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
-        if not any(stands) and not claim.optional:
+        enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
+        if not enough and not claim.optional:
             self._misses(claim, extents)
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
@@ -153,19 +226,18 @@ class Comparison:
 
     def _report_absent(self) -> None:
         """What does not stand where it is cited, with what stands there instead."""
-        unused = {
-            extent: [number for number in self.outcome.unused if number.line in extent] for extent in self.subjects
-        }
+        numbers = self.outcome.unused
+        unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
         for claim, extents in self.absent:
-            numbers = [number for extent in extents for number in unused[extent]]
-            printed = instead(claim, [self._passage(extent) for extent in extents], numbers)
-            told.update(number for number in numbers if number.number == printed)
+            there = [number for extent in extents for number in unused[extent]]
+            printed = instead(claim, [self.passage(extent) for extent in extents], there)
+            told.update(number for number in there if number.number == printed)
             first, last = extents[0].first, extents[0].last
             nearest = None if printed else self._nearest(claim, first)
             missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
             self.outcome.missing.append(missing)
-        self.outcome.unused = [number for number in self.outcome.unused if number not in told]
+        self.outcome.unused = [number for number in numbers if number not in told]
 
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
@@ -175,31 +247,50 @@ class Comparison:
                 return True
         return False
 
-    def _stands(self, claim: Claim, extent: Extent) -> bool:
-        if claim.fact == "access":
-            return self._access_agrees(claim, extent)
-        if claim.fact in ("title", "enum") and claim.words:
-            labels = standing([claim], self._passage(extent))
-            self._use(token for label in labels for token in label.tokens)
-            return bool(labels)
+    def _stands(self, claim: Claim, extent: Extent) -> int:
+        """How often a claim stands in one of the places that it cites."""
+        for facts, check in self._checks:
+            if claim.fact in facts:
+                return check(claim, extent)
         word_stands = [
             self._has(word, extent) for word in claim.words
         ]  # no short cut: each call marks the numbers used
-        if any(word_stands):
-            return True
-        if claim.fact == "section":
-            return self._lies_in(claim.words[0], extent.first)
-        if claim.fact == "bytes":
-            return self._has_bytes(claim.shown, extent)
+        return max(map(int, word_stands), default=0) or self._numbers_stand(claim, extent)
+
+    @cached_property
+    def _checks(self) -> tuple[tuple[tuple[str, ...], Callable[[Claim, Extent], int]], ...]:
+        """What is looked for in its own way."""
+        return (
+            (("access",), self._access_agrees),
+            (("bytes",), lambda claim, extent: self._has_bytes(claim.shown, extent)),
+            (("section",), lambda claim, extent: self._has(claim.words[0], extent) or self._lies_in(claim, extent)),
+            (("code",), self._code_stands),
+        )
+
+    def _code_stands(self, claim: Claim, extent: Extent) -> int:
+        """Whether a code stands in the place, and no other one names the row in its first cell."""
+        stands = [self._has(word, extent) for word in claim.words]
+        first_cell = self.manual.line(extent.first).split("|")[1:2]
+        form = re.sub(r"[0-9]", "[0-9]", re.escape(claim.words[0]))
+        named = re.findall(rf"(?<!\w){form}(?!\w)", first_cell[0]) if first_cell else []
+        return any(stands) and (not named or claim.words[0] in named)
+
+    def _numbers_stand(self, claim: Claim, extent: Extent) -> int:
         if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
             extent = Extent(extent.first, extent.first, "row")  # the rows below belong to the point's other words
-        passage = self._passage(extent)
+        passage = self._own_passage(claim, extent)
         if claim.in_order:
             return self._stand_in_order(claim, passage)
         hits = passage.reading(claim.numbers)
+        if claim.names and (named := passage.behind_names(claim.names)):
+            hits = [token for token in hits if token in named]
+        if claim.first:
+            hits = [token for token in hits if token in passage.in_first_cell]
+        if claim.unit:
+            hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
         self._use(hits)
         if hits or not claim.between:
-            return bool(hits)
+            return len(hits)
         readings = {reading for token in passage.tokens for reading in token.readings}
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
 
@@ -229,18 +320,18 @@ class Comparison:
 
     def _has_bytes(self, digits: str, extent: Extent) -> bool:
         """Whether the bytes stand there in one piece, or each of them as a number of its own, in any notation."""
-        text = "".join(self.manual.line(line) for line in range(extent.first, extent.last + 1)).upper()
-        tokens = self._tokens(extent)
-        joined = "".join(text.split())
-        if digits in joined or (digits[:-4] in joined and "CRC" in joined):  # its checksum may be left out
-            self.used.update((token.line, token.column) for token in tokens)
+        passage = self.passage(extent)
+        pieces = list(passage.pieces_of_bytes(digits))
+        self._use(token for first, end in pieces for token in passage.overlapping(first, end))
+        if pieces:
             return True
-        wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
-        hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
-        self.used.update((token.line, token.column) for token in hits)
-        readings = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
-        return all(int(digits[at : at + 2], 16) in readings for at in range(0, len(digits), 2)) or all(
-            int(digits[at : at + 4], 16) in readings for at in range(0, len(digits), 4)
+        wholes = [int(digits[at : at + 2], 16) for at in range(0, len(digits), 2)]
+        words = [int(digits[at : at + 4], 16) for at in range(0, len(digits), 4)]
+        self._use(passage.reading(frozenset(map(Fraction, {*wholes, *words}))))
+        readings = Counter(reading for token in passage.tokens for reading in token.readings)
+        return any(
+            all(readings[Fraction(part)] >= times for part, times in Counter(parts).items())
+            for parts in (wholes, words)
         )
 
     def _nearest(self, claim: Claim, line: int) -> int | None:
@@ -255,7 +346,7 @@ class Comparison:
         if not erratum.numbers and not erratum.texts:
             self.outcome.uncheckable += 1
             return
-        cited = [self._extent(*lines) for lines in erratum.cited]
+        cited = [self.extent(*lines) for lines in erratum.cited]
         extents = self._spoken_of(erratum)
         absent = False
         for number in map(abs, erratum.numbers):
@@ -271,7 +362,7 @@ class Comparison:
 
     def _spoken_of(self, erratum: PrintedErratum) -> list[Extent]:
         """The lines that an erratum cites. A sentence may speak of the whole section; only numbers there are used."""
-        cited = [self._extent(*lines) for lines in erratum.cited]
+        cited = [self.extent(*lines) for lines in erratum.cited]
         if not erratum.is_sentence:
             return cited
         sections = [self.manual.section_of(extent.first) for extent in cited]
@@ -281,9 +372,8 @@ class Comparison:
         ]
 
     def _in_a_name(self, number: Fraction, extent: Extent) -> bool:
-        """Whether a number stands in an extent at least as part of a name."""
-        lines = range(extent.first, extent.last + 1)
-        return any(number in token.readings for line in lines for token in tokens_of(self.manual.line(line), line))
+        """Whether a number stands in an extent at least as part of a name or of another number."""
+        return has_word(self._text(extent), str(number))
 
     def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
         """The tokens of an extent that can mean a number."""
@@ -298,8 +388,9 @@ class Comparison:
         printed = " ".join(" ".join(self._text(extent) for extent in extents).split())
         return any(" ".join(text.split()) not in printed for text in texts)
 
-    def _lies_in(self, section: str, line: int) -> bool:
+    def _lies_in(self, claim: Claim, extent: Extent) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""
+        section, line = claim.words[0], extent.first
         start = self.manual.numbered.get(section)
         if start is None:
             return any(has_word(self.manual.line(above), section) for above in range(max(1, line - _FAR), line))
@@ -319,7 +410,7 @@ class Comparison:
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
-        cited = [self._extent(first, last or first) for erratum in self.errata for first, last in erratum.cited]
+        cited = [self.extent(first, last or first) for erratum in self.errata for first, last in erratum.cited]
         covered |= {line for extent in cited for line in range(extent.first, extent.last + 1)}
         covered |= self.empty
         manual = self.manual

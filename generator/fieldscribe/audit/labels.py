@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from itertools import product
 from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
@@ -13,6 +14,10 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Token
     from fieldscribe.audit.passage import Passage
+
+
+_LABEL = 1000
+"""A label weighs more than all numbers without one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,16 +35,21 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     A label may also stand apart from the list, before or behind all others.
     """
     best: list[Standing] = []
-    for after in (False, True):
-        candidates = {claim: list(_candidates(claim, passage, after=after)) for claim in claims}
+    numberings = (False, True) if any(claim.or_beside for claim in claims) else (False,)
+    for after, otherwise in product((False, True), numberings):
+        candidates = {claim: list(_candidates(claim, passage, after=after, otherwise=otherwise)) for claim in claims}
         for backwards in (False, True):
             ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
-            chain = _longest_chain([candidates[claim] for claim in ordered])
+            chain = _weightiest_chain([candidates[claim] for claim in ordered])
             chain += _apart(chain, [candidates[claim] for claim in claims])
-            best = max(best, chain, key=len)
+            best = max(best, chain, key=_weight)
             if len(best) == len(claims):
                 return best
     return best
+
+
+def _weight(chain: Sequence[Standing]) -> int:
+    return sum(_LABEL if label.claim.words else 1 for label in chain)
 
 
 def _apart(chain: Sequence[Standing], rows: Iterable[Sequence[Standing]]) -> list[Standing]:
@@ -57,32 +67,52 @@ def _rank(claim: Claim, *, backwards: bool) -> tuple[int, int]:
     return (-entry if backwards else entry, part)
 
 
-def _candidates(claim: Claim, passage: Passage, *, after: bool) -> Iterator[Standing]:
+def _candidates(claim: Claim, passage: Passage, *, after: bool, otherwise: bool) -> Iterator[Standing]:
+    wanted = claim.or_beside if otherwise and claim.or_beside else claim.beside
+    if not claim.words:
+        for token, start in zip(passage.tokens, passage.starts, strict=True):
+            if token.readings & claim.numbers:
+                yield Standing(claim, start, (token,))
     for first, end in sorted({place for words in claim.words for place in passage.places(words)}):
         beside = passage.after(end) if after else passage.before(first)
-        if not claim.beside:
+        if not wanted:
             yield Standing(claim, first, tuple(passage.inside(first, end)))
-        elif beside is not None and beside.readings & claim.beside:
+        elif beside is not None and beside.readings & wanted:
             yield Standing(claim, first, (beside, *passage.inside(first, end)))
 
 
-def _longest_chain(rows: Iterable[Sequence[Standing]]) -> list[Standing]:
-    """At most one of each row, at rising places, as many as there can be."""
-    ends: list[int] = []
-    last: list[int] = []
+def _weightiest_chain(rows: Sequence[Sequence[Standing]]) -> list[Standing]:
+    """At most one of each row, at rising places: as many labels as there can be, and as many numbers beside."""
+    places = sorted({label.place for row in rows for label in row})
+    best: list[tuple[int, int]] = [(0, -1)] * (len(places) + 1)  # a tree: the best chain that ends before each place
     links: list[tuple[Standing, int]] = []
     for row in rows:
-        for label in reversed(row):  # the farthest first, so that one row never follows itself
-            at = bisect_left(ends, label.place)
-            links.append((label, last[at - 1] if at else -1))
-            if at == len(ends):
-                ends.append(label.place)
-                last.append(len(links) - 1)
-            else:
-                ends[at], last[at] = label.place, len(links) - 1
+        ends = []
+        for label in row:
+            rank = bisect_left(places, label.place)
+            weight, before = _best_before(best, rank)
+            links.append((label, before))
+            ends.append((rank, weight + (_LABEL if label.claim.words else 1), len(links) - 1))
+        for rank, weight, link in ends:  # at once, so that one row never follows itself
+            _add(best, rank, (weight, link))
     chain: list[Standing] = []
-    link = last[-1] if last else -1
+    _, link = _best_before(best, len(places))
     while link >= 0:
         label, link = links[link]
         chain.append(label)
     return chain[::-1]
+
+
+def _best_before(best: list[tuple[int, int]], rank: int) -> tuple[int, int]:
+    result = best[0]
+    while rank > 0:
+        result = max(result, best[rank])
+        rank -= rank & -rank
+    return result
+
+
+def _add(best: list[tuple[int, int]], rank: int, end: tuple[int, int]) -> None:
+    rank += 1
+    while rank < len(best):
+        best[rank] = max(best[rank], end)
+        rank += rank & -rank

@@ -238,7 +238,7 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
     if spaced := match["spaced"]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:
-        amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
+        amount = {Fraction(int(bare[:-1]))} if re.fullmatch("[1-9][0-9]*A", bare) else set()
         return {Fraction(int(bare, 16)), *amount}  # "10A" may be ten ampere
     text = match["decimal"]
     readings = set(_decimals(text))
@@ -254,9 +254,10 @@ def _decimals(text: str) -> set[Fraction]:
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}
-    readings = {Fraction(int(part)) for part in parts}
     if len(parts) == 2:
-        readings.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
+        readings = {Fraction(int("".join(parts)), 10 ** len(parts[1]))}
+    else:
+        readings = {Fraction(int(part)) for part in parts}
     if all(len(part) == 3 for part in parts[1:]):
         readings.add(Fraction(int("".join(parts))))
     return readings

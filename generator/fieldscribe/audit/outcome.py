@@ -11,7 +11,7 @@ from fieldscribe.records import dataclass, field, values_of
 class Missing:
     """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does.
 
-    `place` is where the description says it: file:line:column. `printed` is what stands there instead, if that is known.
+    `place` is where the description says it: file:line:column. `printed` is what stands there instead, if known.
     """
 
     subject: str

@@ -25,12 +25,14 @@ class Passage:
     """Pieces of text, each with the line and column (from 0) where it begins."""
 
     def __init__(self, manual: Manual, pieces: Iterable[tuple[int, int, str]]) -> None:
+        self.manual = manual
         self.tokens: list[Token] = []
         self.starts: list[int] = []
         self.ends: list[int] = []
+        self.pieces = list(pieces)
         texts: list[str] = []
         length = 0
-        for line, column, text in pieces:
+        for line, column, text in self.pieces:
             for token in manual.tokens_in(text, line, column):
                 self.tokens.append(token)
                 self.starts.append(length + token.column - 1 - column)
@@ -72,6 +74,35 @@ class Passage:
         char, after = self.text[place], self.text[place + 1 : place + 2]
         return not after.isalnum() or (char.isalpha() and (after.isdigit() or after.isupper()))
 
+    def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
+        """What stands behind each number of one's own, up to the next number of others."""
+        cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
+        spans = [
+            (self.starts[at], self.starts[following] if following is not None else len(self.text))
+            for at, following in zip(cuts, (*cuts[1:], None), strict=False)
+            if self.tokens[at].readings & own
+        ]
+        pieces = []
+        start = 0
+        for line, column, text in self.pieces:
+            for first, end in spans:
+                inside = text[max(0, first - start) : max(0, end - start)]
+                if inside:
+                    pieces.append((line, column + max(0, first - start), inside))
+            start += len(text) + 1
+        return Passage(self.manual, pieces)
+
+    def pieces_of_bytes(self, digits: str) -> Iterator[tuple[int, int]]:
+        """Where these digits stand in one piece, blanks aside; in place of a checksum may stand a word."""
+        for pattern in (digits, f"{digits[:-4]}(?=CRC)"):
+            spaced = r"\s*".join(re.findall(r"[0-9A-F]|\(.*\)", pattern))
+            for match in re.finditer(spaced, self.text, re.IGNORECASE):
+                yield match.span()
+
+    def overlapping(self, first: int, end: int) -> list[Token]:
+        """The numbers of which a part stands between two places."""
+        return self.tokens[bisect_right(self.ends, first) : bisect_left(self.starts, end)]
+
     def inside(self, first: int, end: int) -> list[Token]:
         """The numbers that stand in a part of the text."""
         return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
@@ -89,6 +120,24 @@ class Passage:
     def reading(self, numbers: frozenset[Fraction]) -> list[Token]:
         """The numbers that can mean one of these."""
         return [token for token in self.tokens if token.readings & numbers]
+
+    def behind_names(self, names: tuple[str, ...]) -> list[Token]:
+        """The numbers that stand right behind one of these names, as in `Mux 3`."""
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[ ]*(?=[0-9])"
+        return [
+            token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
+        ]
+
+    @cached_property
+    def in_first_cell(self) -> list[Token]:
+        """The numbers in the first cell of a row; all where there are no cells."""
+        cells = re.match(r"\|?[^|\t\n]*(?=[|\t])", self.text)
+        return self.inside(0, cells.end()) if cells else self.tokens
+
+    def is_followed_by(self, token: Token, words: str) -> bool:
+        """Whether words stand right behind a number, such as its unit."""
+        at = next(end for other, end in zip(self.tokens, self.ends, strict=True) if other is token)
+        return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
         """Each run of numbers that follow each other as these do, with no other number between them."""

@@ -63,13 +63,16 @@ def placement(
     """Where each line stands now that a claim cites, or an erratum (`numbers`: what it says is printed there)."""
     lines = sorted({*cited, *numbers})
     anchors = [_anchors(manual, line, claims.get(line, ()), numbers.get(line, ())) for line in lines]
+    search = _Search(manual, lines, _lengths(lines, cited), anchors)
+    if search.cost_of_staying < _CHANGE:  # nothing can be cheaper: each other way has a change in it
+        return {line: line for line in lines}
     own_shifts = [_candidates(line, anchors_of_line) for line, anchors_of_line in zip(lines, anchors, strict=True)]
     common = [
         shift
         for shift, _ in Counter(shift for shifts_of_line in own_shifts for shift in shifts_of_line).most_common(_COMMON)
     ]
     states = [dict.fromkeys((0, *common, *shifts_of_line)) for shifts_of_line in own_shifts]
-    shifts = _Search(manual, lines, _lengths(lines, cited), anchors).cheapest(states)
+    shifts = search.cheapest(states)
     return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
 
 
@@ -80,7 +83,8 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    anchors = [_anchor(manual, claim, line) for claim in claims]
+    told = (claim for claim in claims if claim.anchor or not claim.words)  # titles and labels stand in many places
+    anchors = [_anchor(manual, claim, line) for claim in told]
     anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
     return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
@@ -121,6 +125,11 @@ class _Search:
     def __init__(self, manual: Manual, cited: Sequence[int], lengths: list[int], anchors: list[list[_Anchor]]) -> None:
         self.manual, self.cited, self.lengths, self.anchors = manual, cited, lengths, anchors
         self.headings = frozenset(manual.headings)
+
+    @property
+    def cost_of_staying(self) -> float:
+        """What it costs if no line moved."""
+        return sum(self._cost(index, 0) for index in range(len(self.cited)))
 
     def cheapest(self, states: list[dict[int, None]]) -> list[int]:
         """One shift for each cited line, of those that are tried for it."""

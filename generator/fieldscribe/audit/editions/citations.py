@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
 from fieldscribe.audit.claims import claims_of
+from fieldscribe.audit.comparison import Asked
 from fieldscribe.audit.editions.tracing import Trace
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 from fieldscribe.records import dataclass, replace
@@ -54,7 +55,7 @@ class Cited:
         numbers: dict[int, frozenset[str]] = {}
         for passage in self.looked_through:
             numbers.update((line, numbers.get(line, frozenset()) | passage.numbers) for line in passage.lines)
-        return Trace(text, manual, claims, errata, numbers)
+        return Trace(text, manual, Asked(claims, errata, numbers))
 
 
 class Citations:

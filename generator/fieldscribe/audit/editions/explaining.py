@@ -41,19 +41,29 @@ class Explaining:
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
         self.headings = frozenset(new.manual.headings)
         self.place_of: dict[str, str] = {}
+        self.failing_at: dict[int, list[Pair]] = {}
         self.elsewhere: list[Pair] = []
         for pair in pairs:
             self.place_of.setdefault(pair.claim.subject, pair.claim.where)
             touched = self._touched(pair)
             for number in touched:
                 self.pairs_of.setdefault(number, []).append(pair)
-            failed_before = pair.old is not None and pair.old in self.old.missed
-            if not touched and not failed_before and self.fails(pair):
-                self.elsewhere.append(pair)
+            if self.fails(pair):
+                self._note_failing(pair, touched)
         self.subjects_at: dict[int, dict[str, None]] = {}
         for extent, subjects in new.subjects.items():
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
+
+    def _note_failing(self, pair: Pair, touched: set[int]) -> None:
+        """A claim that does not hold belongs to the change of its words, else to all that touch its lines."""
+        gone = {word for word in _borne(self.old, pair.old) if self.editions.is_gone(word)}
+        own = {number for number in touched for old, _ in self.editions.changes[number].gaps if gone.intersection(old)}
+        for number in own or touched:
+            self.failing_at.setdefault(number, []).append(pair)
+        failed_before = pair.old is not None and pair.old in self.old.missed
+        if not touched and not failed_before:
+            self.elsewhere.append(pair)
 
     def _touched(self, pair: Pair) -> set[int]:
         """The changes in the lines that a claim takes its fact from."""
@@ -97,9 +107,7 @@ class Explaining:
 
     def reasons(self, number: int, change: Change) -> Iterator[Reason]:
         """Everything that keeps a change from being explained."""
-        for pair in self.pairs_of.get(number, ()):
-            if self.fails(pair):
-                yield failing(pair.claim)
+        yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
         yield from self._weakened(number, change)
         for lines in change.new:
             if lines not in self.new.empty:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.comparison import Comparison
+from fieldscribe.audit.comparison import Asked, Comparison
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.manual import places_in
 from fieldscribe.audit.outcome import Audit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
@@ -25,15 +25,8 @@ class Trace(Comparison):
     its own words); `void` are the errata that are not printed.
     """
 
-    def __init__(
-        self,
-        text: Words,
-        manual: Manual,
-        claims: list[Claim],
-        errata: list[PrintedErratum],
-        looked_through: Mapping[int, frozenset[str]],
-    ) -> None:
-        super().__init__(manual, claims, errata, looked_through, Audit("", "", True, len(manual)))
+    def __init__(self, text: Words, manual: Manual, asked: Asked) -> None:
+        super().__init__(manual, asked, Audit("", "", True, len(manual)))
         self.text = text
         self.borne: dict[Claim, set[int]] = {}
         self.named: dict[Claim, set[int]] = {}
@@ -44,7 +37,7 @@ class Trace(Comparison):
 
     def extents_of(self, cited: Iterable[tuple[int, int]]) -> list[Extent]:
         """The lines that these citations mean."""
-        return [self._extent(first, last) for first, last in cited]
+        return [self.extent(first, last) for first, last in cited]
 
     def words_of_number(self, number: Fraction, erratum: PrintedErratum) -> Iterator[range]:
         """The words of each number that an erratum may mean."""
