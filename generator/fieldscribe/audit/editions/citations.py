@@ -118,13 +118,20 @@ class Citations:
         )
 
     def is_of_new(self, passage: LookedThrough) -> bool:
-        """Whether lines that were looked through are counted as in the new edition: just those that changed."""
+        """Whether lines that were looked through are counted as in the new edition.
+
+        They are if all of them are new, and if in the old edition facts or other passages cite all of them.
+        """
         if self.all_count_new:
             return True
         editions = self.editions
         news = {line for line in passage.lines if editions.new.of_line(line)}
         olds = {line for line in passage.lines if editions.old.of_line(line)}
-        return bool(news) and news <= editions.changed_new and not olds <= editions.changed_old
+        if not news or not news <= editions.changed_new:
+            return False
+        others = (other.lines for other in self.looked_through if other is not passage)
+        cited = {first for claim in self.claims for first, _ in claim.cited}
+        return olds <= cited.union(*others)
 
     def counts_new_at(self, place: Span, first: int, last: int) -> bool:
         """Whether lines that are cited at a place in the files are those of the new edition.

@@ -110,7 +110,7 @@ class Drafts:
         address = self._address(row, model)
         if address is None:
             return []
-        title = self._cell(row, model, "title")
+        title = self._cell(row, model, "title") or self._words(row, model)
         facts = [f"code: {_quoted(code)}"] if (code := self._cell(row, model, "code")) else []
         facts.append(f"name: {_name_of(title or code or f'point_{address}')}")
         if title:
@@ -125,8 +125,20 @@ class Drafts:
         return [f"{'-' if number == 0 else ' '} {fact}" for number, fact in enumerate(facts)]
 
     def _cell(self, row: Row, model: Model, fact: str) -> str:
-        cell = model.cell_of.get(fact)
+        cell = self._cell_of(model, fact)
         return "" if cell is None else row.cells[cell]
+
+    def _words(self, row: Row, model: Model) -> str:
+        """The longest cell of words alone: no other says what the row is about."""
+        taken = self._cell(row, model, "code")
+        cells = [text for text, tokens in zip(row.cells, row.tokens, strict=True) if not tokens and text != taken]
+        return max((text for text in cells if text.casefold() not in _ACCESS), key=len, default="")
+
+    def _cell_of(self, model: Model, fact: str) -> int | None:
+        """The cell of a fact in the model, or else in the nearest row that has it and as many cells."""
+        alike = [other for other in self.models.values() if len(other.row.cells) == len(model.row.cells)]
+        nearest = sorted(alike, key=lambda other: abs(other.row.line - model.row.line))
+        return next((other.cell_of[fact] for other in nearest if fact in other.cell_of), None)
 
     def _address(self, row: Row, model: Model) -> str | None:
         """The address: the same number of the row, less what the neighbour's differs from its address."""
@@ -157,7 +169,7 @@ class Drafts:
 
     def _range(self, row: Row, model: Model) -> list[str]:
         for key, fact in (("range", "range"), ("range_in_units", "printed range_in_units"), ("range", "printed range")):
-            cell = model.cell_of.get(fact)
+            cell = self._cell_of(model, fact)
             numbers = [] if cell is None else [token.text.replace(",", ".") for token in row.tokens[cell]]
             if len(numbers) == 2:
                 return [f"{key}: {numbers[0]}..{numbers[1]}"]
@@ -168,7 +180,7 @@ class Drafts:
     def _unit(self, row: Row, model: Model) -> list[str]:
         """The step and the unit, from the cell where the neighbour has them."""
         unit = str(model.resolved.draft.get("unit", ""))
-        cells = [model.cell_of.get("scale"), model.cell_of.get("printed resolution")]
+        cells = [self._cell_of(model, fact) for fact in ("scale", "printed resolution")]
         cells += [
             cell for cell, text in enumerate(model.row.cells) if unit and re.search(rf"(?<!\w){re.escape(unit)}", text)
         ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.editions.findings import Cite, Reason
 from fieldscribe.audit.editions.vocabulary import is_name
+from fieldscribe.audit.editions.words import Words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -76,7 +77,7 @@ class Explaining:
 
     def fails(self, pair: Pair) -> bool:
         """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
-        if pair.claim.fact == "access" and self._lost_access(pair):
+        if self._lost_access(pair) or self._is_parted(pair):
             return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
             return False
@@ -89,8 +90,18 @@ class Explaining:
 
     def _lost_access(self, pair: Pair) -> bool:
         """Whether a row that printed an access does not print it any more."""
+        if pair.claim.fact != "access":
+            return False
         was = self.old.named.get(pair.old, ()) if pair.old else ()
         return any(map(self.editions.is_gone, was)) and not (pair.new and self.new.named.get(pair.new))
+
+    def _is_parted(self, pair: Pair) -> bool:
+        """Whether a label that stood right beside its number does not any more."""
+        if not pair.claim.beside or pair.old is None or pair.new is None:
+            return False
+        if not any(map(self.editions.is_gone, self.old.borne[pair.old])):
+            return False
+        return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
         """What cites a changed line: the facts that stood on its words, else the subjects."""
@@ -221,7 +232,7 @@ class Explaining:
         stands = {news.texts[word] for line in change.new for word in news.of_line(line)}
         for subject in dict.fromkeys(pair.claim.subject for pair in self.pairs_of.get(number, ())):
             unit, place = self.words.unit_of(subject)
-            if unit in gone - stands:
+            if gone.intersection(set(Words(unit).texts) - stands):
                 yield Reason(f"{subject}: unit {unit} is not there", place)
 
 

@@ -54,6 +54,19 @@ class Trace(Comparison):
                 if self.text.texts[start] == wanted[0] and self.text.texts[start : start + len(wanted)] == wanted:
                     yield range(start, start + len(wanted))
 
+    def sides_of(self, claim: Claim) -> set[int]:
+        """On which sides of its label a number stands with nothing but signs between: before (-1), behind (1)."""
+        numbers = self.borne[claim] - self.named[claim]
+        sides = set()
+        for word in self.named[claim]:
+            for side in (-1, 1):
+                place = word + side
+                while 0 <= place < len(self.text) and not self.text.texts[place].isalnum():
+                    place += side
+                if place in numbers:
+                    sides.add(side)
+        return sides
+
     def is_used(self, token: Token) -> bool:
         """Whether a number is a fact of what cites its line, or a code."""
         return token.text in self.codes or (token.line, token.column) in self._used_by_facts
