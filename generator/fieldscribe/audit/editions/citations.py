@@ -75,10 +75,23 @@ class Citations:
         if self.is_unmoved:
             return
         in_old, in_new = self._misses(old, self.editions.old), self._misses(new, self.editions.new)
-        self.all_count_new = accepted or in_new.total() < in_old.total()
-        for name in {*(claim.subject for claim in self.claims), *(erratum.id for erratum in self.errata)}:
-            if in_new[name] < in_old[name] or (in_new[name] == in_old[name] and self.all_count_new):
-                self.counts_new.add(name)
+        lines = self._lines_of_subjects()
+        fit_new = {name for name in lines if in_new[name] < in_old[name]}
+        fit_old = {name for name in lines if in_old[name] < in_new[name]}
+        now, then = self.editions.now, self.editions.then
+        renumbered = sum(any(then(line) is not None for line in lines[name]) for name in fit_new)
+        left = sum(any(now(line) != (line, line) for line in lines[name]) for name in fit_old)
+        self.all_count_new = accepted or renumbered > left
+        self.counts_new = set(lines) if self.all_count_new else fit_new
+
+    def _lines_of_subjects(self) -> dict[str, set[int]]:
+        """The lines that each subject and each erratum cites first."""
+        lines: dict[str, set[int]] = {}
+        for claim in self.claims:
+            lines.setdefault(claim.subject, set()).update(first for first, _ in claim.cited)
+        for erratum in self.errata:
+            lines.setdefault(erratum.id, set()).update(first for first, _ in erratum.cited)
+        return lines
 
     @property
     def is_unmoved(self) -> bool:
