@@ -16,6 +16,8 @@ HELP = "hold everything that a description cites against the text of its manual"
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new_edition.txt --report html > audit.html
+  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt
+  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt --renumber --accept
 
 ends with 1 when a cited fact is not where it is cited; unused numbers and uncited rows are reported only"""
 

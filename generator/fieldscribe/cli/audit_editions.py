@@ -27,7 +27,7 @@ def run(arguments: Namespace) -> int:
     refused = _refusal(outcome, citations, subject, document) if arguments.accept else None
     if arguments.accept and refused is None:
         written.append(_accept(subject, document, _sha256(arguments)))
-    _report(outcome, written, refused, arguments.format)
+    _report(arguments, outcome, written, refused)
     return FINE if outcome.explained and refused is None else FINDINGS
 
 
@@ -98,16 +98,17 @@ def _accept(subject: Subject, document: Document, digest: str) -> str:
     return f"accepted: {source.name}:{said.span('sha256').line} records the new edition"
 
 
-def _report(outcome: Comparison, written: list[str], refused: str | None, form: str) -> None:
-    from fieldscribe.audit.editions.report import as_lines
+def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
+    from fieldscribe.audit.editions.report import as_lines, figures
     from fieldscribe.cli.common import print_json
     from fieldscribe.cli.terminal import print_lines
     from fieldscribe.report import visible
 
-    if form == "json":
+    if arguments.format == "json":
         print_json({**outcome.as_data(), "written": written, "refused": refused})
         return
-    print_lines(as_lines(outcome))
+    taken_over = written and refused is None and outcome.explained
+    print_lines(figures(outcome) if taken_over else as_lines(outcome, everything=arguments.all))
     print_lines([[("", visible(line))] for note in written for line in note.splitlines()])
     if refused is not None:
         print_lines([[("error", "not accepted"), ("", visible(f": {refused}"))]])

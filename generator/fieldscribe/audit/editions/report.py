@@ -16,23 +16,25 @@ _MOST_CITES, _MOST_LINES = 6, 4
 """A finding shows at most so many facts that cite it, and lines of each edition."""
 
 
-def as_lines(outcome: Comparison) -> Iterator[Line]:
-    """All changed lines in the order of the new edition, then the figures."""
+def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
+    """All changed lines in the order of the new edition, then the figures; `everything` tells all of explained ones."""
     for finding in outcome.findings:
-        yield from _of_finding(finding)
+        yield from _of_finding(finding, whole=everything or not finding.explained)
     for reason in outcome.elsewhere:
         yield [*_placed(reason.place), ("error", "missing"), ("", visible(f": {reason.text}"))]
     for void in outcome.void:
         said = "the manual now prints what was taken: it can go" if void.can_go else "it is no longer printed so"
         yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: line {void.line}: {said}"))]
-    yield from _figures(outcome)
+    yield from figures(outcome)
 
 
-def _of_finding(finding: Finding) -> Iterator[Line]:
+def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
     places = [cite.place for cite in finding.cited_by if cite.place]
     severity = "hint" if finding.explained else "error"
     explained = " (explained)" if finding.explained else ""
     yield [*_placed(next(iter(places), "")), (severity, finding.kind), ("", visible(f": {_head(finding)}{explained}"))]
+    if not whole:
+        return
     if finding.kind != "moved":
         yield from _shown("-", finding.was)
         yield from _shown("+", finding.now)
@@ -51,6 +53,8 @@ def _of_finding(finding: Finding) -> Iterator[Line]:
 
 def _head(finding: Finding) -> str:
     words = ", ".join(f"`{old}` -> `{new}`" for old, new in finding.words) if finding.kind == "changed" else ""
+    if finding.explained and finding.kind in ("added", "removed"):
+        words = f"`{(finding.now or finding.was)[0]}`"
     subjects = ", ".join(dict.fromkeys(cite.subject for cite in finding.cited_by[:3]))
     return ": ".join(filter(None, (_where(finding), subjects, words)))
 
@@ -87,7 +91,8 @@ def _placed(place: str) -> Line:
     return [("", f"{visible(place)}: ")] if place else []
 
 
-def _figures(outcome: Comparison) -> Iterator[Line]:
+def figures(outcome: Comparison) -> Iterator[Line]:
+    """How many lines and findings there are, and which edition the description counts."""
     counts = outcome.counts
     unexplained = sum(not finding.explained for finding in outcome.findings)
     unexplained += len(outcome.elsewhere) + len(outcome.void)
