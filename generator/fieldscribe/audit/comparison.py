@@ -33,6 +33,8 @@ _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
 _NEARLY_ALL = 0.75
+_LONGEST_MERGED = 10
+"""A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 _FAR = 400
 """A section number that is no heading is searched in at most so many lines above."""
 
@@ -221,6 +223,7 @@ class Comparison:
         numbers = self.outcome.unused
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
+        nearby: dict[tuple[str, str, str | None], Missing] = {}
         for claim, extents in self.absent:
             there = [number for extent in extents for number in unused[extent]]
             printed = instead(claim, [self.passage(extent) for extent in extents], there)
@@ -228,7 +231,12 @@ class Comparison:
             first, last = extents[0].first, extents[0].last
             nearest = None if printed else self._nearest(claim, first)
             missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
-            self.outcome.missing.append(missing)
+            same = (claim.fact, claim.shown, printed)
+            if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
+                nearby[same].spread(missing)
+            else:
+                nearby[same] = missing
+                self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
     def _is_taken(self, claim: Claim) -> bool:
@@ -244,10 +252,9 @@ class Comparison:
         for facts, check in self._checks:
             if claim.fact in facts:
                 return check(claim, extent)
-        word_stands = [
-            self._has(word, extent) for word in claim.words
-        ]  # no short cut: each call marks the numbers used
-        return max(map(int, word_stands), default=0) or self._numbers_stand(claim, extent)
+        own = self._own_passage(claim, extent).text
+        stands = [self._has(word, extent) and has_word(own, word) for word in claim.words]  # each marks what it uses
+        return max(map(int, stands), default=0) or self._numbers_stand(claim, extent)
 
     @cached_property
     def _checks(self) -> tuple[tuple[tuple[str, ...], Callable[[Claim, Extent], int]], ...]:
@@ -385,15 +392,30 @@ class Comparison:
 
     def _unused(self) -> None:
         for extent, subjects in self.subjects.items():
+            place = next(iter(subjects.values()))
             for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
-                for token in self._of_line(line):
-                    passed_over = token.text in self.codes or token.text in self.no_facts.get(line, ())
-                    if (token.line, token.column) not in self.used and not passed_over:
-                        self.used.add((token.line, token.column))
-                        place = next(iter(subjects.values()))
-                        unused = Unused(token.line, token.column, token.text, tuple(subjects), place)
-                        self.outcome.unused.append(unused)
+                for column, text in self._without_fact(line):
+                    if (line, column) not in self.used:
+                        self.used.add((line, column))
+                        self.outcome.unused.append(Unused(line, column, text, tuple(subjects), place))
         self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
+
+    def _without_fact(self, line: int) -> Iterator[tuple[int, str]]:
+        """The numbers of a line, and the words that look like codes but are none of the description."""
+        passed_over = self.codes | self.no_facts.get(line, frozenset())
+        for token in self._of_line(line):
+            if token.text not in passed_over:
+                yield token.column, token.text
+        for match in self._code_forms.finditer(self.manual.line(line)):
+            if match[0] not in passed_over and (line, match.start() + 1) not in self.used:
+                yield match.start() + 1, match[0]
+
+    @cached_property
+    def _code_forms(self) -> re.Pattern[str]:
+        """Letters and at least three digits, as some code of the description has them."""
+        codes = [code for code in self.codes if re.fullmatch("[A-Za-z]+[0-9]{3,}", code)]
+        forms = {re.sub("[0-9]", "[0-9]", code) for code in codes}
+        return re.compile(rf"(?<!\w)(?:{'|'.join(sorted(forms))})(?!\w)" if forms else "(?!)")
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}

@@ -123,7 +123,7 @@ class Passage:
 
     def behind_names(self, names: tuple[str, ...]) -> list[Token]:
         """The numbers that stand right behind one of these names, as in `Mux 3`."""
-        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[ ]*(?=[0-9])"
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})\s*(?=[0-9])"
         return [
             token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
         ]

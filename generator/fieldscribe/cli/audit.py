@@ -16,7 +16,8 @@ EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new_edition.txt --report html > audit.html
 
-ends with 1 when a cited fact is not where it is cited; unused numbers and uncited rows are reported only"""
+ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
+fact uses, such as that of an added entry; and for rows that nothing cites among rows that are cited"""
 
 
 _MOST_BYTES = 256 << 20
@@ -34,7 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report"
     )
-    parser.add_argument("--all", action="store_true", help="in text, list unused numbers and uncited rows too")
+    parser.add_argument("--all", action="store_true", help="in text, list sections and rows too that nothing cites")
 
 
 def run(arguments: Namespace) -> int:
