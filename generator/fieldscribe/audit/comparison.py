@@ -30,6 +30,8 @@ _SHORT = 100
 """Findings show at most so many characters of a line."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
+_BEHIND_THE_FIRST = ("answers", "refusals")
+"""Facts of a code that its row prints behind the code itself."""
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
 _NEARLY_ALL = 0.75
@@ -143,9 +145,9 @@ class Comparison:
         labels = [label for extent in extents for label in self._standing(claims, extent)]
         self._use(token for label in labels for token in label.tokens)
         stands = {label.claim for label in labels}
-        for extent in extents:  # a number of a list may stand beside each of its meanings
-            passage = self._own_passage(claims[0], extent)
-            self._use(token for claim in stands if not claim.words for token in passage.reading(claim.numbers))
+        masks = [claim for claim in stands if claim.fact == "flags" and not claim.words]
+        for passage in (self._own_passage(claims[0], extent) for extent in extents):  # 0x0001 may be any 1 of the list
+            self._use(token for mask in masks for token in passage.reading(mask.numbers))
         for claim in claims:
             if claim not in stands:
                 self._misses(claim, extents)
@@ -242,6 +244,7 @@ class Comparison:
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
+        codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
         for erratum in self.taken.get(claim.about, ()):
             if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
                 return True
@@ -283,6 +286,8 @@ class Comparison:
         hits = passage.reading(claim.numbers)
         if claim.names and (named := passage.behind_names(claim.names)):
             hits = [token for token in hits if token in named]
+        if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
+            hits = [token for token in hits if token not in passage.in_first_cell]
         if claim.first:
             hits = [token for token in hits if token in passage.in_first_cell]
         if claim.unit:
@@ -295,13 +300,14 @@ class Comparison:
 
     def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""
-        runs = list(passage.in_order(claim.in_order))
+        ways = [claim.in_order, claim.or_in_order] if claim.or_in_order else [claim.in_order]
+        runs = [run for way in ways for run in passage.in_order(way)]
         self._use(token for run in runs for token in run)
         if runs:
             return True
-        hits = [passage.reading(numbers) for numbers in claim.in_order]
-        self._use(token for tokens in hits for token in tokens)
-        return all(hits)
+        apart = [[passage.reading(numbers) for numbers in way] for way in ways]
+        self._use(token for hits in apart for tokens in hits for token in tokens)
+        return any(all(hits) for hits in apart)
 
     def _access_agrees(self, claim: Claim, extent: Extent) -> bool:
         """Whether the row prints this access, or none at all."""
