@@ -245,8 +245,11 @@ class Comparison:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
         codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
+        printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
-            if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
+            if claim.numbers & erratum.taken and (erratum.is_sentence or not printed):
+                return True  # an erratum that gives printed facts tells apart what is printed and what was taken
+            if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
 
