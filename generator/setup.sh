@@ -50,6 +50,8 @@ if [ "$purpose" = tests ]; then
     need frama-c frama-c-base
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy
+    need node nodejs
+    need npm npm
 fi
 
 if [ -n "$missing_packages" ]; then
@@ -84,4 +86,16 @@ if [ ! -x .venv/bin/python ] || [ ! -f .venv/installed ] || [ "$(cat .venv/insta
     .venv/bin/python -m pip --version >/dev/null 2>&1 || python3 -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
     echo "$wanted" >.venv/installed
+fi
+
+language_server=yaml-language-server@1.25.0
+if [ "$purpose" = tests ] && [ "$(cat .cache/node/installed 2>/dev/null)" != "$language_server" ] && command -v npm >/dev/null 2>&1; then
+    echo "setting up $language_server in .cache"
+    mkdir -p .cache/node
+    # without it one test is skipped, which says so; the rest needs no network
+    if npm install --prefix .cache/node --no-save --no-package-lock --no-audit --no-fund --silent "$language_server"; then
+        echo "$language_server" >.cache/node/installed
+    else
+        echo "npm could not install $language_server: the tests that need it are skipped" >&2
+    fi
 fi

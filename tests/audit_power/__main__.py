@@ -7,8 +7,9 @@ import sys
 import time
 from pathlib import Path
 
-from audit_power.measure import measure
 from fieldscribe.resources import descriptions_dir
+
+from audit_power.measure import measure
 
 
 def main() -> int:
@@ -30,9 +31,8 @@ def main() -> int:
         enough = enough and share >= 0.98
         print(f"{device:<20}{power.claims:>8}{power.changed:>9}{power.reported:>10}{share:>8.1%}{seconds:>9.0f}")
         for change in power.missed:
-            print(
-                f"    missed: {change.kind}: {change.claim.subject}: {change.claim.fact} {change.claim.shown}: {change.shown}"
-            )
+            claim = f"{change.claim.subject}: {change.claim.fact} {change.claim.shown}"
+            print(f"    missed: {change.kind}: {claim}: {change.shown}")
     return 0 if enough else 1
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.comparison import Comparison
+    from fieldscribe.audit.labels import Standing
     from fieldscribe.audit.manual import Token
 
 _CELL = re.compile(r"[^|\t]+")
@@ -69,7 +70,7 @@ class Changes:
             else:
                 yield from passage.reading(claim.numbers)
 
-    def _labels(self, claim: Claim, cited: tuple[int, int]) -> list:
+    def _labels(self, claim: Claim, cited: tuple[int, int]) -> list[Standing]:
         together = self.lists.get((claim.subject, claim.fact, claim.cited), [claim])
         labels = standing(together, self.sound.passage(self.sound.extent(*cited)))
         return [label for label in labels if label.claim == claim]
@@ -140,7 +141,7 @@ class Changes:
         others = [other for other in together if not set(other.words) & set(claim.words)]
         mine = self._place_of_words(claim) if others else None
         theirs = self._place_of_words(self.random.choice(others)) if others else None
-        if mine is None or theirs is None or mine[0] == theirs[0] and mine[1] < theirs[2] and theirs[1] < mine[2]:
+        if mine is None or theirs is None or (mine[0] == theirs[0] and mine[1] < theirs[2] and theirs[1] < mine[2]):
             return None
         one, two = self.lines[mine[0] - 1][mine[1] : mine[2]], self.lines[theirs[0] - 1][theirs[1] : theirs[2]]
         if one == two:
@@ -206,7 +207,7 @@ class Changes:
             return None
         return Change("row deleted", claim, ((number - 1, None),), line.strip()[:50])
 
-    def _line(self, kind: str, claim: Claim, number: int, text: str, old: str, new: str) -> Change | None:  # noqa: PLR0913, PLR0917
+    def _line(self, kind: str, claim: Claim, number: int, text: str, old: str, new: str) -> Change | None:  # noqa: PLR0917
         if text == self.lines[number - 1]:
             return None
         return Change(kind, claim, ((number - 1, text),), f"line {number}: {old} > {new}")

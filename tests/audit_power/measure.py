@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import cache
 from random import Random
 from typing import TYPE_CHECKING
 
-from audit_power.changes import Change, Changes
 from fieldscribe.audit import Audit, Auditor
 from fieldscribe.audit.comparison import Comparison
 from fieldscribe.audit.manual import Manual
@@ -14,6 +14,8 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject
 from fieldscribe.records import dataclass, field
 from fieldscribe.resources import descriptions_dir
+
+from audit_power.changes import Change, Changes
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,21 +36,41 @@ class Power:
         return self.changed - len(self.missed)
 
 
+class Sound:
+    """A device with the text that it was transcribed from, audited once."""
+
+    def __init__(self, device: str, manuals: Path) -> None:
+        subject = load_subject(descriptions_dir() / device / "device.yaml", Report())
+        assert subject is not None, device
+        file = next(document.file for document in subject.scope.documents.values() if document.file)
+        self.device = device
+        self.auditor = Auditor(subject)
+        self.manual = Manual((manuals / file).read_text("utf-8"), self.auditor.names)
+        self.comparison = Comparison(self.manual, self.auditor, Audit(device, file, True, len(self.manual)))
+        self.outcome = self.comparison.run()
+
+    def changes(self, random: Random) -> Changes:
+        """What can be changed in the text."""
+        return Changes(self.comparison, random)
+
+    def audited(self, text: str) -> Audit:
+        """Another text against the same description."""
+        return self.auditor.audit(self.device, "", text, same_text=False)
+
+
+@cache
+def sound(device: str, manuals: Path) -> Sound:
+    """A device, read once."""
+    return Sound(device, manuals)
+
+
 def measure(device: str, manuals: Path, seed: int, count: int) -> Power:
     """Changes so many claims of a device, each in a text of its own."""
-    report = Report()
-    subject = load_subject(descriptions_dir() / device / "device.yaml", report)
-    assert subject is not None, device
-    text = next((manuals / document.file for document in subject.scope.documents.values() if document.file)).read_text(
-        "utf-8"
-    )
-    auditor = Auditor(subject)
-    manual = Manual(text, auditor.names)
-    sound = Comparison(manual, auditor, Audit(device, "", True, len(manual)))
-    assert sound.run().clean, device
-    claims = [claim for claim in auditor.claims if not claim.optional]
+    read = sound(device, manuals)
+    assert read.outcome.clean, device
+    claims = [claim for claim in read.auditor.claims if not claim.optional]
     random = Random(f"{seed} {device}")
-    changes = Changes(sound, random)
+    changes = read.changes(random)
     power = Power(len(claims))
     for claim in random.sample(claims, len(claims)):
         change = changes.of(claim) if power.changed < count else None
@@ -56,6 +78,6 @@ def measure(device: str, manuals: Path, seed: int, count: int) -> Power:
             continue
         power.changed += 1
         power.kinds[change.kind] += 1
-        if auditor.audit(device, "", change.text(manual.lines), same_text=False).clean:
+        if read.audited(change.text(read.manual.lines)).clean:
             power.missed.append(change)
     return power

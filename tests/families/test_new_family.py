@@ -93,6 +93,14 @@ def test_what_people_ask(tmp_path: Path) -> None:
     assert (exported["family"], exported["points"][1]["space"]) == ("bell", "tone")
 
 
+def test_a_description_starts_with_it(tmp_path: Path) -> None:
+    words = ("--family", "bell", "--vendor", "Example", "--model", "B 1", "--title", "Chimes")
+    assert run(tmp_path, "init", "chimes", *words).returncode == 0
+    assert run(tmp_path, "check", "chimes").stdout == (
+        "chimes: 1 point (1 generated) in 1 group, 0 errata, 1 printed frame\n"
+    )
+
+
 def test_a_part_that_is_missing_is_none_and_one_that_breaks_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

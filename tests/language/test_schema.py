@@ -6,6 +6,7 @@ import json
 import random
 import re
 from decimal import Decimal
+from textwrap import indent
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -97,6 +98,13 @@ def _properties(node: Any, path: str = "") -> Iterator[tuple[str, Mapping[str, A
         yield from _properties(value, f"{path}/{key}")
 
 
+def read_block(block: str) -> list[Any]:
+    """The value of an example in YAML, a mapping or a list."""
+    (root,) = load(SourceFile("example.yaml", "held:\n" + indent(block, "  ")), Report())
+    assert root is not None
+    return [root["held"]]
+
+
 def test_every_key_is_explained_and_shown() -> None:
     """Editors show the description and an example at every key, and the example is valid there."""
     definitions = SCHEMA["definitions"]
@@ -105,9 +113,11 @@ def test_every_key_is_explained_and_shown() -> None:
     for path, node in everything:
         meant = definitions[node["$ref"].rpartition("/")[2]] if "$ref" in node else node
         assert meant["description"][0].isupper(), path
-        assert meant["examples"], path
+        blocks = re.findall("```yaml\n(.*?)```", meant.get("markdownDescription", ""), re.DOTALL)
+        examples = meant.get("examples", []) + [plain(value) for block in blocks for value in read_block(block)]
+        assert examples, path
         validator = STRICT({**meant, "definitions": definitions})
-        for example in meant["examples"]:
+        for example in examples:
             problems = [error.message for error in validator.iter_errors(example)]
             missing = [one for one in problems if "is a required property" not in one]
             assert not missing, (path, missing)

@@ -46,6 +46,7 @@ ROOMS = (
     ("what talks to people", "conversation audit export"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
+    ("a person at work on a description", "working"),
     ("the command line", "cli __main__"),
 )
 """The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""

@@ -49,4 +49,10 @@ def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
     ):
         made = (project / "bindings" / path).read_bytes()
         assert made == (ROOT / "generated" / path).read_bytes(), f"{path} differs from the checkout's"
+    words = ("--family", "modbus", "--vendor", "Example", "--model", "HP 12", "--title", "Heat pump")
+    run(scripts / "fieldscribe", "init", "heat_pump", *words, folder=project)
+    assert "heat_pump: 1 point (1 generated)" in run(scripts / "fieldscribe", "check", "heat_pump", folder=project)
+    schema = (ROOT / "descriptions/schema.json").read_text("utf-8")
+    assert (project / "heat_pump/schema.json").read_text("utf-8") == schema
+    assert run(scripts / "fieldscribe", "schema", folder=project) == schema
     assert "base_frequency" in run(scripts / "fieldscribe", "explain", "hitachi_l200", "A020", folder=project)

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NoReturn
 
 import pytest
 
+from support.places import ROOT
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
@@ -26,7 +28,9 @@ _PACKAGES = {
     "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
     "rustfmt": "rustfmt",
+    "node": "nodejs npm",
 }
+_LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
 
 LIMIT = 300
 """Seconds after which a tool is taken to hang."""
@@ -38,6 +42,14 @@ def tool(name: str) -> str:
     if path is None:
         _do_without(name, _PACKAGES.get(name, name))
     return path
+
+
+def language_server() -> tuple[str, ...]:
+    """The command that starts yaml-language-server; the same without node or the server."""
+    node = tool("node")
+    if not _LANGUAGE_SERVER.is_file():
+        _do_without("yaml-language-server", "npm, and run `sh generator/setup.sh tests`, which fetches the server")
+    return node, str(_LANGUAGE_SERVER), "--stdio"
 
 
 def gcc_for_32_bits() -> str:

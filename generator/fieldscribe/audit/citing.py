@@ -13,7 +13,7 @@ from fieldscribe.language.numbers import NumberError, parse_integer, parse_numbe
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
     from fractions import Fraction
 
     from fieldscribe.diagnostics import Span
@@ -51,6 +51,8 @@ class Claim:
     """Whether the manual may lack it; where it is printed, its numbers count as used."""
     in_order: tuple[frozenset[Fraction], ...] = ()
     """Numbers that are printed one after the other, such as both ends of a range."""
+    or_in_order: tuple[frozenset[Fraction], ...] = ()
+    """The same numbers in the unit, if they may be printed so."""
     beside: frozenset[Fraction] = frozenset()
     """The numbers of which one is printed beside `words`."""
     or_beside: frozenset[Fraction] = frozenset()
@@ -136,23 +138,25 @@ class Citing:
             )
 
     def in_order(
-        self, fact: str, shown: str, numbers: Iterable[Iterable[Fraction]], kind: str = "", *, place: Span
+        self, fact: str, shown: str, ways: Sequence[Sequence[Fraction]], kind: str = "", *, place: Span
     ) -> Iterator[Claim]:
-        """Numbers that are printed one after the other; each may be written in several ways."""
-        wanted = tuple(frozenset(abs(number) for number in readings) for readings in numbers)
+        """Numbers that are printed one after the other, in one of two ways: raw, or in the unit."""
         cited = self.lines_of_fact.get(kind or fact, self.own_line)
-        if cited and wanted:
-            in_order = wanted if len(wanted) > 1 else ()
+        wanted = [tuple(frozenset((abs(number),)) for number in way) for way in ways]
+        if cited and wanted[0]:
+            numbers = frozenset(abs(number) for way in ways for number in way)
+            in_order, *others = wanted if len(wanted[0]) > 1 else [()]
             yield Claim(
                 self.subject,
                 fact,
                 shown,
-                frozenset().union(*wanted),
+                numbers,
                 (),
                 cited,
                 place,
                 about=self.about,
                 in_order=in_order,
+                or_in_order=others[0] if others else (),
             )
 
     def label(  # noqa: PLR0913 - one line of a table of facts

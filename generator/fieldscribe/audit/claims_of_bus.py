@@ -74,7 +74,9 @@ def claims_of_frames(file: Map) -> Iterator[Claim]:
             cited = citing.lines_of_fact.get("bytes", citing.own_line)
             yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, frame.span("bytes"))
             for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
-                yield from citing.numbers("place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True)
+                yield from citing.numbers(
+                    "place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True, first=True
+                )
         said = numbers_in(frame.get("says"))
         for number in dict.fromkeys(said):  # beside the bytes, or not at all
             printed_apart = "printed" in citing.lines_of_fact

@@ -105,8 +105,8 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
     for key in ("range", "range_in_units"):
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
             for shown, numbers in _runs_of(draft.get(key)):
-                readings = [_in_both_units(point, number, in_units=key == "range_in_units") for number in numbers]
-                yield from citing.in_order("range", shown, readings, place=draft.span(key))
+                ways = _in_both_units(point, numbers, in_units=key == "range_in_units")
+                yield from citing.in_order("range", shown, ways, place=draft.span(key))
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
         characters = point.text.characters
@@ -118,13 +118,15 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
             yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
 
 
-def _in_both_units(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]:
-    """A limit as raw number and in the unit; only as it is written where the scale has cases or factors."""
+def _in_both_units(point: Point, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
+    """Limits as raw numbers and in the unit; only as they are written where the scale has cases or factors."""
     cases = point.scale or ()
     if len(cases) != 1 or cases[0].rule.factors:
-        return [number]
+        return [numbers]
     rule = cases[0].rule
-    return [number, number * rule.ratio + rule.offset if in_units else (number - rule.offset) / rule.ratio]
+    if in_units:
+        return [numbers, [number * rule.ratio + rule.offset for number in numbers]]
+    return [numbers, [(number - rule.offset) / rule.ratio for number in numbers]]
 
 
 def _scale_numbers(raw: Any) -> list[Fraction]:
@@ -139,8 +141,9 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
             numbers = (Fraction(place), Fraction(1 << place))
+            names = tuple(wordings.code("bits")) if place == point.bits[0] else ()
             yield from citing.numbers(
-                "bits", str(place), numbers, words=words, optional=inner, place=draft.span("bits")
+                "bits", str(place), numbers, words=words, optional=inner, names=names, place=draft.span("bits")
             )
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
@@ -187,7 +190,7 @@ def _enum_of(
         quantity = numbers_in(entry.get("quantity")) if isinstance(entry, Map) else []
         if quantity and numbers:
             shown = f"{number} = {entry['quantity']}"
-            yield from citing.in_order("enum", shown, ((numbers[0],), (quantity[0],)), place=place)
+            yield from citing.in_order("enum", shown, [(numbers[0], quantity[0])], place=place)
         elif not label:
             yield from citing.numbers("enum", str(number), numbers, place=place)
 
@@ -232,8 +235,8 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
         if label not in values:
             yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
-            ends = ((Fraction(flag.low + flag.width - 1 + above),), (Fraction(flag.low + above),))
-            yield from citing.in_order("flags", f"bits {ends[0][0]} and {ends[1][0]}", ends, place=place)
+            high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
+            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], place=place)
         for key in ("mask", "active"):
             for number in numbers_in(printed.get(key)):
                 in_list = (position, 1) if at_bit and key == "mask" else None
@@ -293,14 +296,12 @@ def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim
         place = printed.span(key)
         if key in ("range", "range_in_units"):
             for shown, numbers in _runs_of(value):
-                yield from citing.in_order(
-                    f"printed {key}", shown, [(number,) for number in numbers], kind, place=place
-                )
+                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, place=place)
             continue
         if key == "pairs":
             for raw, number in value.items():
-                readings = [numbers_in(raw), numbers_in(number)]
-                yield from citing.in_order("printed pairs", f"{raw} = {number}", readings, kind, place=place)
+                pair = [*numbers_in(raw), *numbers_in(number)]
+                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair], kind, place=place)
             continue
         unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
         numbers = numbers_in(value)

@@ -30,9 +30,13 @@ _SHORT = 100
 """Findings show at most so many characters of a line."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
+_BEHIND_THE_FIRST = ("answers", "refusals")
+"""Facts of a code that its row prints behind the code itself."""
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
 _NEARLY_ALL = 0.75
+_LONGEST_MERGED = 10
+"""A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 _FAR = 400
 """A section number that is no heading is searched in at most so many lines above."""
 
@@ -149,9 +153,9 @@ class Comparison:
         labels = [label for extent in extents for label in self._standing(claims, extent)]
         self._use(token for label in labels for token in label.tokens)
         stands = {label.claim for label in labels}
-        for extent in extents:  # a number of a list may stand beside each of its meanings
-            passage = self._own_passage(claims[0], extent)
-            self._use(token for claim in stands if not claim.words for token in passage.reading(claim.numbers))
+        masks = [claim for claim in stands if claim.fact == "flags" and not claim.words]
+        for passage in (self._own_passage(claims[0], extent) for extent in extents):  # 0x0001 may be any 1 of the list
+            self._use(token for mask in masks for token in passage.reading(mask.numbers))
         for claim in claims:
             if claim not in stands:
                 self._misses(claim, extents)
@@ -229,6 +233,7 @@ class Comparison:
         numbers = self.outcome.unused
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
+        nearby: dict[tuple[str, str, str | None], Missing] = {}
         for claim, extents in self.absent:
             there = [number for extent in extents for number in unused[extent]]
             printed = instead(claim, [self.passage(extent) for extent in extents], there)
@@ -236,14 +241,23 @@ class Comparison:
             first, last = extents[0].first, extents[0].last
             nearest = None if printed else self._nearest(claim, first)
             missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
-            self.outcome.missing.append(missing)
+            same = (claim.fact, claim.shown, printed)
+            if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
+                nearby[same].spread(missing)
+            else:
+                nearby[same] = missing
+                self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
     def _is_taken(self, claim: Claim) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
+        codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
+        printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
-            if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
+            if claim.numbers & erratum.taken and (erratum.is_sentence or not printed):
+                return True  # an erratum that gives printed facts tells apart what is printed and what was taken
+            if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
 
@@ -252,10 +266,9 @@ class Comparison:
         for facts, check in self._checks:
             if claim.fact in facts:
                 return check(claim, extent)
-        word_stands = [
-            self._has(word, extent) for word in claim.words
-        ]  # no short cut: each call marks the numbers used
-        return max(map(int, word_stands), default=0) or self._numbers_stand(claim, extent)
+        own = self._own_passage(claim, extent).text
+        stands = [self._has(word, extent) and has_word(own, word) for word in claim.words]  # each marks what it uses
+        return max(map(int, stands), default=0) or self._numbers_stand(claim, extent)
 
     @cached_property
     def _checks(self) -> tuple[tuple[tuple[str, ...], Callable[[Claim, Extent], int]], ...]:
@@ -284,6 +297,8 @@ class Comparison:
         hits = passage.reading(claim.numbers)
         if claim.names and (named := passage.behind_names(claim.names)):
             hits = [token for token in hits if token in named]
+        if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
+            hits = [token for token in hits if token not in passage.in_first_cell]
         if claim.first:
             hits = [token for token in hits if token in passage.in_first_cell]
         if claim.unit:
@@ -296,13 +311,14 @@ class Comparison:
 
     def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""
-        runs = list(passage.in_order(claim.in_order))
+        ways = [claim.in_order, claim.or_in_order] if claim.or_in_order else [claim.in_order]
+        runs = [run for way in ways for run in passage.in_order(way)]
         self._use(token for run in runs for token in run)
         if runs:
             return True
-        hits = [passage.reading(numbers) for numbers in claim.in_order]
-        self._use(token for tokens in hits for token in tokens)
-        return all(hits)
+        apart = [[passage.reading(numbers) for numbers in way] for way in ways]
+        self._use(token for hits in apart for tokens in hits for token in tokens)
+        return any(all(hits) for hits in apart)
 
     def _access_agrees(self, claim: Claim, extent: Extent) -> bool:
         """Whether the row prints this access, or none at all."""
@@ -398,15 +414,30 @@ class Comparison:
 
     def _unused(self) -> None:
         for extent, subjects in self.subjects.items():
+            place = next(iter(subjects.values()))
             for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
-                for token in self._of_line(line):
-                    passed_over = token.text in self.codes or token.text in self.no_facts.get(line, ())
-                    if (token.line, token.column) not in self.used and not passed_over:
-                        self.used.add((token.line, token.column))
-                        place = next(iter(subjects.values()))
-                        unused = Unused(token.line, token.column, token.text, tuple(subjects), place)
-                        self.outcome.unused.append(unused)
+                for column, text in self._without_fact(line):
+                    if (line, column) not in self.used:
+                        self.used.add((line, column))
+                        self.outcome.unused.append(Unused(line, column, text, tuple(subjects), place))
         self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
+
+    def _without_fact(self, line: int) -> Iterator[tuple[int, str]]:
+        """The numbers of a line, and the words that look like codes but are none of the description."""
+        passed_over = self.codes | self.no_facts.get(line, frozenset())
+        for token in self._of_line(line):
+            if token.text not in passed_over:
+                yield token.column, token.text
+        for match in self._code_forms.finditer(self.manual.line(line)):
+            if match[0] not in passed_over and (line, match.start() + 1) not in self.used:
+                yield match.start() + 1, match[0]
+
+    @cached_property
+    def _code_forms(self) -> re.Pattern[str]:
+        """Letters and at least three digits, as some code of the description has them."""
+        codes = [code for code in self.codes if re.fullmatch("[A-Za-z]+[0-9]{3,}", code)]
+        forms = {re.sub("[0-9]", "[0-9]", code) for code in codes}
+        return re.compile(rf"(?<!\w)(?:{'|'.join(sorted(forms))})(?!\w)" if forms else "(?!)")
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}

@@ -24,9 +24,17 @@ def instead(claim: Claim, passages: Sequence[Passage], unused: Sequence[Unused])
     if claim.beside:
         beside = (_beside(claim, passage) for passage in passages)
         return next((words for words in beside if words), None)
-    if not unused or claim.words:
+    if claim.fact == "code":
+        return next((code for passage in passages for code in _codes_like(claim, passage.text)), None)
+    if not unused or not claim.numbers:
         return None
     return min(unused, key=lambda number: (-_likeness(claim.shown, number.number), number.line, number.column)).number
+
+
+def _codes_like(claim: Claim, text: str) -> list[str]:
+    """The words that have the form of a code, such as a letter and three digits."""
+    form = re.sub(r"[0-9]", "[0-9]", re.escape(claim.words[0]))
+    return re.findall(rf"(?<!\w){form}(?!\w)", text)
 
 
 def printed_access(claim: Claim, text: str) -> list[str]:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.passage import Passage
 
 
+_NEARLY_ALL = 0.75
+"""The share of labels that stand right behind their numbers, from which on all have to."""
 _LABEL = 1000
 """A label weighs more than all numbers without one."""
 
@@ -34,10 +36,20 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
 
     A label may also stand apart from the list, before or behind all others.
     """
-    best: list[Standing] = []
     numberings = (False, True) if any(claim.or_beside for claim in claims) else (False,)
-    for after, otherwise in product((False, True), numberings):
-        candidates = {claim: list(_candidates(claim, passage, after=after, otherwise=otherwise)) for claim in claims}
+    tight = _best(claims, passage, product((False, True), numberings, (True,)))
+    loose = _best(claims, passage, product((False, True), numberings, (False,)))
+    if not tight or _weight(tight) < _NEARLY_ALL * _weight(loose):
+        return loose
+    listed = {label.claim for label in tight}
+    first, last = min(label.place for label in tight), max(label.place for label in tight)
+    return [*tight, *(label for label in loose if label.claim not in listed and not first <= label.place <= last)]
+
+
+def _best(claims: Sequence[Claim], passage: Passage, ways: Iterable[tuple[bool, bool, bool]]) -> list[Standing]:
+    best: list[Standing] = []
+    for after, otherwise, tight in ways:
+        candidates = {claim: list(_candidates(claim, passage, after, otherwise, tight)) for claim in claims}
         for backwards in (False, True):
             ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
             chain = _weightiest_chain([candidates[claim] for claim in ordered])
@@ -57,7 +69,7 @@ def _apart(chain: Sequence[Standing], rows: Iterable[Sequence[Standing]]) -> lis
         return []
     listed = {label.claim for label in chain}
     first, last = chain[0].place, chain[-1].place
-    others = (row for row in rows if row and row[0].claim not in listed)
+    others = (row for row in rows if row and row[0].claim.words and row[0].claim not in listed)
     outside = ([label for label in row if not first <= label.place <= last] for row in others)
     return [labels[0] for labels in outside if labels]
 
@@ -67,7 +79,8 @@ def _rank(claim: Claim, *, backwards: bool) -> tuple[int, int]:
     return (-entry if backwards else entry, part)
 
 
-def _candidates(claim: Claim, passage: Passage, *, after: bool, otherwise: bool) -> Iterator[Standing]:
+def _candidates(claim: Claim, passage: Passage, after: bool, otherwise: bool, tight: bool) -> Iterator[Standing]:
+    """Where a label may stand: behind its number or `after` it, beside that or the other one, right beside or not."""
     wanted = claim.or_beside if otherwise and claim.or_beside else claim.beside
     if not claim.words:
         for token, start in zip(passage.tokens, passage.starts, strict=True):
@@ -77,7 +90,7 @@ def _candidates(claim: Claim, passage: Passage, *, after: bool, otherwise: bool)
         beside = passage.after(end) if after else passage.before(first)
         if not wanted:
             yield Standing(claim, first, tuple(passage.inside(first, end)))
-        elif beside is not None and beside.readings & wanted:
+        elif beside is not None and beside.readings & wanted and not (tight and passage.is_apart(beside, first, end)):
             yield Standing(claim, first, (beside, *passage.inside(first, end)))
 
 

@@ -114,6 +114,10 @@ class Manual:
             return tokens
         return [token for token in tokens if not any(first <= token.column - 1 - column < end for first, end in names)]
 
+    def without_names(self, text: str) -> str:
+        """A piece of text without the words that are no facts."""
+        return self._names.sub("", text) if self._names else text
+
     @cached_property
     def lines_of(self) -> dict[Fraction, list[int]]:
         """Where each number stands, in whatever notation."""

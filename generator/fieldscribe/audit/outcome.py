@@ -7,7 +7,7 @@ from collections import Counter
 from fieldscribe.records import dataclass, field, values_of
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Missing:
     """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does.
 
@@ -22,6 +22,14 @@ class Missing:
     nearest: int | None
     place: str
     printed: str | None
+    also: list[str] = field(default_factory=list)
+    """Other subjects of the rows below that miss the same fact."""
+
+    def spread(self, other: Missing) -> None:
+        """Takes in the same fact of a row below."""
+        self.last = max(self.last, other.last)
+        if other.subject != self.subject and other.subject not in self.also:
+            self.also.append(other.subject)
 
 
 @dataclass(frozen=True, slots=True)

@@ -117,22 +117,28 @@ class Passage:
         at = bisect_left(self.starts, place)
         return self.tokens[at] if at < len(self.tokens) else None
 
+    def is_apart(self, token: Token, first: int, end: int) -> bool:
+        """Whether letters stand between a number and words from first to end."""
+        at = self.tokens.index(token)
+        between = self.text[self.ends[at] : first] if self.starts[at] < first else self.text[end : self.starts[at]]
+        return any(map(str.isalnum, self.manual.without_names(_TAG.sub("", between))))
+
     def reading(self, numbers: frozenset[Fraction]) -> list[Token]:
         """The numbers that can mean one of these."""
         return [token for token in self.tokens if token.readings & numbers]
 
     def behind_names(self, names: tuple[str, ...]) -> list[Token]:
         """The numbers that stand right behind one of these names, as in `Mux 3`."""
-        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[ ]*(?=[0-9])"
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})\s*(?=[0-9])"
         return [
             token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
         ]
 
     @cached_property
     def in_first_cell(self) -> list[Token]:
-        """The numbers in the first cell of a row; all where there are no cells."""
-        cells = re.match(r"\|?[^|\t\n]*(?=[|\t])", self.text)
-        return self.inside(0, cells.end()) if cells else self.tokens
+        """The numbers in the first cell of each row; all where there are no cells."""
+        cells = [match.span() for match in re.finditer(r"^\|?[^|\t\n]*(?=[|\t])", self.text, re.MULTILINE)]
+        return [token for first, end in cells for token in self.inside(first, end)] if cells else self.tokens
 
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""

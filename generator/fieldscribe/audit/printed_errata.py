@@ -46,8 +46,8 @@ def printed_errata_of(subject: Subject) -> Iterator[PrintedErratum]:
 
 
 def _printed_erratum(written: OpenErratum) -> PrintedErratum:
-    printed, lines = written.raw.get("printed"), written.raw.get("lines")
-    cited = list(spans_of(written.raw["line"]))
+    printed, lines = written.node.get("printed"), written.node.get("lines")
+    cited = list(spans_of(written.node["line"]))
     cited += [span for value in lines.values() for span in spans_of(value)] if isinstance(lines, Map) else []
     texts: list[str] = []
     if isinstance(printed, Map):
@@ -64,7 +64,7 @@ def _printed_erratum(written: OpenErratum) -> PrintedErratum:
         tuple(texts),
         tuple(cited),
         written.subjects,
-        frozenset(abs(number) for number in numbers_in(written.raw.get("taken"))),
+        frozenset(abs(number) for number in numbers_in(written.node.get("taken"))),
         is_sentence=not isinstance(printed, Map),
         taken_text=written.erratum.taken,
     )

@@ -24,10 +24,11 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
     """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
     for fact in outcome.missing:
         where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
-        message = f": {fact.subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
+        subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
+        message = f": {subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
         if fact.printed is not None:
             says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
-            message = f": {fact.subject}: {fact.fact}: {says} at {where}"
+            message = f": {subject}: {fact.fact}: {says} at {where}"
         yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(message))]
     for erratum in outcome.unprinted:
         message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"

@@ -168,7 +168,7 @@ def _writes_a_value(command: Command, point: Point) -> bool:
 
 
 def _commands(subject: Subject, taken: Taken) -> None:
-    raws = {str(raw["name"]): raw for raw in reversed(list(subject.scope.listed("commands")))}
+    raws = {str(node["name"]): node for node in reversed(list(subject.scope.listed("commands")))}
     for command in subject.commands:
         span = raws[command.name].span("at")
         for other in taken.get((command.space, None, 0, command.address), ()):

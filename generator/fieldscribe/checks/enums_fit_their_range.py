@@ -68,9 +68,9 @@ def _entries(subject: Subject, resolved: Resolved) -> None:
 
 
 def _place(resolved: Resolved, number: int) -> Span:
-    raw = resolved.draft.get("enum")
-    key = next((key for key in raw if _is(key, number)), None) if isinstance(raw, Map) else None
-    return resolved.draft.span("enum") if key is None else raw.key_span(key)
+    node = resolved.draft.get("enum")
+    key = next((key for key in node if _is(key, number)), None) if isinstance(node, Map) else None
+    return resolved.draft.span("enum") if key is None else node.key_span(key)
 
 
 def _is(key: str, number: int) -> bool:

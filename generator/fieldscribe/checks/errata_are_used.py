@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def check(subject: Subject) -> None:
     """Findings for what an erratum says is printed wrong, where nothing disagrees."""
     for erratum in subject.errata:
-        printed = erratum.raw["printed"]
+        printed = erratum.node["printed"]
         on_bus = any(isinstance(about, Named) for about in erratum.subjects)
         if not isinstance(printed, Map) or (on_bus and not subject.bus_is_whole):
             continue

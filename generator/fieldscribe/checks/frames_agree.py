@@ -62,7 +62,7 @@ def _unread(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> S
 
 
 def _compare_meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
-    says = open_frame.raw.get("says")
+    says = open_frame.node.get("says")
     if not isinstance(says, Map):
         return
     for word in says:
@@ -85,7 +85,7 @@ def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carrie
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        subject.disagrees(Printed(open_frame.about, "fixed", printed, None, open_frame.raw.span("bytes"), message))
+        subject.disagrees(Printed(open_frame.about, "fixed", printed, None, open_frame.node.span("bytes"), message))
 
 
 def _whole_word(point: Point) -> Point:
@@ -98,7 +98,7 @@ def _whole_word(point: Point) -> Point:
 def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
     """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
     printed = hex_of(open_frame.frame.printed)
-    subject.disagrees(Printed(open_frame.about, "form", printed, None, open_frame.raw.span("bytes"), message))
+    subject.disagrees(Printed(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message))
     return Seen(replace(open_frame.frame, valid=False))
 
 
@@ -114,16 +114,16 @@ def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
     """A finding for a response that does not say what it answers."""
     if open_frame.frame.answers is None:
         message = f"the response `{open_frame.frame.name}` answers nothing"
-        subject.report.error("unknown-frame", message, open_frame.raw.span("name"), "name the request under `answers`")
+        subject.report.error("unknown-frame", message, open_frame.node.span("name"), "name the request under `answers`")
 
 
 def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) -> None:
     """A finding for a frame that carries another error than the description says."""
-    stated = open_frame.raw.get("error")
+    stated = open_frame.node.get("error")
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        subject.disagrees(Printed(open_frame.about, "error", stated, carried, open_frame.raw.span("error"), message))
+        subject.disagrees(Printed(open_frame.about, "error", stated, carried, open_frame.node.span("error"), message))
 
 
 def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: bytes, right: bytes) -> None:
@@ -132,7 +132,7 @@ def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: by
     if printed != taken:
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
-        span = open_frame.raw.span("bytes")
+        span = open_frame.node.span("bytes")
         subject.disagrees(Printed(open_frame.about, key, printed, taken, span, message))
 
 

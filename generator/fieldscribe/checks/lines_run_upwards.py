@@ -35,11 +35,11 @@ def check(subject: Subject) -> None:
                     _lines(subject, code)
 
 
-def _lines(subject: Subject, raw: Map) -> None:
-    lines = raw.get("lines")
+def _lines(subject: Subject, node: Map) -> None:
+    lines = node.get("lines")
     if lines is None:
         return
-    for holder, at, text in _texts_in(raw, "lines", lines):
+    for holder, at, text in _texts_in(node, "lines", lines):
         first, dots, last = text.partition("..")
         if dots and parse_integer(first) > parse_integer(last):
             subject.report.error(

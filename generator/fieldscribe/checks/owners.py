@@ -141,9 +141,9 @@ class Owners:
             return self._place_of_part(owner, owner.of)
         if owner.kind in _LISTED:
             listed = scope.listed(_LISTED[owner.kind])
-            return next(raw.span("name") for raw in listed if raw["name"] == owner.name)
+            return next(node.span("name") for node in listed if node["name"] == owner.name)
         if owner.kind == "group":
-            return next(raw.span("group") for raw in groups(scope) if raw["group"] == owner.name)
+            return next(node.span("group") for node in groups(scope) if node["group"] == owner.name)
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 def check(subject: Subject) -> None:
     """Findings for names of commands and points that do not exist."""
     scope = subject.scope
-    declared = {str(raw["name"]) for raw in scope.listed("commands")}
+    declared = {str(node["name"]) for node in scope.listed("commands")}
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
         if keeps == "choice" and not scope.family.chooses_memory:
@@ -26,7 +26,7 @@ def check(subject: Subject) -> None:
             scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
         elif keeps not in (None, "no", "yes", "choice", *declared):
             scope.unknown("command", str(keeps), resolved.draft.span("keep_with"), sorted(declared))
-    for raw in scope.listed("commands"):
-        busy = raw.get("busy")
+    for node in scope.listed("commands"):
+        busy = node.get("busy")
         if busy is not None and subject.index.find(busy) is None:
-            subject.index.unknown(busy, raw.span("busy"))
+            subject.index.unknown(busy, node.span("busy"))

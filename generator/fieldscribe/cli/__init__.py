@@ -36,6 +36,9 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "init": "start a description that compiles at once, by a few questions or by options",
+    "fmt": "bring descriptions into their canonical form; what they say stays the same, and so do comments",
+    "watch": "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }

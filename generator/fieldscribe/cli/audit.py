@@ -19,7 +19,9 @@ EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt --renumber --accept
 
-ends with 1 when a cited fact is not where it is cited; unused numbers and uncited rows are reported only"""
+ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
+fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a
+changed line is not explained"""
 
 
 _MOST_BYTES = 256 << 20
@@ -49,7 +51,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
     )
-    parser.add_argument("--all", action="store_true", help="in text, list unused numbers and uncited rows too")
+    parser.add_argument(
+        "--all", action="store_true", help="in text, list everything: also what nothing cites or what is explained"
+    )
 
 
 def run(arguments: Namespace) -> int:

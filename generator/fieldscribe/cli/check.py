@@ -20,16 +20,9 @@ ends with 1 when there is an error; warnings do not count"""
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
-    from fieldscribe.cli.common import add_format, some_path
+    from fieldscribe.cli.common import add_format, add_paths
 
-    parser.add_argument(
-        "paths",
-        nargs="*",
-        type=some_path,
-        metavar="PATH",
-        help="device ids, folders with device.yaml, or folders of such folders "
-        "(default: device.yaml here, else descriptions)",
-    )
+    add_paths(parser)
     add_format(parser)
 
 

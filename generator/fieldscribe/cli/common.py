@@ -63,6 +63,18 @@ def add_format(parser: ArgumentParser) -> None:
     parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
 
 
+def add_paths(parser: ArgumentParser) -> None:
+    """Which descriptions a command is about."""
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        type=some_path,
+        metavar="PATH",
+        help="device ids, folders with device.yaml, or folders of such folders "
+        "(default: device.yaml here, else descriptions)",
+    )
+
+
 def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
     """Which device a command is about."""
     parser.add_argument("device", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")

@@ -24,18 +24,10 @@ a device with an error, or with somebody else's file in its way, writes nothing;
 ends with 1 when there is such a device, and with --check when anything is stale"""
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+def add_where(parser: ArgumentParser) -> None:
+    """What to make, and where."""
     from fieldscribe.cli.common import some_path
 
-    parser.add_argument(
-        "paths",
-        nargs="*",
-        type=some_path,
-        metavar="PATH",
-        help="device ids, folders with device.yaml, or folders of such folders "
-        "(default: device.yaml here, else descriptions)",
-    )
     parser.add_argument(
         "--target",
         default=",".join(TARGETS),
@@ -45,11 +37,30 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=some_path, default=Path("generated"), metavar="DIR", help="where to (default: generated)"
     )
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_paths, some_path
+
+    add_paths(parser)
+    add_where(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
+
+
+def targets_of(arguments: Namespace) -> tuple[str, ...]:
+    """The targets that `--target` names. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+
+    targets = tuple(dict.fromkeys(name.strip() for name in arguments.target.split(",") if name.strip()))
+    unknown = [name for name in targets if name not in TARGETS]
+    if unknown or not targets:
+        raise StopError(f"there is no target `{', '.join(unknown)}`; there are {', '.join(TARGETS)}")
+    return targets
 
 
 def run(arguments: Namespace) -> int:
@@ -59,10 +70,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.output.memory import Memory
     from fieldscribe.pipeline import find_devices
 
-    targets = tuple(dict.fromkeys(name.strip() for name in arguments.target.split(",") if name.strip()))
-    unknown = [name for name in targets if name not in TARGETS]
-    if unknown or not targets:
-        return usage_error(f"there is no target `{', '.join(unknown)}`; there are {', '.join(TARGETS)}")
+    targets = targets_of(arguments)
     report = Report()
     device_files = find_devices(description_paths(arguments.paths), report)
     writes = not (arguments.check or arguments.list_outputs)
@@ -95,7 +103,7 @@ def _compiled(
     elif arguments.check:
         generation.compare()
     else:
-        generation.write(lambda: _say_waiting(arguments.out), memory, force=arguments.force)
+        generation.write(lambda: say_waiting(arguments.out), memory, force=arguments.force)
         if arguments.depfile and not report.has_errors:
             from fieldscribe.output.depfile import write_depfile
 
@@ -104,7 +112,8 @@ def _compiled(
     return generation.result
 
 
-def _say_waiting(out: Path) -> None:
+def say_waiting(out: Path) -> None:
+    """Say that another run has the lock."""
     import sys
 
     from fieldscribe.report import visible

@@ -15,6 +15,7 @@ EXAMPLE = """examples:
 
 An editor with yaml-language-server completes and checks keys when a description starts with the line
 # yaml-language-server: $schema=schema.json
+(`fieldscribe init` writes both; `fieldscribe fmt` keeps the schema up to date)
 
 ends with 0, for it reads no description"""
 

@@ -68,8 +68,9 @@ class Family:
     """The facts of a family that every stage may read; whatever needs code is a module of its folder (a part).
 
     The parts: `keys` (keys that only this family has), `reading` (reads the family's facts from the description),
-    `checks`, `speech` (decodes frames), `sending` (builds frames), `explaining` (shows example frames), `export`, and
-    `targets.<target>`. Whoever uses a part defines what it must offer.
+    `checks`, `speech` (decodes frames), `sending` (builds frames), `explaining` (shows example frames), `starting`
+    (what a new description starts with), `export`, and `targets.<target>`. Whoever uses a part defines what it must
+    offer.
     """
 
     name: str

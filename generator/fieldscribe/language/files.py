@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Span
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.hints import nearest
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
@@ -17,7 +17,6 @@ from fieldscribe.records import dataclass
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.diagnostics import Report
     from fieldscribe.language.nodes import Map
     from fieldscribe.reading import Inputs
 
@@ -49,6 +48,16 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
         return None
     listed = "parts" not in header.broken and len(paths) == len(header.get("parts", ()))
     return Files((header, *(part for part in parts if part is not None)), listed and all(whole))
+
+
+def parts_of(device_file: Path) -> list[Path]:
+    """The parts that a device.yaml lists and that are there, as far as it can be read."""
+    report = Report()
+    header, *_ = _documents(device_file, report, None)
+    if header is None:
+        return []
+    check_shape(header, DEVICE, report)
+    return _parts(device_file, header, report)
 
 
 def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | None]:

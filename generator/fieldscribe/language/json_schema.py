@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.kinds import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
+from fieldscribe.language.keys_page import shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.kinds import Key, Kind, Shape
 
+SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
+_MARKUP = re.compile(r"[\\*_{}\[\]<>#]")
 _REFERENCE = "#/definitions/"
 
 
@@ -23,8 +27,7 @@ def json_schema() -> dict[str, Any]:
     device, part = (definitions.shape(place.shape) for place in (DEVICE, PART))
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
-        "$id": "https://fieldscribe.invalid/description-1.json",
-        "title": "Fieldscribe device description",
+        "$id": SCHEMA_ID,
         "description": "A device as its manual describes it, version 1 of the language.",
         "type": "object",
         "if": {"required": ["device"]},
@@ -97,12 +100,7 @@ class _Definitions:
         if "integer" in types and "string" not in types:
             types.append("string")
             said = _in_every_notation(said)
-        return {
-            "description": shape.meaning,
-            "type": types[0] if len(types) == 1 else types,
-            "examples": list(shape.examples),
-            **said,
-        }
+        return {**_told(shape), "type": types[0] if len(types) == 1 else types, **said}
 
     def _kind(self, kind: Kind) -> dict[str, Any]:
         if isinstance(kind, Place):
@@ -126,6 +124,36 @@ class _Definitions:
             "additionalProperties": False if other is None else self.shape(other),
             **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
         }
+
+
+def _told(shape: Shape) -> dict[str, Any]:
+    """What editors show: the meaning, and examples.
+
+    Editors offer `examples` as values, too, each under its own text: what holds keys has no such text, so it is shown
+    below the meaning, as it stands in YAML.
+    """
+    examples = [example for example in shape.examples if not _holds_keys(example)]
+    blocks = [_block(example) for example in shape.examples if _holds_keys(example)]
+    marked = bool(blocks) or "`" in shape.meaning
+    markdown = "\n\n".join([_markdown(shape.meaning), *(f"```yaml\n{block}\n```" for block in blocks)])
+    return _said(description=shape.meaning, markdownDescription=markdown if marked else "", examples=examples)
+
+
+def _holds_keys(example: Any) -> bool:
+    return isinstance(example, dict) or (isinstance(example, list) and any(map(_holds_keys, example)))
+
+
+def _block(example: Any) -> str:
+    if isinstance(example, dict):
+        return "\n".join(f"{key}: {shown(value)}" for key, value in example.items())
+    return "\n".join(f"- {shown(item)}" for item in example)
+
+
+def _markdown(text: str) -> str:
+    """The text with code as it stands, and nothing else that Markdown would take for markup."""
+    parts = text.split("`")
+    parts[::2] = [_MARKUP.sub(r"\\\g<0>", part) for part in parts[::2]]
+    return "`".join(parts)
 
 
 def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:

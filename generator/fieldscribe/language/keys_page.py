@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
+from fieldscribe.language.scalars import as_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,4 +90,6 @@ def shown(value: Any) -> str:
         return "{" + ", ".join(f"{key}: {shown(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(map(shown, value)) + "]"
+    if isinstance(value, str):
+        return value if value in ("yes", "no") or value.startswith("0x") else as_yaml(value)
     return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)

@@ -15,6 +15,9 @@ WORDS: dict[str, bool | None] = {
     **dict.fromkeys(("true", "True", "TRUE"), True),
     **dict.fromkeys(("false", "False", "FALSE"), False),
 }
+_PLAIN = re.compile(r"[^\W_][\w .+*/=()°%;<>!'-]*(?<! )")
+_OTHERWISE = frozenset({"on", "off", "yes", "no", "y", "n"})
+"""Words that readers of YAML 1.1 do not take for text."""
 _NUMBER_STARTS = frozenset("-+.0123456789")
 _NUMBER_ENDS = frozenset(".0123456789abcdefABCDEF")
 
@@ -31,3 +34,11 @@ def scalar(text: str) -> int | Decimal | bool | str | None:
     if number[1]:
         return int(text)
     return int(text, 0) if number[2] else Decimal(text)
+
+
+def as_yaml(text: str) -> str:
+    """A text as a scalar that stands for it everywhere, in quotes where it needs them."""
+    if _PLAIN.fullmatch(text) and scalar(text) == text and text.lower() not in _OTHERWISE:
+        return text
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'

@@ -31,6 +31,8 @@ class Generation:
     report: Report
     debug: Callable[[BaseException], None]
     """Called with each internal error."""
+    known: dict[str, Path] = field(default_factory=dict)
+    """The device.yaml of each device that was met, by its id."""
     devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
@@ -39,14 +41,13 @@ class Generation:
         """Load the devices without errors; two descriptions of the same device are an error."""
         from fieldscribe.pipeline import is_new, load_models
 
-        known: dict[str, Path] = {}
         for device_file in device_files:
             try:
                 models = load_models(device_file, self.report, self.inputs)
             except Exception as error:  # a bug with one device must not stop the others
                 self._report_bug(device_file, "the compiler", error)
                 continue
-            if models is not None and is_new(models.whole, device_file, known, self.report):
+            if models is not None and is_new(models.whole, device_file, self.known, self.report):
                 self.devices[models.whole.id] = device_file, models
 
     def list_outputs(self) -> None:

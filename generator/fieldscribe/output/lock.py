@@ -172,16 +172,22 @@ def _release(place: Path, handle: int) -> None:
 
 @contextmanager
 def _ending_in_order() -> Iterator[None]:
-    """Turn SIGTERM into an exception, so that the lock and half-written files are cleaned up."""
+    """Turn SIGTERM into an exception, so that the lock and half-written files are cleaned up.
+
+    Whoever handles it already goes on doing so.
+    """
+    if signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
+        yield
+        return
     try:
-        before = signal.signal(signal.SIGTERM, _stop)
+        signal.signal(signal.SIGTERM, _stop)
     except ValueError:  # not in the main thread
         yield
         return
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before if before is not None else signal.SIG_DFL)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def _stop(number: int, _frame: FrameType | None) -> NoReturn:

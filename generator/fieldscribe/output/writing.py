@@ -39,14 +39,19 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
     return states
 
 
-def replace(place: Path, pieces: Iterable[bytes], by_way_of: str = _NEW) -> State:
-    """Replace a file atomically by way of a temporary file beside it; returns its state. Raises OSError."""
+def replace(place: Path, pieces: Iterable[bytes], by_way_of: str = _NEW, *, mode: int | None = None) -> State:
+    """Replace a file atomically by way of a temporary file beside it; returns its state. Raises OSError.
+
+    `mode` says what may be done with it, in place of the user's habits.
+    """
     place.parent.mkdir(parents=True, exist_ok=True)
     new = place.parent / by_way_of
     new.unlink(missing_ok=True)
     try:
         with open(os.open(new, _FLAGS, 0o666), "wb") as stream:
             stream.writelines(pieces)
+        if mode is not None:
+            os.chmod(new, mode)
         os.replace(new, place)
     except BaseException:
         new.unlink(missing_ok=True)

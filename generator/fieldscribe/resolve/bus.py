@@ -36,41 +36,41 @@ def bus_of(scope: Scope) -> Bus:
     for second in holders[1:]:
         first = [(holders[0].key_span("bus"), "first said here")]
         scope.report.error("duplicate-name", "`bus` is said twice", second.key_span("bus"), "write it once", first)
-    raw: Map = holders[0]["bus"]
-    _check_keys(scope, raw, keys)
-    functions = codes_under(scope, raw, "functions")
-    own = reading_of(scope).bus(scope, raw, functions)
+    node: Map = holders[0]["bus"]
+    _check_keys(scope, node, keys)
+    functions = codes_under(scope, node, "functions")
+    own = reading_of(scope).bus(scope, node, functions)
     return Bus(
-        framings=tuple(raw.get("framings", ())),
-        units=ends_of(scope, raw, "units", "are no unit addresses", keys.last_unit),
-        broadcast=raw.get("broadcast"),
+        framings=tuple(node.get("framings", ())),
+        units=ends_of(scope, node, "units", "are no unit addresses", keys.last_unit),
+        broadcast=node.get("broadcast"),
         functions=functions,
-        exceptions=codes_of(scope, raw.get("exceptions"), keys.codes[0], keys.last_exception),
-        gaps=_gaps(scope, raw.get("gaps")),
-        timing={key: str(value) for key, value in raw.get("timing", {}).items()},
-        serial={key: _setting(value) for key, value in raw.get("serial", {}).items()},
-        note=titles(raw.get("note")),
+        exceptions=codes_of(scope, node.get("exceptions"), keys.codes[0], keys.last_exception),
+        gaps=_gaps(scope, node.get("gaps")),
+        timing={key: str(value) for key, value in node.get("timing", {}).items()},
+        serial={key: _setting(value) for key, value in node.get("serial", {}).items()},
+        note=titles(node.get("note")),
         own=own,
     )
 
 
-def _check_keys(scope: Scope, raw: Map, keys: BusKeys) -> None:
+def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
     """Findings for keys that the family needs and that are missing, and for keys that it does not know."""
     family = scope.family.name
     for key in keys.needed:
-        if key not in raw and key not in raw.broken:
+        if key not in node and key not in node.broken:
             message = f"the key `{key}` is missing: the family {family} needs it"
-            scope.report.error("missing-key", message, raw.span(), f"add `{key}: …`")
-    for key in raw:
+            scope.report.error("missing-key", message, node.span(), f"add `{key}: …`")
+    for key in node:
         if not _knows(scope.family, key) and not key.startswith("x-"):
             known = sorted(other.name for other in families() if _knows(other, key))
             message = f"`{key}` is nothing that the family {family} knows"
             hint = f"it belongs to {' and '.join(known)}: leave it out"
-            scope.report.error("family-key", message, raw.key_span(key), hint)
-    if keys.broadcast is not None and raw.get("broadcast", keys.broadcast) != keys.broadcast:
-        message = f"{raw['broadcast']} is no broadcast of the family {family}"
+            scope.report.error("family-key", message, node.key_span(key), hint)
+    if keys.broadcast is not None and node.get("broadcast", keys.broadcast) != keys.broadcast:
+        message = f"{node['broadcast']} is no broadcast of the family {family}"
         hint = f"write {keys.broadcast}: bit 5 of the address byte, or leave it out"
-        scope.report.error("wrong-choice", message, raw.span("broadcast"), hint)
+        scope.report.error("wrong-choice", message, node.span("broadcast"), hint)
 
 
 def _knows(family: Family, key: str) -> bool:
@@ -78,32 +78,32 @@ def _knows(family: Family, key: str) -> bool:
     return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
 
 
-def ends_of(scope: Scope, raw: Map, key: str, complaint: str, last: int) -> tuple[int, int]:
+def ends_of(scope: Scope, node: Map, key: str, complaint: str, last: int) -> tuple[int, int]:
     """The ends of an interval under `bus`, such as `units`; zeros after a finding or where it is not said."""
-    if key not in raw:
+    if key not in node:
         return 0, 0
-    ends = interval(str(raw[key]), raw.span(key), scope.report)
+    ends = interval(str(node[key]), node.span(key), scope.report)
     if ends is not None and 0 <= ends[0] <= ends[1] <= last:
         return ends
     if ends is not None:
         message = f"{key} {ends[0]}..{ends[1]} {complaint}"
-        scope.report.error("address-outside-space", message, raw.span(key), f"they lie in 0..{last}")
-    raw.broken += (key,)
+        scope.report.error("address-outside-space", message, node.span(key), f"they lie in 0..{last}")
+    node.broken += (key,)
     return 0, 0
 
 
-def codes_under(scope: Scope, raw: Map, key: str) -> tuple[Code, ...]:
+def codes_under(scope: Scope, node: Map, key: str) -> tuple[Code, ...]:
     """The numbered codes under a key that the family needs."""
     keys = scope.family.bus
-    return codes_of(scope, raw.get(key) if key in keys.needed else None, *keys.codes)
+    return codes_of(scope, node.get(key) if key in keys.needed else None, *keys.codes)
 
 
-def codes_of(scope: Scope, raw: Map | None, first: int, last: int) -> tuple[Code, ...]:
+def codes_of(scope: Scope, node: Map | None, first: int, last: int) -> tuple[Code, ...]:
     """Numbered codes with their names, in the author's order; numbers and names are unique."""
     result: dict[int, Code] = {}
     keys: dict[int | str, str] = {}
-    for key, value in raw.items() if raw is not None else ():
-        span = raw.key_span(key) if raw is not None else Span("", 1, 1)
+    for key, value in node.items() if node is not None else ():
+        span = node.key_span(key) if node is not None else Span("", 1, 1)
         number = integer(key, span, scope.report)
         if number is None:
             continue
@@ -112,9 +112,9 @@ def codes_of(scope: Scope, raw: Map | None, first: int, last: int) -> tuple[Code
         if not first <= number <= last:
             message = f"the code {key} lies outside {first}..{last}"
             scope.report.error("address-outside-space", message, span, "correct the code")
-        elif other is not None and raw is not None:
+        elif other is not None and node is not None:
             rule, what = ("value", f"code {number}") if number in keys else ("name", f"name `{name}`")
-            related = [(raw.key_span(other), "first given here")]
+            related = [(node.key_span(other), "first given here")]
             message = f"the {what} is given twice"
             scope.report.error(f"duplicate-enum-{rule}", message, span, "remove or rename one of them", related)
         else:
@@ -132,10 +132,10 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
     return Code(number, name, text, value.get("max"), value.get("broadcast"), answers, refusals)
 
 
-def code_list(scope: Scope, raw: Map, key: str) -> tuple[int, ...]:
+def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
     """The numbers of a list of codes, where `11..14` stands for several."""
     codes: dict[int, None] = {}
-    items: Seq = raw.get(key) or Seq(raw.file, raw.at)
+    items: Seq = node.get(key) or Seq(node.file, node.at)
     for place, item in enumerate(items):
         ends = interval(str(item), items.span(place), scope.report)
         if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_UNIT:
@@ -153,13 +153,13 @@ def _code_titles(value: Map | str, name: str) -> Mapping[str, str]:
     return {"en": humanised(name), **titles(value.get("title")), **texts}
 
 
-def _gaps(scope: Scope, raw: Map | None) -> dict[str, tuple[tuple[int, int], ...]]:
+def _gaps(scope: Scope, node: Map | None) -> dict[str, tuple[tuple[int, int], ...]]:
     """The intervals of addresses under `gaps`, by space."""
     result: dict[str, tuple[tuple[int, int], ...]] = {}
     known, last = scope.family.spaces, scope.family.last_address
-    for space, texts in raw.items() if raw is not None else ():
-        if raw is not None and space not in known:
-            scope.unknown("space", space, raw.key_span(space), known)
+    for space, texts in node.items() if node is not None else ():
+        if node is not None and space not in known:
+            scope.unknown("space", space, node.key_span(space), known)
             continue
         gaps = [
             (interval(str(text), texts.span(index), scope.report), texts.span(index))

@@ -22,68 +22,68 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
     """The named constant writes of all files."""
     result: dict[str, Command] = {}
     places: dict[str, Span] = {}
-    for raw in scope.listed("commands"):
-        name = str(raw["name"])
+    for node in scope.listed("commands"):
+        name = str(node["name"])
         if scope.family.commands_in is None:
             hint = "describe the point that it writes, with its value under `enum` or `flags`"
             known = " and ".join(family.name for family in families() if family.commands_in is not None)
-            scope.report.error("family-key", f"commands are for the family {known}", raw.span("name"), hint)
+            scope.report.error("family-key", f"commands are for the family {known}", node.span("name"), hint)
             continue
         if name in result or name in ("no", "yes", "choice"):
             first = [(places[name], "first declared here")] if name in places else []
             message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"
             hint = "rename one of them" if first else "these are the words of `keeps`: give it another name"
-            scope.report.error("duplicate-name", message, raw.span("name"), hint, first)
+            scope.report.error("duplicate-name", message, node.span("name"), hint, first)
             continue
-        command = _command(scope, bus, raw)
+        command = _command(scope, bus, node)
         if command is not None:
             result[name] = command
-            places[name] = raw.span("name")
+            places[name] = node.span("name")
     return tuple(result.values())
 
 
-def _command(scope: Scope, bus: Bus, raw: Map) -> Command | None:
-    address = integer(raw["at"], raw.span("at"), scope.report)
-    function = integer(raw["function"], raw.span("function"), scope.report)
-    value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), scope.report)
-    space = str(raw.get("space", scope.family.commands_in))
+def _command(scope: Scope, bus: Bus, node: Map) -> Command | None:
+    address = integer(node["at"], node.span("at"), scope.report)
+    function = integer(node["function"], node.span("function"), scope.report)
+    value = None if node["value"] == "any" else integer(node["value"], node.span("value"), scope.report)
+    space = str(node.get("space", scope.family.commands_in))
     if space not in scope.family.spaces:
         known = scope.family.spaces
-        scope.unknown("space", space, raw.span("space"), known, space_hint(space, known))
+        scope.unknown("space", space, node.span("space"), known, space_hint(space, known))
         return None
     if address is None or function is None:
         return None
-    if not all([_reaches(scope, bus, raw, space, function), _fits(scope, raw, space, address, value)]):
+    if not all([_reaches(scope, bus, node, space, function), _fits(scope, node, space, address, value)]):
         return None
     return Command(
-        name=str(raw["name"]),
-        title=titles(raw.get("title"), humanised(raw["name"])),
-        note=titles(raw.get("note")),
+        name=str(node["name"]),
+        title=titles(node.get("title"), humanised(node["name"])),
+        note=titles(node.get("note")),
         space=space,
         address=address,
         function=function,
         value=value,
-        wears=raw.get("wears"),
-        busy=raw.get("busy"),
-        source=source_of(scope, raw),
+        wears=node.get("wears"),
+        busy=node.get("busy"),
+        source=source_of(scope, node),
     )
 
 
-def _fits(scope: Scope, raw: Map, space: str, address: int, value: int | None) -> bool:
+def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) -> bool:
     """Whether the space has the address and holds the value; a finding if not."""
     last = scope.family.last_address
     greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
     inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
     if not inside:
         message = f"the address {address} lies outside 0..{last}"
-        scope.report.error("address-outside-space", message, raw.span("at"), "`at` is the number on the wire")
+        scope.report.error("address-outside-space", message, node.span("at"), "`at` is the number on the wire")
     if not holds:
         message = f"the value {value} does not fit into `{space}`"
-        scope.report.error("range-outside-type", message, raw.span("value"), f"0..{greatest} can be written")
+        scope.report.error("range-outside-type", message, node.span("value"), f"0..{greatest} can be written")
     return inside and holds
 
 
-def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> bool:
+def _reaches(scope: Scope, bus: Bus, node: Map, space: str, function: int) -> bool:
     """Whether the device has the function and it writes into the space; a finding if not."""
     known = reading_of(scope).writes(space)
     if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
@@ -92,5 +92,5 @@ def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> boo
     if function not in known:
         message = f"function {function:02X}h does not write into `{space}`"
         hint = f"functions that do: {', '.join(f'{other:02X}h' for other in known) or 'none'}"
-    scope.report.error("unknown-function", message, raw.span("function"), hint)
+    scope.report.error("unknown-function", message, node.span("function"), hint)
     return False

@@ -68,9 +68,9 @@ def _with_errata(subject: Subject, points: list[Point]) -> tuple[Point, ...]:
 
 
 def _groups(scope: Scope) -> Iterator[Group]:
-    for raw in groups(scope):
-        name = str(raw["group"])
-        yield Group(name, titles(raw.get("title"), humanised(name)), titles(raw.get("note")), source_of(scope, raw))
+    for node in groups(scope):
+        name = str(node["group"])
+        yield Group(name, titles(node.get("title"), humanised(name)), titles(node.get("note")), source_of(scope, node))
 
 
 def _enums(points: tuple[Point, ...]) -> tuple[Enum, ...]:

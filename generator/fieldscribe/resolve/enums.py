@@ -43,23 +43,23 @@ def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
     return scope.enums[key]
 
 
-def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
+def entries_of(scope: Scope, node: Map) -> tuple[Entry, ...]:
     """The named numbers in the author's order; a number or a name given twice is a finding."""
     by_number: dict[int, str] = {}
     by_name: dict[str, str] = {}
     result = []
-    for key, value in raw.items():
-        entry = _entry(scope, raw, key, value)
+    for key, value in node.items():
+        entry = _entry(scope, node, key, value)
         if entry is None:
             continue
         if entry.raw in by_number:
-            first = (raw.key_span(by_number[entry.raw]), "first given here")
+            first = (node.key_span(by_number[entry.raw]), "first given here")
             message = f"the number {entry.raw} is named twice"
-            scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them", [first])
+            scope.report.error("duplicate-enum-value", message, node.key_span(key), "remove one of them", [first])
         elif entry.name in by_name:
-            first = (raw.key_span(by_name[entry.name]), "first given here")
+            first = (node.key_span(by_name[entry.name]), "first given here")
             message = f"two numbers have the name `{entry.name}`"
-            scope.report.error("duplicate-enum-name", message, raw.span(key), "names are unique in an enum", [first])
+            scope.report.error("duplicate-enum-name", message, node.span(key), "names are unique in an enum", [first])
         else:
             result.append(entry)
         by_number.setdefault(entry.raw, key)
@@ -67,12 +67,12 @@ def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
     return tuple(result)
 
 
-def _entry(scope: Scope, raw: Map, key: str, value: Any) -> Entry | None:
+def _entry(scope: Scope, node: Map, key: str, value: Any) -> Entry | None:
     if interval_meant(key) is not None:
         hint = "write a row for each number that has a name; the others need none"
-        scope.report.error("bad-number", f"`{key[:60]}` is not a single number", raw.key_span(key), hint)
+        scope.report.error("bad-number", f"`{key[:60]}` is not a single number", node.key_span(key), hint)
         return None
-    number = integer(key, raw.key_span(key), scope.report)
+    number = integer(key, node.key_span(key), scope.report)
     if number is None:
         return None
     name = name_of(value)
@@ -123,16 +123,16 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
 
     A flag of a point that takes only some `bits` of its word counts from the lowest of them.
     """
-    raw: Map | None = draft.get("flags")
-    if raw is None:
+    node: Map | None = draft.get("flags")
+    if node is None:
         return ()
-    _warn_of_masks(scope, raw)
+    _warn_of_masks(scope, node)
     taken = _Taken(scope, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
-    for key, value in raw.items():
+    for key, value in node.items():
         high, low = bits_named(key)
-        span, name = raw.key_span(key), name_of(value)
+        span, name = node.key_span(key), name_of(value)
         if high < low:
             hint = f"the higher bit stands first: {low}..{high}"
             scope.report.error("range-reversed", f"bits `{key}` run upwards", span, hint)
@@ -145,19 +145,19 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
                 if outside > _WIDEST and outside == 1 << place and first <= place <= last:
                     hint += f"; the mask {key} is bit {place}"
                 scope.report.error("bit-outside-word", message, span, hint)
-        elif taken.takes((low, high), name, span, raw.span(key)):
-            result.append(_flag(scope, raw, key, low - first, high - low + 1))
+        elif taken.takes((low, high), name, span, node.span(key)):
+            result.append(_flag(scope, node, key, low - first, high - low + 1))
     return tuple(result)
 
 
-def _warn_of_masks(scope: Scope, raw: Map) -> None:
+def _warn_of_masks(scope: Scope, node: Map) -> None:
     """A warning where the keys look like the masks of the bits, 1, 2, 4, 8, and not like their numbers."""
-    keys = list(raw)
+    keys = list(node)
     if len(keys) >= _MASKS and not any(".." in key for key in keys):
         numbers = [parse_integer(key) for key in keys]
         if numbers == [1 << place for place in range(len(numbers))]:
             hint = "keys are bit numbers from 0: write 0, 1, 2, 3 for the masks 1, 2, 4, 8"
-            scope.report.warning("looks-like-masks", "these look like masks of bits", raw.key_span(keys[0]), hint)
+            scope.report.warning("looks-like-masks", "these look like masks of bits", node.key_span(keys[0]), hint)
 
 
 def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
@@ -171,8 +171,8 @@ def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
     return entries_of(scope, entries)
 
 
-def _flag(scope: Scope, raw: Map, key: str, low: int, width: int) -> Flag:
-    value: Map | str = raw[key]
+def _flag(scope: Scope, node: Map, key: str, low: int, width: int) -> Flag:
+    value: Map | str = node[key]
     name = name_of(value)
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())

@@ -26,7 +26,7 @@ class OpenErratum:
     """An erratum with its text; `used` collects the keys of `printed` where a check really met the misprint."""
 
     erratum: Erratum
-    raw: Map
+    node: Map
     used: set[str]
 
     @property
@@ -37,7 +37,7 @@ class OpenErratum:
 
     def printed(self, key: str) -> Any:
         """The printed value of a key, or None."""
-        printed = self.raw["printed"]
+        printed = self.node["printed"]
         return printed.get(key) if isinstance(printed, Map) else None
 
 
@@ -45,45 +45,45 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
     """All errata in the order of the text; one about nothing that exists, or with an id given twice, is a finding."""
     seen: dict[str, Map] = {}
     result = []
-    for raw in scope.listed("errata"):
-        if raw["id"] in seen:
-            first = (seen[raw["id"]].span("id"), "first given here")
+    for node in scope.listed("errata"):
+        if node["id"] in seen:
+            first = (seen[node["id"]].span("id"), "first given here")
             scope.report.error(
                 "duplicate-name",
-                f"two errata have the id `{raw['id']}`",
-                raw.span("id"),
+                f"two errata have the id `{node['id']}`",
+                node.span("id"),
                 "ids are never reused",
                 [first],
             )
             continue
-        seen[raw["id"]] = raw
-        points = tuple(_points(scope, index, raw))
-        where = _where(scope, raw, bus)
+        seen[node["id"]] = node
+        points = tuple(_points(scope, index, node))
+        where = _where(scope, node, bus)
         if not points and where is None:
             continue
-        _flag_exists(scope, index, raw)
-        source = source_of(scope, raw)
+        _flag_exists(scope, index, node)
+        source = source_of(scope, node)
         if source.document not in scope.documents:
-            scope.unknown("document", source.document, raw.span("document"), scope.documents)
+            scope.unknown("document", source.document, node.span("document"), scope.documents)
         text = Erratum(
-            raw["id"],
+            node["id"],
             points,
             where or "",
             source,
-            in_one_line(raw["printed"]),
-            in_one_line(raw["taken"]),
-            str(raw["why"]),
-            raw["certainty"],
-            _facts(raw["printed"]),
+            in_one_line(node["printed"]),
+            in_one_line(node["taken"]),
+            str(node["why"]),
+            node["certainty"],
+            _facts(node["printed"]),
         )
-        result.append(OpenErratum(text, raw, set()))
+        result.append(OpenErratum(text, node, set()))
     return result
 
 
-def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
+def _points(scope: Scope, index: Index, node: Map) -> Iterator[str]:
     """The names of the points that it is about; a word that means none is a finding."""
-    words = [(raw["point"], raw.span("point"))] if "point" in raw else []
-    words += [(word, raw["points"].span(number)) for number, word in enumerate(raw.get("points", ()))]
+    words = [(node["point"], node.span("point"))] if "point" in node else []
+    words += [(word, node["points"].span(number)) for number, word in enumerate(node.get("points", ()))]
     for word, span in words:
         drafts = index.all(word)
         if not drafts:
@@ -91,38 +91,38 @@ def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
         yield from dict.fromkeys(draft.name for draft in drafts)
 
 
-def _flag_exists(scope: Scope, index: Index, raw: Map) -> None:
+def _flag_exists(scope: Scope, index: Index, node: Map) -> None:
     """A finding for an erratum about a flag that its points do not have."""
-    if "flag" not in raw:
+    if "flag" not in node:
         return
-    words = [raw["point"]] if "point" in raw else list(raw.get("points", ()))
+    words = [node["point"]] if "point" in node else list(node.get("points", ()))
     flags = [value for word in words for draft in index.all(word) for value in (draft.get("flags") or {}).values()]
     names = [str(value if isinstance(value, str) else value["name"]) for value in flags]
-    if raw["flag"] not in names:
-        scope.unknown("flag", raw["flag"], raw.span("flag"), names)
+    if node["flag"] not in names:
+        scope.unknown("flag", node["flag"], node.span("flag"), names)
 
 
-def _where(scope: Scope, raw: Map, bus: Bus) -> Named | str | None:
+def _where(scope: Scope, node: Map, bus: Bus) -> Named | str | None:
     """What it is about, if not a whole point: a thing, words, or nothing; None after a finding."""
     for section, key in _NAMED:
-        if key in raw:
+        if key in node:
             known = [str(item["name"]) for item in scope.listed(section)]
-            if raw[key] not in known:
-                scope.unknown(key, raw[key], raw.span(key), known)
-            return Named(key, raw[key])
+            if node[key] not in known:
+                scope.unknown(key, node[key], node.span(key), known)
+            return Named(key, node[key])
     for key, section in sections_of_codes().items():
-        if key in raw:
-            number = integer(raw[key], raw.span(key), scope.report)
+        if key in node:
+            number = integer(node[key], node.span(key), scope.report)
             if number is not None and all(code.number != number for code in bus.codes(section)):
-                scope.unknown(key, str(raw[key]), raw.span(key), ())
-            return Named(key, str(raw[key]) if number is None else number)
-    if "where" in raw:
-        return str(raw["where"])
-    if "point" not in raw and "points" not in raw:
+                scope.unknown(key, str(node[key]), node.span(key), ())
+            return Named(key, str(node[key]) if number is None else number)
+    if "where" in node:
+        return str(node["where"])
+    if "point" not in node and "points" not in node:
         hint = "say `point`, `points`, `frame`, `function`, `message`, `telegram` or `where`"
-        scope.report.error("erratum-unused", f"the erratum `{raw['id']}` is about nothing", raw.span("id"), hint)
+        scope.report.error("erratum-unused", f"the erratum `{node['id']}` is about nothing", node.span("id"), hint)
         return None
-    return f"the flag {raw['flag']}" if "flag" in raw else ""
+    return f"the flag {node['flag']}" if "flag" in node else ""
 
 
 def in_one_line(value: Any) -> str:

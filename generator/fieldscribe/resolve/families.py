@@ -17,31 +17,31 @@ if TYPE_CHECKING:
 class Reading:
     """Reads the facts that only one family has; a family offers its own reader as `READING` in its module `reading`."""
 
-    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> Own | None:
+    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> Own | None:
         """What the family alone knows of the bus, with findings for what its protocol cannot do."""
-        del scope, raw, functions
+        del scope, node, functions
         return None
 
-    def frame(self, scope: Scope, raw: Map, framing: str) -> Own | None:
+    def frame(self, scope: Scope, node: Map, framing: str) -> Own | None:
         """What the family alone knows of a worked example."""
-        del scope, raw, framing
+        del scope, node, framing
         return None
 
-    def refuses(self, scope: Scope, bus: Bus, raw: Map) -> bool:
+    def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
         """Whether a worked example cannot be one of this bus, with a finding."""
-        del scope, bus, raw
+        del scope, bus, node
         return False
 
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:
         """The messages that the description lays out."""
         del bus
         laid_out = " and ".join(family.name for family in families() if family.lays_out_messages)
-        for raw in scope.listed("messages"):
+        for node in scope.listed("messages"):
             hint = f"leave it out: the frames of {scope.family.name} are known"
-            scope.report.error("family-key", f"messages are for the family {laid_out}", raw.span("name"), hint)
+            scope.report.error("family-key", f"messages are for the family {laid_out}", node.span("name"), hint)
         return ()
 
-    def telegram(self, scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
+    def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
         """Findings for a telegram that the family's own frames cannot carry."""
 
     def writes(self, space: str) -> tuple[int, ...]:

@@ -23,13 +23,13 @@ RAW = ".raw"
 """Behind a point's name it says that the raw number follows, not the value."""
 
 
-def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
+def meaning_of(scope: Scope, node: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
     """The raw numbers that a frame carries according to its `says`, by item."""
     held: dict[str, int | Fraction] = {}
-    settings: Map | None = raw.get("with")
+    settings: Map | None = node.get("with")
     for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
-    says: Map | None = raw.get("says")
+    says: Map | None = node.get("says")
     if says is None:
         return {}
     return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(index, points)}

@@ -181,17 +181,17 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
 
 
 def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
-    raw: Map | None = draft.get("steps")
-    if raw is None:
+    node: Map | None = draft.get("steps")
+    if node is None:
         return ()
     steps: dict[int, int] = {}
-    for key, step in raw.items():
-        start = integer(key, raw.key_span(key), scope.report)
+    for key, step in node.items():
+        start = integer(key, node.key_span(key), scope.report)
         if start is None:
             continue
         if start in steps:
             message = f"the steps from {start} on are given twice"
-            scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them")
+            scope.report.error("duplicate-enum-value", message, node.key_span(key), "remove one of them")
         steps.setdefault(start, step)
     return tuple(sorted(steps.items()))
 

@@ -86,23 +86,23 @@ class SpecialCodes:
         specials = tuple(_special(code, id(code.holder) in own) for code in codes)
         return specials, "_".join((*labels, kind)) if all_kept else ""
 
-    def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
+    def held(self, node: Map, kind: str, width: int) -> tuple[_Code, ...]:
         """The codes of one `special` as raw numbers of that type; a finding for each that does not fit or clashes."""
-        key = (id(raw), kind, width)
+        key = (id(node), kind, width)
         if key not in self._held:
             kept: list[_Code] = []
-            for code in self._numbers(raw, kind, width):
+            for code in self._numbers(node, kind, width):
                 if not any(self._clash(code, other) for other in kept):
                     kept.append(code)
             self._held[key] = tuple(kept)
         return self._held[key]
 
-    def _numbers(self, raw: Map, kind: str, width: int) -> Iterator[_Code]:
+    def _numbers(self, node: Map, kind: str, width: int) -> Iterator[_Code]:
         """The entries of one `special` that the type can hold; a finding for each other one."""
         info = TYPES[kind]
         least, greatest = ends_of(width, signed=info.signed)
-        for key, value in raw.items():
-            span = raw.key_span(key)
+        for key, value in node.items():
+            span = node.key_span(key)
             meant = None if ".." in key else interval_meant(key)
             if meant is not None:
                 self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {meant}")
@@ -133,7 +133,7 @@ class SpecialCodes:
                 hint = "correct the code or the `type`; codes of the points of one type go under `types`"
                 self._report("range-outside-type", message, span, hint)
             else:
-                yield _Code(low, high, all(patterns), None if value is None else name_of(value), raw, key)
+                yield _Code(low, high, all(patterns), None if value is None else name_of(value), node, key)
 
     def _merged(self, levels: list[tuple[_Code, ...]]) -> list[_Code]:
         """The codes of all levels, the nearest first, without those that a nearer code without a name takes away."""

@@ -104,18 +104,18 @@ class Subject:
         """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
         for erratum in self.cited.get(fact.about, ()):
             stated = erratum.printed(fact.key)
-            if erratum.raw.get("flag") != fact.flag:
+            if erratum.node.get("flag") != fact.flag:
                 continue
             if stated is None or not same(stated, fact.printed):
                 continue
             erratum.used.add(fact.key)
-            taken = erratum.raw["taken"].get(fact.key) if isinstance(erratum.raw["taken"], Map) else None
+            taken = erratum.node["taken"].get(fact.key) if isinstance(erratum.node["taken"], Map) else None
             if taken is None or (fact.taken is not None and not fact.fits(taken)):
                 message = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
                 if taken is None:
                     message = f"the erratum does not say what was taken for `{fact.key}`"
                 hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
-                self.report.error("erratum-differs", message, erratum.raw.span("taken"), hint)
+                self.report.error("erratum-differs", message, erratum.node.span("taken"), hint)
             return
         named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
         hint = (

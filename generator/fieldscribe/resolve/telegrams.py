@@ -30,28 +30,28 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
     result: dict[str, tuple[Telegram, int]] = {}
     seen: dict[str, Span] = {}
     by_name = {message.name: message for message in messages}
-    for raw in scope.listed("telegrams"):
-        name = str(raw["name"])
+    for node in scope.listed("telegrams"):
+        name = str(node["name"])
         if SPACE not in scope.family.spaces:
             family = scope.header["family"]
             message = f"the family {family} has no telegrams"
-            scope.report.error("family-key", message, raw.span("name"), "leave it out")
+            scope.report.error("family-key", message, node.span("name"), "leave it out")
             continue
         if name in seen:
             first = [(seen[name], "first given here")]
             message = f"two telegrams have the name `{name}`"
-            scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
+            scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
             continue
-        seen[name] = raw.span("name")
-        carried = _carried(scope, raw, by_name)
-        _check_carrier(scope, raw, by_name, [telegram for telegram, _ in result.values()])
+        seen[name] = node.span("name")
+        carried = _carried(scope, node, by_name)
+        _check_carrier(scope, node, by_name, [telegram for telegram, _ in result.values()])
         telegram = Telegram(
             name=name,
-            title=titles(raw.get("title"), humanised(name)),
-            direction=raw["direction"],
-            words=raw["length"],
-            message=raw.get("message"),
-            source=source_of(scope, raw),
+            title=titles(node.get("title"), humanised(name)),
+            direction=node["direction"],
+            words=node["length"],
+            message=node.get("message"),
+            source=source_of(scope, node),
         )
         result[name] = (telegram, carried)
     return result
@@ -72,34 +72,34 @@ def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Teleg
     return entry
 
 
-def _check_carrier(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
+def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
     """Findings for a telegram without a message, with one of the other direction, or with one that carries another."""
-    name, direction, carrier = str(raw["name"]), raw["direction"], raw.get("message")
+    name, direction, carrier = str(node["name"]), node["direction"], node.get("message")
     if not scope.family.lays_out_messages:
-        reading_of(scope).telegram(scope, raw, before)
+        reading_of(scope).telegram(scope, node, before)
         return
     if carrier is None:
-        if "message" not in raw.broken:
+        if "message" not in node.broken:
             text = f"nothing says which message carries `{name}`"
-            scope.report.error("missing-key", text, raw.span("name"), "add `message: …`")
+            scope.report.error("missing-key", text, node.span("name"), "add `message: …`")
         return
     message, other = messages.get(carrier), next((earlier for earlier in before if earlier.message == carrier), None)
     if message is not None and message.direction != direction:
         text = f"`{name}` is said to be {direction}, its message `{carrier}` is {message.direction}"
-        scope.report.error("wrong-choice", text, raw.span("direction"), f"write `direction: {message.direction}`")
+        scope.report.error("wrong-choice", text, node.span("direction"), f"write `direction: {message.direction}`")
     elif other is not None:
         text = f"the message `{carrier}` carries `{other.name}` already"
         hint = "nobody could tell whose words they are: give each telegram its own message, or make them one"
-        scope.report.error("two-meanings", text, raw.span("message"), hint)
+        scope.report.error("two-meanings", text, node.span("message"), hint)
 
 
-def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
+def _carried(scope: Scope, node: Map, messages: Mapping[str, Message]) -> int:
     """How many words one frame carries if there are several frames, else 0; findings where they cannot."""
-    name = raw.get("message")
+    name = node.get("message")
     if name is None or not scope.family.lays_out_messages:
         return 0
     message = messages.get(name)
-    span = raw.span("message")
+    span = node.span("message")
     if message is None:
         known = [str(item["name"]) for item in scope.listed("messages")]
         if name not in known:
@@ -107,8 +107,8 @@ def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
         return 0
     words, multiplexed = message.words, any(role.kind == "multiplexer" for role in message.roles)
     most = words * (_MULTIPLEXED if multiplexed else 1)
-    if raw["length"] > most:
-        text = f"the frames of `{name}` carry at most {most} words, the telegram has {raw['length']}"
+    if node["length"] > most:
+        text = f"the frames of `{name}` carry at most {most} words, the telegram has {node['length']}"
         hint = "its layout needs `telegram`, and a `multiplexer` where there are several frames"
         scope.report.error("too-many-items", text, span, hint)
         return 0

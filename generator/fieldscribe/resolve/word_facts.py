@@ -56,15 +56,15 @@ def text_of(scope: Scope, draft: Draft) -> Text | None:
 
 def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     """The decimal digits of a word and their names; None where there are none, or after a finding."""
-    raw: Map | None = draft.get("digits")
-    if raw is None:
+    node: Map | None = draft.get("digits")
+    if node is None:
         return None
-    raw_enum = raw["enum"]
+    raw_enum = node["enum"]
     name, entries = (
         (raw_enum, scope.named_enums.get(raw_enum)) if isinstance(raw_enum, str) else (draft.enum_name, raw_enum)
     )
     if entries is None:
-        scope.unknown("enum", name, raw.span("enum"), scope.named_enums)
+        scope.unknown("enum", name, node.span("enum"), scope.named_enums)
         draft.failed.add("digits")
         return None
     key = (name, id(entries), True)
@@ -74,10 +74,10 @@ def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     misfit = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
     if misfit is not None:
         message = f"`{misfit.name}` is {misfit.raw}, and a digit is 0..{_LARGEST_DIGIT}"
-        scope.report.error("enum-outside-range", message, raw.span("enum"), "name single digits")
+        scope.report.error("enum-outside-range", message, node.span("enum"), "name single digits")
         draft.failed.add("digits")
         return None
-    return Digits(raw["count"], enum) if enum.entries else None
+    return Digits(node["count"], enum) if enum.entries else None
 
 
 def allowed_digits(scope: Scope, draft: Draft, digits: Digits, greatest: int) -> Allowed:
@@ -94,27 +94,27 @@ def allowed_digits(scope: Scope, draft: Draft, digits: Digits, greatest: int) ->
 
 def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> Fixed | None:
     """The bits of the word that are written as a constant; None where there are none, or after a finding."""
-    raw: Map | None = draft.get("fixed")
-    if raw is None:
+    node: Map | None = draft.get("fixed")
+    if node is None:
         return None
     word = WORD_BITS if bits is not None else width
     own = 0 if bits is None else ((1 << width) - 1) << bits[1]
     mask = value = 0
-    for key, content in raw.items():
-        place_and_greatest = _fixed_bits(scope, draft, raw, key, word)
-        number = integer(content, raw.span(key), scope.report)
+    for key, content in node.items():
+        place_and_greatest = _fixed_bits(scope, draft, node, key, word)
+        number = integer(content, node.span(key), scope.report)
         if place_and_greatest is None or number is None:
             continue
         low, greatest = place_and_greatest
         if not 0 <= number <= greatest:
             message = f"{content} does not fit into {_bits_text(key)}"
-            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{greatest}")
+            scope.report.error("range-outside-type", message, node.span(key), f"write 0..{greatest}")
         elif mask & greatest << low:
             message = f"{_bits_text(key)} cannot be fixed twice"
-            scope.report.error("bits-overlap", message, raw.key_span(key), "remove one of them")
+            scope.report.error("bits-overlap", message, node.key_span(key), "remove one of them")
         elif own & greatest << low:
             message = f"{_bits_text(key)} cannot be fixed, for the point itself takes it"
-            scope.report.error("bits-overlap", message, raw.key_span(key), "`fixed` names the bits beside it")
+            scope.report.error("bits-overlap", message, node.key_span(key), "`fixed` names the bits beside it")
         else:
             mask, value = mask | greatest << low, value | number << low
     return Fixed(mask, value) if mask else None
@@ -124,16 +124,16 @@ def _bits_text(key: str) -> str:
     return f"bits {key}" if ".." in key else f"bit {key}"
 
 
-def _fixed_bits(scope: Scope, draft: Draft, raw: Map, key: str, word: int) -> tuple[int, int] | None:
+def _fixed_bits(scope: Scope, draft: Draft, node: Map, key: str, word: int) -> tuple[int, int] | None:
     """The lowest bit that a key names, and what its bits hold at most; None after a finding."""
     high, low = bits_named(key)
     if high < low:
         hint = f"the higher bit stands first: {low}..{high}"
-        scope.report.error("range-reversed", f"bits `{key}` run upwards", raw.key_span(key), hint)
+        scope.report.error("range-reversed", f"bits `{key}` run upwards", node.key_span(key), hint)
         return None
     if high >= word:
         if not draft.failed & {"type", "bits"}:
             message = f"bit {high} lies outside the {word} bits of the word"
-            scope.report.error("bit-outside-word", message, raw.key_span(key), f"bits are numbered {word - 1}..0")
+            scope.report.error("bit-outside-word", message, node.key_span(key), f"bits are numbered {word - 1}..0")
         return None
     return low, (1 << high - low + 1) - 1

@@ -66,7 +66,7 @@ class Citations:
         self.claims = list(dict.fromkeys(claims_of(subject)))
         self.errata = list(printed_errata_of(subject))
         self.looked_through = list(_passages_of(subject.scope.files))
-        self.place_of_erratum = {erratum.erratum.id: erratum.raw.span("id") for erratum in subject.errata}
+        self.place_of_erratum = {erratum.erratum.id: erratum.node.span("id") for erratum in subject.errata}
         self.counts_new: set[str] = set()
         self.all_count_new = False
 

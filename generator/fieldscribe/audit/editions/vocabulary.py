@@ -38,7 +38,7 @@ class Vocabulary:
             words = _words_in([draft.get(key) for key in draft.keys])
             words |= _words_in(subject.scope.named_enums.get(str(draft.get("enum")), ()))
             words |= _words_in(_OF_ACCESS.get(str(draft.get("access")), ""))
-            words |= _words_in([erratum.raw for erratum in subject.cited.get(resolved.point.name, ())])
+            words |= _words_in([erratum.node for erratum in subject.cited.get(resolved.point.name, ())])
             self._of_points[resolved.point.item] = words
             span = draft.span("unit")
             self._units[resolved.point.item] = str(draft.get("unit", "")), f"{span.file}:{span.line}:{span.column}"

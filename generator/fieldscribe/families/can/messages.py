@@ -30,41 +30,41 @@ def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
     """All messages in the order of the description; one with a wrong layout is reported and left out."""
     result: dict[str, Message] = {}
     seen: dict[str, Span] = {}
-    for raw in scope.listed("messages"):
-        name = str(raw["name"])
+    for node in scope.listed("messages"):
+        name = str(node["name"])
         if name in seen:
             first = [(seen[name], "first given here")]
             message = f"two messages have the name `{name}`"
-            scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
+            scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
             continue
-        seen[name] = raw.span("name")
-        laid_out = _message(scope, bus, raw)
+        seen[name] = node.span("name")
+        laid_out = _message(scope, bus, node)
         if laid_out is not None:
             result[name] = laid_out
     _answers(scope, result)
     return tuple(result.values())
 
 
-def _message(scope: Scope, bus: Bus, raw: Map) -> Message | None:
-    identifier = _identifier(scope, bus, raw)
-    roles = _roles(scope, raw)
+def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
+    identifier = _identifier(scope, bus, node)
+    roles = _roles(scope, node)
     if identifier is None or roles is None:
         return None
     return Message(
-        name=str(raw["name"]),
-        title=titles(raw.get("title"), humanised(raw["name"])),
-        direction=raw["direction"],
-        answers=raw.get("answers"),
+        name=str(node["name"]),
+        title=titles(node.get("title"), humanised(node["name"])),
+        direction=node["direction"],
+        answers=node.get("answers"),
         identifier=identifier[0],
         adds_unit=identifier[1],
         roles=roles,
-        source=source_of(scope, raw),
+        source=source_of(scope, node),
     )
 
 
-def _identifier(scope: Scope, bus: Bus, raw: Map) -> tuple[int, bool] | None:
+def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
     """The identifier, and whether the unit is added to it; None after a finding."""
-    span, text = raw.span("can_id"), str(raw["can_id"])
+    span, text = node.span("can_id"), str(node["can_id"])
     try:
         expression = parse_expression(text)
         at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in range(_UNITS)]
@@ -92,11 +92,11 @@ def _identifier(scope: Scope, bus: Bus, raw: Map) -> tuple[int, bool] | None:
     return first, adds
 
 
-def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
+def _roles(scope: Scope, node: Map) -> tuple[Role, ...] | None:
     """The role of each byte; None after a finding."""
-    layout: Map = raw["layout"]
+    layout: Map = node["layout"]
     role_of: dict[int, Role] = {}
-    fine = "layout" not in raw.broken and not layout.broken
+    fine = "layout" not in node.broken and not layout.broken
     for key, value in layout.items():
         first, last = bits_named(key)
         if last < first:
@@ -119,12 +119,12 @@ def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
             role_of[byte] = role
     missing = [byte for byte in range(LENGTH) if byte not in role_of]
     if missing and fine:
-        message = f"byte {missing[0]} of `{raw['name']}` means nothing"
+        message = f"byte {missing[0]} of `{node['name']}` means nothing"
         hint = f"say what each of the bytes 0..{LENGTH - 1} holds; unused ones are a constant"
-        scope.report.error("missing-key", message, raw.span("layout"), hint)
+        scope.report.error("missing-key", message, node.span("layout"), hint)
     if missing or not fine:
         return None
-    return tuple(role_of[byte] for byte in range(LENGTH)) if _sums_fit(scope, raw, role_of) else None
+    return tuple(role_of[byte] for byte in range(LENGTH)) if _sums_fit(scope, node, role_of) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,39 +184,39 @@ class _Part:
         self.scope.report.error("wrong-choice", message, self.span, hint)
 
 
-def _sums_fit(scope: Scope, raw: Map, role_of: dict[int, Role]) -> bool:
+def _sums_fit(scope: Scope, node: Map, role_of: dict[int, Role]) -> bool:
     """Whether no checksum covers another checksum, and no role stands in two places."""
     sums = sum(1 << byte for byte, role in role_of.items() if role.kind == "xor")
     if any(role.kind == "xor" and role.number & sums for role in role_of.values()):
         message = "a checksum cannot be made of a checksum"
-        scope.report.error("wrong-choice", message, raw.span("layout"), "name the bytes before it")
+        scope.report.error("wrong-choice", message, node.span("layout"), "name the bytes before it")
         return False
     carried = [role for role in role_of.values() if role.kind not in ("constant", "xor")]
     twice = next((role.kind for role in carried if carried.count(role) > 1), None)
     if twice is not None:
         message = f"`{'telegram' if twice == 'word' else twice}` stands in two places"
-        scope.report.error("duplicate-name", message, raw.span("layout"), "write its bytes as one interval")
+        scope.report.error("duplicate-name", message, node.span("layout"), "write its bytes as one interval")
         return False
     return True
 
 
 def _answers(scope: Scope, messages: dict[str, Message]) -> None:
     """Report responses that name no existing request, and `answers` at other messages."""
-    for raw in scope.listed("messages"):
-        name, answers = str(raw["name"]), raw.get("answers")
+    for node in scope.listed("messages"):
+        name, answers = str(node["name"]), node.get("answers")
         if name not in messages:
             continue
         if answers is None:
-            if raw["direction"] == "response" and "answers" not in raw.broken:
+            if node["direction"] == "response" and "answers" not in node.broken:
                 message = f"the response `{name}` answers nothing"
-                scope.report.error("missing-key", message, raw.span("name"), "name the request under `answers`")
+                scope.report.error("missing-key", message, node.span("name"), "name the request under `answers`")
             continue
-        if raw["direction"] != "response":
+        if node["direction"] != "response":
             message = f"`{name}` answers, but is no response"
-            scope.report.error("wrong-choice", message, raw.span("direction"), "write `direction: response`")
+            scope.report.error("wrong-choice", message, node.span("direction"), "write `direction: response`")
         asked = messages.get(answers)
         if asked is None:
-            scope.unknown("message", answers, raw.span("answers"), list(messages))
+            scope.unknown("message", answers, node.span("answers"), list(messages))
         elif asked.direction != "request":
             message = f"`{answers}` is no request"
-            scope.report.error("wrong-choice", message, raw.span("answers"), "a response answers a request")
+            scope.report.error("wrong-choice", message, node.span("answers"), "a response answers a request")

@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 class CanReading(Reading):
     """Frames have an identifier, and the description lays out their bytes."""
 
-    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> CanBus:
+    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> CanBus:
         """How fast the bus is, and how long its identifiers are."""
         del scope, functions
-        return CanBus(raw.get("bitrate"), raw.get("identifier_bits"))
+        return CanBus(node.get("bitrate"), node.get("identifier_bits"))
 
-    def frame(self, scope: Scope, raw: Map, framing: str) -> CanExample:
+    def frame(self, scope: Scope, node: Map, framing: str) -> CanExample:
         """The identifier of a frame; a finding where there is none."""
         del framing
-        if "can_id" in raw:
-            return CanExample(integer(raw["can_id"], raw.span("can_id"), scope.report))
-        if "can_id" not in raw.broken:
-            message = f"the frame `{raw['name']}` says no identifier"
-            scope.report.error("missing-key", message, raw.span("name"), "add `can_id: …`")
+        if "can_id" in node:
+            return CanExample(integer(node["can_id"], node.span("can_id"), scope.report))
+        if "can_id" not in node.broken:
+            message = f"the frame `{node['name']}` says no identifier"
+            scope.report.error("missing-key", message, node.span("name"), "add `can_id: …`")
         return CanExample()
 
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 class ModbusReading(Reading):
     """How Modbus functions, their counts, broadcasts and block reads are taken from a description."""
 
-    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> ModbusBus:
+    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> ModbusBus:
         """How coils are padded."""
-        _counts(scope, raw, functions)
-        _broadcasts(scope, raw, functions)
-        return ModbusBus(raw.get("pad_coil_bytes"))
+        _counts(scope, node, functions)
+        _broadcasts(scope, node, functions)
+        return ModbusBus(node.get("pad_coil_bytes"))
 
     def writes(self, space: str) -> tuple[int, ...]:
         """The functions that write into a space."""
@@ -38,9 +38,9 @@ class ModbusReading(Reading):
         return plan_blocks(bus, points, variants)
 
 
-def _counts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
+def _counts(scope: Scope, node: Map, functions: tuple[Code, ...]) -> None:
     """Report functions with more items than the protocol can carry."""
-    spans = _places(raw, "max")
+    spans = _places(node, "max")
     for code in functions:
         most = PROTOCOL_MOST.get(code.number)
         if most is not None and code.most is not None and code.most > most:
@@ -49,9 +49,9 @@ def _counts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
             scope.report.error("too-many-items", message, spans[code.name], hint)
 
 
-def _broadcasts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
+def _broadcasts(scope: Scope, node: Map, functions: tuple[Code, ...]) -> None:
     """Report broadcast functions that the protocol always answers."""
-    spans = _places(raw, "broadcast")
+    spans = _places(node, "broadcast")
     for code in functions:
         if code.broadcast and code.number not in BROADCAST:
             message = f"function {code.number:02X}h is never broadcast: it is of no use without an answer"
@@ -59,9 +59,9 @@ def _broadcasts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
             scope.report.error("not-broadcast", message, spans[code.name], f"functions that can be: {shown}")
 
 
-def _places(raw: Map, key: str) -> Mapping[str, Span]:
+def _places(node: Map, key: str) -> Mapping[str, Span]:
     """Where each function stands in the description, by its name."""
-    return {value["name"]: value.span(key) for value in raw.get("functions", {}).values() if isinstance(value, Map)}
+    return {value["name"]: value.span(key) for value in node.get("functions", {}).values() if isinstance(value, Map)}
 
 
 READING = ModbusReading()

@@ -25,56 +25,56 @@ _MOST_PZD = 16
 class UssReading(Reading):
     """Telegrams have a parameter part and process data of known lengths."""
 
-    def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> UssBus:
+    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> UssBus:
         """The response ids, and the lengths of the parts."""
         del functions
         return UssBus(
-            responses=codes_under(scope, raw, "responses"),
-            pkw=tuple(dict.fromkeys(raw.get("pkw", ()))),
-            pzd=ends_of(scope, raw, "pzd", "is no count of words", _MOST_PZD),
-            variant_pzd=tuple(_variant_pzd(scope)) if "pzd" in raw else (),
-            bitrate=raw.get("bitrate"),
+            responses=codes_under(scope, node, "responses"),
+            pkw=tuple(dict.fromkeys(node.get("pkw", ()))),
+            pzd=ends_of(scope, node, "pzd", "is no count of words", _MOST_PZD),
+            variant_pzd=tuple(_variant_pzd(scope)) if "pzd" in node else (),
+            bitrate=node.get("bitrate"),
         )
 
-    def frame(self, scope: Scope, raw: Map, framing: str) -> UssFrame:
+    def frame(self, scope: Scope, node: Map, framing: str) -> UssFrame:
         """The length of the parameter part that the link is set to."""
         del scope
-        return UssFrame(None if framing in ("pzd", "broadcast") else raw.get("pkw", VARIABLE))
+        return UssFrame(None if framing in ("pzd", "broadcast") else node.get("pkw", VARIABLE))
 
-    def refuses(self, scope: Scope, bus: Bus, raw: Map) -> bool:
+    def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
         """Report a length that the parameter part cannot have; whether there was one."""
         lengths = of_bus(bus).pkw
-        if not lengths or raw.get("pkw", lengths[0]) in lengths:
+        if not lengths or node.get("pkw", lengths[0]) in lengths:
             return False
-        message = f"the parameter part cannot have the length {raw['pkw']}"
+        message = f"the parameter part cannot have the length {node['pkw']}"
         hint = f"known under `bus`: {', '.join(map(str, lengths))}"
-        scope.report.error("wrong-choice", message, raw.span("pkw"), hint)
+        scope.report.error("wrong-choice", message, node.span("pkw"), hint)
         return True
 
-    def telegram(self, scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
+    def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
         """Report process data that cannot exist."""
-        _known_way(scope, raw, before)
+        _known_way(scope, node, before)
         bus = scope.bus
         ends = None if bus is None or "pzd" not in bus else interval(str(bus["pzd"]), bus.span("pzd"), Report())
-        if ends is not None and raw["length"] > ends[1]:
-            text = f"`{raw['name']}` has {raw['length']} words, the process data at most {ends[1]}"
-            scope.report.error("too-many-items", text, raw.span("length"), "correct `length`, or `pzd` under `bus`")
+        if ends is not None and node["length"] > ends[1]:
+            text = f"`{node['name']}` has {node['length']} words, the process data at most {ends[1]}"
+            scope.report.error("too-many-items", text, node.span("length"), "correct `length`, or `pzd` under `bus`")
 
 
-def _known_way(scope: Scope, raw: Map, before: Sequence[Telegram]) -> None:
+def _known_way(scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
     """Report process data with an unknown direction, or a second telegram of one direction."""
-    name, direction = str(raw["name"]), raw["direction"]
-    if "message" in raw:
+    name, direction = str(node["name"]), node["direction"]
+    if "message" in node:
         hint = "leave it out: the frames of uss are known"
-        scope.report.error("family-key", "messages are for the family can", raw.key_span("message"), hint)
+        scope.report.error("family-key", "messages are for the family can", node.key_span("message"), hint)
     if direction not in ("request", "response"):
         hint = "write `direction: request` for what the master sends, `response` for what the device sends"
-        scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
+        scope.report.error("wrong-choice", f"process data are no {direction} telegram", node.span("direction"), hint)
     other = next((telegram for telegram in before if telegram.direction == direction), None)
     if other is not None:
         text = f"`{other.name}` and `{name}` are both of direction {direction}"
         hint = "a telegram has process data once in each direction: make them one, or points with `when`"
-        scope.report.error("two-meanings", text, raw.span("direction"), hint)
+        scope.report.error("two-meanings", text, node.span("direction"), hint)
 
 
 def _variant_pzd(scope: Scope) -> Iterator[tuple[Variant, int]]:

@@ -36,7 +36,7 @@ TITLE = Shape(
 NOTE = Shape(
     "A sentence of your own, in English or per language.",
     [{"en": "Takes some time."}, "Takes some time."],
-    *(Text(2000), by(forms.LANGUAGE, in_language("Basisfrequenz"), required=("en",))),
+    *(Text(2000), by(forms.LANGUAGE, in_language("Takes some time."), required=("en",))),
 )
 LINE_OR_LINES = (Whole(1, LAST_LINE), Text(form=forms.LINES))
 LINES_OF = Shape(

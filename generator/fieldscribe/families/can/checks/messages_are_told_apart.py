@@ -14,7 +14,7 @@ _MOST = 64
 
 def check(subject: Subject) -> None:
     """Findings for messages of the same identifier that differ in no constant byte."""
-    raws = {str(raw["name"]): raw for raw in reversed(list(subject.scope.listed("messages")))}
+    raws = {str(node["name"]): node for node in reversed(list(subject.scope.listed("messages")))}
     heard: dict[int, list[Message]] = {}
     low, high = subject.bus.units
     for message in subject.messages:

@@ -28,15 +28,15 @@ def check(subject: Subject) -> None:
         _reached(subject, bus)
         _at_once(subject)
     by_name = {code.name: code for code in subject.bus.functions}
-    for key, raw in bus.get("functions", {}).items():
-        printed = raw.get("printed", {}).get("bytes") if not isinstance(raw, str) else None
-        code = by_name.get(raw if isinstance(raw, str) else raw["name"])
+    for key, node in bus.get("functions", {}).items():
+        printed = node.get("printed", {}).get("bytes") if not isinstance(node, str) else None
+        code = by_name.get(node if isinstance(node, str) else node["name"])
         if printed is None or code is None or code.most is None:
             continue
         right = (code.most + 7) // 8 if code.number in _COILS else 2 * code.most
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
-            span = raw["printed"].span("bytes")
+            span = node["printed"].span("bytes")
             subject.disagrees(Printed(Named("function", code.number), "bytes", printed, right, span, message))
 
 

@@ -55,7 +55,7 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
     most = profile.most.get(request.function, 0)
     if request.function in profile.most and request.count > most:
         message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
-        span = open_frame.raw.span("bytes")
+        span = open_frame.node.span("bytes")
         subject.disagrees(Printed(open_frame.about, "count", request.count, None, span, message))
         request = replace(request, count=_taken(subject, open_frame, "count", most))
         frame = replace(frame, valid=False)
@@ -100,7 +100,7 @@ def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
 
 def _taken(subject: Subject, open_frame: OpenFrame, key: str, otherwise: int) -> int:
     for erratum in subject.cited.get(open_frame.about, ()):
-        taken = erratum.raw["taken"]
+        taken = erratum.node["taken"]
         if isinstance(taken, Map) and isinstance(taken.get(key), int):
             return int(taken[key])
     return otherwise

@@ -35,25 +35,27 @@ def check(subject: Subject) -> None:
 def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, Map, Span]]:
     """Each code that is written as a mapping, with the mapping and the place of its number."""
     by_name = {code.name: code for code in subject.bus.codes(section)}
-    for key, raw in bus.get(section, {}).items():
-        if isinstance(raw, Map) and raw["name"] in by_name:
-            yield by_name[raw["name"]], raw, bus[section].key_span(key)
+    for key, node in bus.get(section, {}).items():
+        if isinstance(node, Map) and node["name"] in by_name:
+            yield by_name[node["name"]], node, bus[section].key_span(key)
 
 
 def _named_back(subject: Subject, bus: Map) -> None:
     """Findings for tasks and responses of which only one names the other."""
     tasks = {code.number: {*code.answers, *code.refusals} for code in subject.bus.functions}
     responses = {code.number: set(code.answers) for code in subject.bus.codes("responses")}
-    for task, raw, _ in _written(subject, bus, "functions"):
+    for task, node, _ in _written(subject, bus, "functions"):
         for key in _LISTS:
             for number in getattr(task, key):
                 if task.number not in responses.get(number, ()):
-                    _one_sided(subject, raw.span(key), ("task", task.number), ("response", number), number in responses)
-    for response, raw, _ in _written(subject, bus, "responses"):
+                    _one_sided(
+                        subject, node.span(key), ("task", task.number), ("response", number), number in responses
+                    )
+    for response, node, _ in _written(subject, bus, "responses"):
         for number in response.answers:
             if response.number not in tasks.get(number, ()):
                 names = ("response", response.number), ("task", number)
-                _one_sided(subject, raw.span("answers"), *names, number in tasks)
+                _one_sided(subject, node.span("answers"), *names, number in tasks)
 
 
 def _one_sided(subject: Subject, span: Span, code: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
@@ -66,19 +68,19 @@ def _one_sided(subject: Subject, span: Span, code: tuple[str, int], other: tuple
 def _refused(subject: Subject, bus: Map) -> None:
     """Findings for error values of tasks that do not exist or are never refused."""
     tasks = {code.number: code for code in subject.bus.functions}
-    for error, raw, _ in _written(subject, bus, "exceptions"):
+    for error, node, _ in _written(subject, bus, "exceptions"):
         for number in error.answers:
             task = tasks.get(number)
             if task is None or not task.refusals:
                 what = "which does not exist" if task is None else "which is never refused"
                 message = f"the error {error.number} names the task {number}, {what}"
                 hint = "correct one of them, and give what is printed under `printed` with an erratum"
-                subject.report.error("codes-disagree", message, raw.span("answers"), hint)
+                subject.report.error("codes-disagree", message, node.span("answers"), hint)
 
 
-def _printed(subject: Subject, code: Code, raw: Map, about: str) -> None:
+def _printed(subject: Subject, code: Code, node: Map, about: str) -> None:
     """Compare the printed lists with those that were taken."""
-    printed: Map = raw.get("printed") or Map(raw.file, raw.at)
+    printed: Map = node.get("printed") or Map(node.file, node.at)
     for key in _LISTS:
         if key not in printed:
             continue

@@ -1,0 +1,96 @@
+"""`fieldscribe fmt`: bring descriptions into their canonical form."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.diagnostics import Report
+
+HELP = "bring descriptions into their canonical form; what they say stays the same, and so do comments"
+EXAMPLE = """examples:
+  fieldscribe fmt
+  fieldscribe fmt heat_pump --check     (writes nothing; for CI)
+  fieldscribe fmt - < status.yaml       (for editors: the canonical form on standard output)
+
+Indents, blanks, quotes and empty lines become those of the shipped descriptions; which keys share a line stays your
+choice. A schema of ours that a first line names is brought up to date, too.
+ends with 1 when a file is no YAML, and with --check when one is not in its canonical form"""
+
+_STDIN = Path("-")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_format, some_path
+
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        type=some_path,
+        metavar="PATH",
+        help="device ids, folders with device.yaml, folders of such folders, single files, or - "
+        "(default: device.yaml here, else descriptions)",
+    )
+    parser.add_argument("--check", action="store_true", help="write nothing; say what is not in its canonical form")
+    add_format(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Format; the exit code."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.diagnostics import Report
+
+    report = Report()
+    if _STDIN not in arguments.paths:
+        return _format_files(arguments, report)
+    if len(arguments.paths) > 1 or arguments.check or arguments.format != "text":
+        raise StopError("`-` stands alone", "give the text on standard input, and nothing else")
+    return _format_stdin(report)
+
+
+def _format_stdin(report: Report) -> int:
+    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli.common import report_findings
+    from fieldscribe.language.source import MOST_BYTES
+    from fieldscribe.working.formatting import formatted
+
+    new = formatted("<stdin>", sys.stdin.buffer.read(MOST_BYTES + 1), report)
+    if new is None:
+        report_findings(report, "text")
+        return FINDINGS
+    sys.stdout.flush()
+    sys.stdout.buffer.write(new)
+    return FINE
+
+
+def _format_files(arguments: Namespace, report: Report) -> int:
+    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
+    from fieldscribe.pipeline import find_devices
+    from fieldscribe.report import as_data, visible
+    from fieldscribe.working.formatting import Formatting, MovedError, files_of
+
+    run = Formatting(report, writes=not arguments.check)
+    for path in find_devices(description_paths(arguments.paths), report):
+        for file in files_of(path):
+            try:
+                run.file(file)
+            except MovedError as error:
+                raise StopError(f"`{file}` was saved while it was formatted: it stays as it is", "run again") from error
+            except OSError as error:
+                raise StopError(f"`{file}`: {error.strerror}") from error
+    if arguments.format == "json":
+        changed = [path.as_posix() for path in run.changed]
+        print_json({"changed": changed, "unchanged": run.kept, "findings": as_data(report.findings)})
+    else:
+        what = "not formatted" if arguments.check else "formatted"
+        for path in run.changed:
+            print(f"{what}: {visible(str(path))}")
+        report_findings(report, "text")
+        print(f"{len(run.changed)} {what}, {run.kept} in canonical form")
+    return FINDINGS if report.has_errors or (arguments.check and run.changed) else FINE

@@ -1,0 +1,30 @@
+"""What a new description of this family starts with."""
+
+from __future__ import annotations
+
+SERVES = "registers and coils, over RTU or TCP"
+DEVICE = """\
+bus:
+  framings: [rtu]                  # rtu, tcp, or both
+  units: 1..247
+  functions:                       # what the device answers, with the most words (or bits) of one request
+    03h: {name: read_holding_registers, max: 125}
+    06h: write_register
+frames:                            # requests and answers that the manual prints: each is held against the points
+- {name: read_first, direction: request, bytes: 01 03 00 00 00 01 84 0A}
+- {name: read_first_reply, answers: read_first, bytes: 01 03 02 01 F4 B8 53, says: {first_value: 50.0}}
+"""
+GROUP = """\
+group: main
+title: {en: Main}
+space: holding                     # holding, input, coil, discrete
+access: rw                         # r, w, rw, none; a point may say otherwise
+source: {document: manual, section: "1"}
+points:
+- name: first_value                # replace it by the manual's first row
+  title: {en: First value}
+  at: 0000h                        # the address on the wire
+  range: 0..1000                   # raw, as it travels
+  scale: value = raw * 0.1
+  unit: "%"
+"""

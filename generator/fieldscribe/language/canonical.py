@@ -1,0 +1,215 @@
+"""The canonical form of a description: the same pieces in the same lines, with the blanks, indents and quotes of all.
+
+Which pieces share a line is the author's choice, as is their order. Mappings go in by two, the dashes of a list stand
+below the key that it belongs to, lines in brackets go on below what the bracket opens, and texts in double quotes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.language.pieces import pieces
+from fieldscribe.records import dataclass, field
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.language.pieces import Comment, Gap, Piece
+
+_INDENT = 2
+_OPENING, _CLOSING = frozenset("[{"), frozenset("]}")
+_BEFORE_A_VALUE = frozenset(":-")
+
+
+def canonical(text: str) -> str:
+    """The canonical form of a sound text, whose line breaks are of one kind. Raises OddError."""
+    layout = _Layout()
+    for piece in _without_last_commas(pieces(text)):
+        layout.place(piece)
+    return layout.text()
+
+
+def _without_last_commas(all_pieces: Iterator[Piece]) -> Iterator[Piece]:
+    """The pieces without commas that stand before the bracket that closes."""
+    comma: Piece | None = None
+    for piece in all_pieces:
+        closes = piece.kind in _CLOSING
+        if comma is not None and not closes:
+            yield comma
+        if piece.kind == ",":
+            comma = piece
+        else:
+            yield piece if comma is None or not closes else piece._replace(gap=_both(comma.gap, piece.gap))
+            comma = None
+
+
+def _both(first: Gap, second: Gap) -> Gap:
+    return second if not first.has_comment else first._replace(lines=(*first.lines, *second.lines), breaks=True)
+
+
+@dataclass(slots=True)
+class _Frame:
+    """A mapping or list that the current piece stands in: its column as it was, and as it will be."""
+
+    kind: str
+    was: int
+    column: int
+
+
+@dataclass(slots=True)
+class _Layout:
+    lines: list[str] = field(default_factory=list)
+    line: str = ""
+    """The line that is being written."""
+    within: list[_Frame] = field(default_factory=list)
+    last: str = ""
+    """The kind of the piece before; empty at the start of a document."""
+    opened: bool = False
+    """Whether a mapping or list has opened since."""
+    at_key: bool = False
+    """Whether a key is next."""
+    anchored: bool = False
+    """Whether the piece before is an anchor or a tag."""
+    left: dict[int, int] = field(default_factory=dict)
+    """Columns of what the piece before stands in, as they were and as they are now."""
+
+    def text(self) -> str:
+        """What was placed."""
+        return "\n".join([*self.lines, self.line.rstrip()]).strip("\n") + "\n"
+
+    def place(self, piece: Piece) -> None:
+        """Write a piece behind the last one, or on a line of its own."""
+        if not piece.text and piece.kind != "end":
+            self._note(piece)
+            return
+        column = self._column(piece)
+        if self._breaks_before(piece):
+            self._finish(piece.gap)
+            self.line = " " * column
+        else:
+            self.line += self._blank(piece)
+        self._write(piece)
+        self.left = self._columns()
+        self.anchored = piece.kind == "property"
+        if not self.anchored:  # what follows belongs to the piece before it
+            self.last = "" if piece.kind == "document" else piece.kind
+        self.opened = self.at_key = False
+
+    def _note(self, piece: Piece) -> None:
+        """What has no text: a mapping or list told by indentation opens or ends, or a key comes."""
+        if piece.kind == "key":
+            self.at_key = True
+        elif piece.kind == "close":
+            self.within.pop()
+        else:
+            self._open(piece)
+
+    def _open(self, piece: Piece) -> None:
+        above = self.within[-1].column if self.within else -_INDENT
+        beside = piece.kind == "sequence" and self.last == ":"
+        self.within.append(_Frame(piece.kind, piece.column, above if beside else above + _INDENT))
+        self.opened = True
+
+    def _column(self, piece: Piece) -> int:
+        """Where a piece stands that starts a line."""
+        if not self.within or piece.kind in ("document", "end"):
+            return 0
+        frame = self.within[-1]
+        starts = frame.kind == "flow" or piece.kind in ("-", ":") or self.at_key
+        return frame.column + (0 if starts or self.last not in _BEFORE_A_VALUE else _INDENT)
+
+    def _breaks_before(self, piece: Piece) -> bool:
+        """Whether a piece starts a line: the first one does, others where the author broke the line with reason."""
+        if not (self.line or self.lines):
+            return True
+        return piece.gap.breaks and (piece.gap.has_comment or not self._joins(piece))
+
+    def _joins(self, piece: Piece) -> bool:
+        """Whether a piece stands behind the last one wherever the author put it."""
+        if self.last in _OPENING or piece.kind in _CLOSING or piece.kind == ",":
+            return True
+        empty = self.at_key or piece.kind in ("-", "document", "end")
+        return self.last == "-" and not self.anchored and (self.opened or not empty)
+
+    def _blank(self, piece: Piece) -> str:
+        if self.last in _OPENING or (piece.kind in (*_CLOSING, ",") and self.last != ":"):
+            return ""
+        return "" if piece.kind == ":" and self.last != "alias" else " "
+
+    def _write(self, piece: Piece) -> None:
+        base = next((frame.column for frame in reversed(self.within) if frame.kind != "flow"), -_INDENT)
+        if piece.kind == "scalar":
+            self._write_lines(_quoted(piece.text), " " * (base + _INDENT))
+            return
+        if piece.kind == "block":
+            self._write_lines(_outdented(piece.text), " " * (base + _INDENT), exactly=True)
+            return
+        if piece.kind in _CLOSING:
+            self.within.pop()
+        self.line += piece.text
+        if piece.kind in _OPENING:
+            self.within.append(_Frame("flow", piece.column + 1, len(self.line)))
+        elif piece.kind == "document" and self.within:
+            self.within.clear()
+
+    def _write_lines(self, text: str, indent: str, *, exactly: bool = False) -> None:
+        """Write a scalar whose further lines are indented so; only some of them say something by their blanks."""
+        first, *rest = text.split("\n")
+        self.line += first
+        for below in rest:
+            self.lines.append(self.line if exactly else _ended(self.line))
+            said = below if exactly else _ended(below.lstrip())
+            self.line = f"{indent}{said}" if said else ""
+
+    def _finish(self, gap: Gap) -> None:
+        """End the line, with the comment behind it, and write the empty lines and comments below."""
+        if self.line or self.lines:
+            self.lines.append(_with_comment(self.line.rstrip(), gap))
+        columns = self.left | self._columns()
+        if gap.behind is not None:  # a comment that goes on below stays below
+            columns[gap.behind.column] = len(self.lines[-1]) - len(gap.behind.text)
+        for comment in gap.lines:
+            if comment is not None:
+                self.lines.append(" " * self._comment_column(comment, gap, columns) + comment.text)
+            elif self.lines and self.lines[-1]:
+                self.lines.append("")
+
+    def _comment_column(self, comment: Comment, gap: Gap, columns: dict[int, int]) -> int:
+        """Where a comment goes that has a line of its own: with what stood at its column, or left of it."""
+        goes_on = gap.behind is not None and gap.behind.column == comment.column
+        if self.within and self.within[-1].kind == "flow" and not goes_on:
+            return self.within[-1].column
+        return columns[max(was for was in columns if was <= comment.column)]
+
+    def _columns(self) -> dict[int, int]:
+        return {0: 0} | {frame.was: frame.column for frame in self.within if frame.kind != "flow"}
+
+
+def _with_comment(line: str, gap: Gap) -> str:
+    """A line with the comment behind it: where it was if there is room, else two blanks away."""
+    if gap.behind is None:
+        return line
+    kept = gap.behind.column if gap.blanks > _INDENT else 0
+    return f"{line:<{max(kept, len(line) + _INDENT)}}{gap.behind.text}"
+
+
+def _ended(line: str) -> str:
+    """A line without the blanks at its end, but for one behind a backslash: that one is said."""
+    ended = line.rstrip()
+    escapes = len(ended) - len(ended.rstrip("\\"))
+    return f"{ended} " if escapes % 2 and len(line) > len(ended) else ended
+
+
+def _quoted(text: str) -> str:
+    """A scalar in double quotes if it stands in single ones and needs no escape in the others."""
+    if text[0] != "'" or '"' in text or "\\" in text:
+        return text
+    return '"' + text[1:-1].replace("''", "'") + '"'
+
+
+def _outdented(text: str) -> str:
+    """A scalar of several lines, without the indentation that all of them have."""
+    first, *rest = text.split("\n")
+    said = next((line for line in rest if line.strip()), "")
+    indent = len(said) - len(said.lstrip(" "))
+    return "\n".join([first, *(line[indent:] for line in rest)])

@@ -1,0 +1,177 @@
+"""A YAML text as its pieces: every sign, scalar and mark, each with the blanks, line breaks and comments before it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_BREAK = re.compile(r"\r\n?")
+_COMMENT = re.compile(r"(?:^|(?<=[ \t]))#.*", re.MULTILINE)
+_PLAIN_BLOCK = re.compile(r"[|>]-?[ \t]*(?:#.*)?\n")
+_SIGNS: dict[type, str] = {
+    yaml.BlockEntryToken: "-",
+    yaml.ValueToken: ":",
+    yaml.FlowEntryToken: ",",
+    yaml.FlowMappingStartToken: "{",
+    yaml.FlowSequenceStartToken: "[",
+    yaml.FlowMappingEndToken: "}",
+    yaml.FlowSequenceEndToken: "]",
+    yaml.DocumentStartToken: "document",
+    yaml.DocumentEndToken: "document",
+    yaml.DirectiveToken: "document",
+    yaml.AnchorToken: "property",
+    yaml.TagToken: "property",
+    yaml.AliasToken: "alias",
+    yaml.StreamEndToken: "end",
+}
+_OPENINGS: dict[type, str] = {
+    yaml.BlockMappingStartToken: "mapping",
+    yaml.BlockSequenceStartToken: "sequence",
+    yaml.BlockEndToken: "close",
+}
+
+
+_UNSEEN = frozenset((*_OPENINGS.values(), "key"))
+_STRANGE_BREAK = re.compile(r"[\x85\u2028\u2029]")
+
+
+class Comment(NamedTuple):
+    """A comment, and the column (from 0) where it stands."""
+
+    text: str
+    column: int
+
+
+class Gap(NamedTuple):
+    """What stands before a piece: a comment behind the last one, then lines (None: an empty one), if there are any."""
+
+    behind: Comment | None
+    blanks: int
+    """The blanks before that comment."""
+    lines: tuple[Comment | None, ...]
+    breaks: bool
+    """Whether there is a line break at all."""
+
+    @property
+    def has_comment(self) -> bool:
+        """Whether it holds any comment."""
+        return self.behind is not None or any(self.lines)
+
+
+class OddError(Exception):
+    """A way of writing that has no canonical form here: line and column (from 1), what it is, and what to do."""
+
+    def __init__(self, line: int, column: int, message: str, hint: str) -> None:
+        super().__init__(message)
+        self.line, self.column, self.message, self.hint = line, column, message, hint
+
+
+class Piece(NamedTuple):
+    """A piece: its sign or kind, its text, its column (from 0), and what stands before it.
+
+    The kinds are the signs `- : , { } [ ]`, and document, property, alias, scalar, block (a scalar with its lines),
+    end; those without a text of their own (mapping, sequence, close) open and close what is told by indentation, and
+    `key` stands before a key.
+    """
+
+    kind: str
+    text: str
+    column: int
+    gap: Gap
+
+
+_NO_GAP = Gap(None, 0, (), breaks=False)
+
+
+def unbroken(text: str) -> str:
+    """The text with line breaks of one kind."""
+    return _BREAK.sub("\n", text)
+
+
+def comments(text: str) -> list[str]:
+    """The comments of a sound text, in their order. Raises OddError."""
+    said: list[str] = []
+    for piece in pieces(text):
+        gap = piece.gap
+        said += [comment.text for comment in (gap.behind, *gap.lines) if comment is not None]
+    return said
+
+
+def pieces(text: str) -> Iterator[Piece]:
+    """The pieces of a sound text, whose line breaks are of one kind. Raises OddError."""
+    _refuse_strange_breaks(text)
+    end = 0
+    for token in _tokens(text):
+        kind = _kind(token)
+        _refuse_odd(token, kind, text)
+        if kind in _UNSEEN:
+            yield Piece(kind, "", token.start_mark.column, _NO_GAP)
+        elif kind:
+            start = token.start_mark.index
+            stop = _end_of(token, text, kind)
+            yield Piece(kind, text[start:stop], token.start_mark.column, _gap(text, end, start))
+            end = stop
+
+
+def _tokens(text: str) -> Iterator[Any]:
+    loader = yaml.CSafeLoader(text)
+    while (token := loader.get_token()) is not None:
+        yield token
+
+
+def _kind(token: Any) -> str:
+    """The kind of a piece; empty for what has no place in the text."""
+    if type(token) is yaml.ScalarToken:
+        return "block" if token.style in ("|", ">") else "scalar"
+    if type(token) is yaml.KeyToken:
+        return "key"
+    return _SIGNS.get(type(token)) or _OPENINGS.get(type(token), "")
+
+
+def _refuse_strange_breaks(text: str) -> None:
+    strange = _STRANGE_BREAK.search(text)
+    if strange is not None:
+        start = strange.start()
+        line, column = text.count("\n", 0, start) + 1, start - text.rfind("\n", 0, start)
+        message = f"the line break U+{ord(strange[0]):04X} has no canonical form"
+        raise OddError(line, column, message, "break the line as all others, or write `\\x85` and the like in quotes")
+
+
+def _refuse_odd(token: Any, kind: str, text: str) -> None:
+    mark = token.start_mark
+    if kind == "key" and token.end_mark.index > mark.index:
+        raise OddError(mark.line + 1, mark.column + 1, "a key behind `?` has no canonical form", "write `key: value`")
+    if kind == "block" and not _PLAIN_BLOCK.match(text, mark.index):
+        message = "a text with signs behind `|` or `>` has no canonical form"
+        raise OddError(mark.line + 1, mark.column + 1, message, "write the text in quotes")
+
+
+def _end_of(token: Any, text: str, kind: str) -> int:
+    start: int = token.start_mark.index
+    end: int = token.end_mark.index
+    if kind == "block":  # its mark may stand behind comments and empty lines that are not its own
+        return start + len(text[start:end].rstrip("\n "))
+    return end
+
+
+def _gap(text: str, start: int, end: int) -> Gap:
+    first, *rest = text[start:end].split("\n")
+    column = start - (text.rfind("\n", 0, start) + 1)
+    behind = _COMMENT.search(first) if first.strip() else None
+    comment = None if behind is None else Comment(behind[0].rstrip(), column + behind.start())
+    blanks = 0 if behind is None else behind.start()
+    lines = [_line(line) for line in (rest[:-1] if rest else [])]
+    if start == 0:  # nothing stands before the first line
+        lines = [_line(first), *lines] if rest else []
+        comment = None
+    return Gap(comment, blanks, tuple(lines), bool(rest) or comment is not None)
+
+
+def _line(text: str) -> Comment | None:
+    stripped = text.strip()
+    return Comment(stripped, len(text) - len(text.lstrip())) if stripped else None

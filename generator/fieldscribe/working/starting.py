@@ -1,0 +1,157 @@
+"""A new description that compiles at once: what is asked for it, its text, and the schema for editors beside it."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.families import FAMILIES, family
+from fieldscribe.language.scalars import as_yaml
+from fieldscribe.pipeline import DEVICE_FILE
+from fieldscribe.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.diagnostics import Diagnostic
+    from fieldscribe.kinds import Shape
+
+SCHEMA_FILE = "schema.json"
+"""The name of the schema that stands in the folder of a description, or above it."""
+
+_SCHEMA_LINE = "# yaml-language-server: $schema={}\n"
+"""The first line of each file: editors look for it in every document."""
+_HEAD = """\
+fieldscribe: 1
+device: {device}
+version: 0.1.0
+vendor: {vendor}
+model: {model}
+title: {{en: {title}}}
+family: {family}
+documents:
+  manual: {{title: {manual}, language: {language}}}
+parts: [main.yaml]
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One thing that a new description must say."""
+
+    name: str
+    asks: str
+    usual: str = ""
+    """What is taken when nothing is said; the answers before it may stand in it."""
+
+
+QUESTIONS = (
+    Question("device", "the device's id: snake_case, the folder's name and the prefix of all generated names"),
+    Question("family", "the family of its bus"),
+    Question("vendor", "who makes it"),
+    Question("model", "the product's own name"),
+    Question("title", "what it is, in English, as in Frequency inverter"),
+    Question("manual", "the title of its manual", "{vendor} {model}"),
+    Question("language", "the language of the manual, two letters", "en"),
+)
+
+
+class NotStartedError(Exception):
+    """The description would have this finding; nothing was written."""
+
+    def __init__(self, finding: Diagnostic) -> None:
+        super().__init__(finding.message)
+        self.finding = finding
+
+
+def startable() -> dict[str, str]:
+    """The families that a description can start with, each with what it serves."""
+    parts = {name: family(name).part("starting") for name in FAMILIES}
+    return {name: part.SERVES for name, part in parts.items() if part is not None}
+
+
+def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
+    """What is wrong with an answer, and what to do; None if it is right."""
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.language.shape import check_of
+    from fieldscribe.language.source import SourceFile
+
+    if not answer or not answer.isprintable():
+        return f"`{name}` is {'empty' if not answer else 'no line of text'}", "say it in one line"
+    if name == "family" and answer not in startable():
+        return f"there is no family `{answer}` to start with", f"write one of {', '.join(startable())}"
+    report = Report()
+    holder = Map(SourceFile("", ""), (1, 1))
+    holder[name] = answer
+    check_of(_shape_of(name))(answer, holder, name, report)
+    return next(((finding.message, finding.hint or "") for finding in report.findings), None)
+
+
+def _shape_of(name: str) -> Shape:
+    """The shape of the key that an answer becomes."""
+    from fieldscribe.kinds import Place
+    from fieldscribe.language.keys import keys_of
+    from fieldscribe.language.keys.places import DEVICE
+
+    keys = keys_of(DEVICE)
+    if name in keys:
+        return keys[name].shape
+    (documents,) = (kind for kind in keys["documents"].shape.kinds if isinstance(kind, Place))
+    (document,) = (kind for shape in documents.by_form.values() for kind in shape.kinds if isinstance(kind, Place))
+    return keys_of(document)["title" if name == "manual" else name].shape
+
+
+def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
+    """Make the folder of the device, whole or not at all; returns its files.
+
+    Raises FileExistsError, another OSError, or NotStartedError.
+    """
+    from fieldscribe.pipeline import load_undigested
+
+    if os.path.lexists(folder):
+        raise FileExistsError(str(folder))
+    schema_above = is_schema(folder.parent / SCHEMA_FILE)
+    with TemporaryDirectory(prefix=".", dir=folder.parent) as aside:
+        made = Path(aside, folder.name)
+        made.mkdir()
+        schema = _SCHEMA_LINE.format(f"../{SCHEMA_FILE}" if schema_above else SCHEMA_FILE)
+        for name, text in _texts(answers).items():
+            (made / name).write_text(schema + text, "utf-8", newline="\n")
+        if not schema_above:
+            write_schema(made / SCHEMA_FILE)
+        report = Report()
+        if load_undigested(made / DEVICE_FILE, report) is None:
+            raise NotStartedError(report.findings[0])
+        names = sorted(os.listdir(made))
+        made.rename(folder)
+    return [folder / name for name in names]
+
+
+def write_schema(place: Path) -> None:
+    """Write the schema of this compiler. Raises OSError."""
+    from fieldscribe.language.json_schema import schema_text
+    from fieldscribe.output.writing import replace
+
+    replace(place, (schema_text().encode(),))
+
+
+def is_schema(place: Path) -> bool:
+    """Whether a schema of descriptions stands there."""
+    from fieldscribe.language.json_schema import SCHEMA_ID
+
+    with suppress(OSError):
+        if place.is_file():
+            with place.open("rb") as stream:
+                return SCHEMA_ID.encode() in stream.read(500)
+    return False
+
+
+def _texts(answers: Mapping[str, str]) -> dict[str, str]:
+    """The files of the description by name, without their first lines."""
+    family_says = family(answers["family"]).part("starting")
+    head = _HEAD.format_map({name: as_yaml(answer) for name, answer in answers.items()})
+    return {DEVICE_FILE: head + family_says.DEVICE, "main.yaml": family_says.GROUP}
