@@ -236,11 +236,11 @@ def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
     assert (code, report["explained"]) == (0, True), report
 
 
-def test_a_corrected_misprint_says_which_erratum_can_go(described: Described) -> None:
+def test_a_corrected_misprint_says_which_erratum_is_corrected(described: Described) -> None:
     new = OLD.replace("0061h", "0016h")
     code, report = described.audit(new)
     [void] = report["void_errata"]
-    assert (code, void["erratum"], void["can_go"]) == (1, "pump_delay_register", True)
+    assert (code, void["erratum"], void["is_corrected"]) == (1, "pump_delay_register", True)
     assert f"device.yaml:{described.line_of('id: pump_delay')}:" in void["place"]
     start, end = described.text.index("- id: pump_delay"), described.text.index("- id: flow_word")
     described.file.write_text(described.text[:start] + described.text[end:], "utf-8")

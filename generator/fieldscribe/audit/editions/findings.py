@@ -68,7 +68,7 @@ class Void:
 
     erratum: str
     place: str
-    can_go: bool
+    is_corrected: bool
     line: int
 
 

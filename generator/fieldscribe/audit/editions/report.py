@@ -23,7 +23,7 @@ def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
     for reason in outcome.elsewhere:
         yield [*_placed(reason.place), ("error", "missing"), ("", visible(f": {reason.text}"))]
     for void in outcome.void:
-        said = "the manual now prints what was taken: it can go" if void.can_go else "it is no longer printed so"
+        said = "the manual now prints what was taken: it can go" if void.is_corrected else "it is no longer printed so"
         yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: line {void.line}: {said}"))]
     yield from figures(outcome)
 
