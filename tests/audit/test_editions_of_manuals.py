@@ -56,10 +56,14 @@ def _with_a_section_moved(lines: list[str]) -> list[str]:
     return [*lines[:first], *lines[middle : middle + 100], *lines[first:middle], *lines[middle + 100 :]]
 
 
+def _with_five_lines_more(lines: list[str]) -> list[str]:
+    return [*[""] * 5, *lines]
+
+
 LAYOUTS = {
     "reflowed": _reflowed,
     "moved": _with_a_section_moved,
-    "five lines more": lambda lines: [*[""] * 5, *lines],
+    "five lines more": _with_five_lines_more,
 }
 
 
@@ -100,7 +104,8 @@ def test_a_changed_fact_is_reported_with_its_place(device: str) -> None:
         other = "\n".join([*lines[: line - 1], changed, *lines[line:]])
         outcome, _ = compare(subject, edition, Edition("new", other, None))
         found = [finding for finding in outcome.findings if not finding.explained]
-        places = [cite.place for finding in found for cite in (*finding.cited_by, *finding.reasons)]
+        places = [cite.place for finding in found for cite in finding.cited_by]
+        places += [reason.place for finding in found for reason in finding.reasons]
         if not any(".yaml:" in place for place in places):
             missed.append((line, old, new))
     assert missed == []
