@@ -43,7 +43,8 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
         return loose
     listed = {label.claim for label in tight}
     first, last = min(label.place for label in tight), max(label.place for label in tight)
-    return [*tight, *(label for label in loose if label.claim not in listed and not first <= label.place <= last)]
+    others = (label for label in loose if label.claim.words and label.claim not in listed)
+    return [*tight, *(label for label in others if not first <= label.place <= last)]
 
 
 def _best(claims: Sequence[Claim], passage: Passage, ways: Iterable[tuple[bool, bool, bool]]) -> list[Standing]:
