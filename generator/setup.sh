@@ -50,6 +50,8 @@ if [ "$purpose" = tests ]; then
     need frama-c frama-c-base
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy
+    need zsh zsh
+    need fish fish
     need node nodejs
     need npm npm
 fi

@@ -26,6 +26,8 @@ class HexError(ValueError):
 
 def parse_hex(text: str) -> bytes:
     """The bytes that a text means. Raises HexError with what is wrong and where."""
+    if len(text) % 2 == 0 and _DIGITS.fullmatch(text):
+        return bytes.fromhex(text)
     pieces = [piece for piece in _BETWEEN.split(_MARK.sub(" 0x", text).strip()) if piece]
     if not pieces:
         raise HexError("there are no bytes")

@@ -13,8 +13,10 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.language.files import Files
+    from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device
     from fieldscribe.reading import Inputs
+    from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.subject import Subject
     from fieldscribe.targets import Target
 
@@ -123,6 +125,19 @@ def load_subject(device_file: Path, report: Report) -> Subject | None:
 
     files = read_files(device_file, report)
     return None if files is None else _checked(files, report)
+
+
+def load_outline(device_file: Path, report: Report) -> tuple[Map, list[Draft]] | None:
+    """The head of a device and its points by name, without what they mean: for lists, and quick."""
+    from fieldscribe.language.files import read_files
+    from fieldscribe.resolve.expand import expand
+    from fieldscribe.resolve.scope import open_scope
+
+    files = read_files(device_file, report)
+    if files is None:
+        return None
+    scope = open_scope(files, report)
+    return scope.header, list(expand(scope))
 
 
 def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:

@@ -7,6 +7,7 @@ takes. Here `__init__` is compiled when the first object is made, and the other 
 
 from __future__ import annotations
 
+from functools import cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 
@@ -142,7 +143,13 @@ def names_of(kind: Any, /) -> tuple[str, ...]:
 
 def values_of(record: Any, /) -> dict[str, Any]:
     """The attributes of an object by name."""
-    return {name: getattr(record, name) for name in record.__fields__}
+    kind: Any = type(record)
+    return dict(zip(kind.__fields__, _getters(kind)(record), strict=True))
+
+
+@cache
+def _getters(kind: Any) -> Callable[[object], tuple[Any, ...]]:
+    return _values(tuple(kind.__fields__))
 
 
 def replace(record: T, /, **changes: Any) -> T:

@@ -78,7 +78,7 @@ def place_text(span: Span) -> str:
 
 def visible(text: str) -> str:
     """The text with every character that is not seen, or that could change what is seen, shown by its number."""
-    if text.isascii() and text.isprintable():
+    if text.isprintable():
         return text
     return "".join(_shown(char) for char in text)
 

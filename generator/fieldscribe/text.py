@@ -11,8 +11,6 @@ import unicodedata
 from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
-_FOLDED = re.compile(r"(?:[!-~]+(?: [!-~]+)*)?")
-"""Most texts: nothing in them is folded or dropped."""
 _UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
 """A line that is its own text between double quotes, in most languages."""
 _BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
@@ -32,7 +30,7 @@ _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 def line(text: str) -> str:
     """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
-    if _FOLDED.fullmatch(text):
+    if text.isascii() and text.isprintable() and "  " not in text and text[:1] != " " and text[-1:] != " ":
         return text
     if not _PLAIN.fullmatch(text):
         spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)

@@ -76,7 +76,7 @@ class Changes:
         return [label for label in labels if label.claim == claim]
 
     def _number(self, claim: Claim) -> Change | None:
-        tokens = list(self._tokens(claim))
+        tokens = [token for token in self._tokens(claim) if token.line not in self.sound.empty]
         if not tokens:
             return None
         token = self.random.choice(tokens)
@@ -182,7 +182,7 @@ class Changes:
         if claim.fact != "bytes":
             return None
         wanted = [claim.shown[at : at + 2] for at in range(0, len(claim.shown), 2)]
-        rows = [line for cited in claim.cited for line in self._lines_of(cited)]
+        rows = [line for cited in claim.cited for line in self._lines_of(cited) if line not in self.sound.empty]
         spots = [
             (number, match.start(), match[0])
             for number in rows

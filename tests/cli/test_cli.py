@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import __version__
-from fieldscribe.cli import COMMANDS, main
+from fieldscribe.cli import COMMANDS, command_of, main
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, write
 
@@ -72,7 +72,7 @@ def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_every_command_is_listed_as_it_says(run: Callable[..., Result]) -> None:
     listed = run("--help").out
     for name, does in COMMANDS.items():
-        module = import_module(f"fieldscribe.cli.{name}")
+        module = command_of(name)
         assert does == module.HELP
         assert does in listed
         shown = run(name, "--help")
@@ -86,9 +86,11 @@ def test_version_and_usage(run: Callable[..., Result]) -> None:
     nothing = run()
     assert (nothing.code, nothing.out) == (2, "")
     assert "commands:" in nothing.err
+    assert run("-V") == run("--version")
     wrong = run("chekc")
     assert wrong.code == 2
     assert "did you mean `check`?" in wrong.err
+    assert "did you mean `--format`?" in run("check", "--formt", "json").err
     for words in (("check", "--colour"), ("explain",), ("--nothing",), ("export", "xml", "x")):
         assert run(*words).code == 2
 

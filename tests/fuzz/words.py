@@ -13,12 +13,10 @@ import time
 import traceback
 from argparse import ArgumentParser
 from contextlib import chdir, redirect_stderr, redirect_stdout
-from importlib import import_module
 from pathlib import Path
 from random import Random
-from typing import Any
 
-from fieldscribe.cli import COMMANDS, main
+from fieldscribe.cli import COMMANDS, command_of, main
 
 from fuzz.languages import Result
 
@@ -100,9 +98,8 @@ FREE = (
 
 def options(command: str) -> list[str]:
     """The options of a command, as its parser has them."""
-    module: Any = import_module(f"fieldscribe.cli.{command}")
     parser = ArgumentParser(add_help=True)
-    module.add_arguments(parser)
+    command_of(command).add_arguments(parser)
     return sorted(name for action in parser._actions for name in action.option_strings)
 
 

@@ -43,7 +43,7 @@ ROOMS = (
     ("checks", "checks"),
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
-    ("what talks to people", "conversation audit export"),
+    ("what talks to people", "conversation audit export importing finding"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
     ("a person at work on a description", "working"),

@@ -13,7 +13,7 @@ from support.places import ROOT
 if TYPE_CHECKING:
     from pathlib import Path
 
-ALWAYS_THERE = ("gcc", "g++", "arm-none-eabi-gcc", "cargo", "rustfmt", "cargo-clippy")
+ALWAYS_THERE = ("gcc", "g++", "arm-none-eabi-gcc", "cargo", "rustfmt", "cargo-clippy", "zsh", "fish")
 
 
 def _program(folder: Path, name: str, text: str) -> None:

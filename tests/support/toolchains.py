@@ -28,6 +28,9 @@ _PACKAGES = {
     "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
     "rustfmt": "rustfmt",
+    "bash": "bash",
+    "zsh": "zsh",
+    "fish": "fish",
     "node": "nodejs npm",
 }
 _LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"

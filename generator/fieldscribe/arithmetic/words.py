@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from fieldscribe.model import Point
 
@@ -54,13 +55,20 @@ def split(raw: int, count: int) -> tuple[int, ...]:
     return tuple(raw >> 16 * place & 0xFFFF for place in reversed(range(count)))
 
 
-def raw_of(point: Point, words: Iterable[int]) -> int:
+def raw_of(point: Point, words: Sequence[int]) -> int:
     """The raw number of a point from its words; for a text, all words as one number."""
-    pattern = joined(words)
+    return raw_reader(point)(words)
+
+
+def raw_reader(point: Point) -> Callable[[Sequence[int]], int]:
+    """What makes the raw number of a point from its words; for a text, all words as one number."""
+    width, signed = point.width, point.info.signed
     if point.text is not None:
-        return pattern
-    low = 0 if point.bits is None else point.bits[1]
-    return number_of(pattern >> low & mask_of(point.width), point.width, signed=point.info.signed)
+        return joined
+    if point.words == 1 and width == 16 and not signed:
+        return itemgetter(0)
+    low, mask = 0 if point.bits is None else point.bits[1], mask_of(width)
+    return lambda words: number_of(joined(words) >> low & mask, width, signed=signed)
 
 
 def words_of(point: Point, raw: int) -> tuple[int, ...]:

@@ -232,7 +232,7 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
                     place=place,
                 )
         at_bit = () if named or (by_value and not alike) else beside
-        if label not in values:
+        if not any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values):
             yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
             high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)

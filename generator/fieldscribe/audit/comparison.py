@@ -268,6 +268,8 @@ class Comparison:
                 return check(claim, extent)
         own = self._own_passage(claim, extent).text
         stands = [self._has(word, extent) and has_word(own, word) for word in claim.words]  # each marks what it uses
+        if not any(stands) and claim.names and self.passage(extent).joins(claim.names):
+            return 0  # where the manual prints PZD2, a 2 alone is another fact
         return max(map(int, stands), default=0) or self._numbers_stand(claim, extent)
 
     @cached_property

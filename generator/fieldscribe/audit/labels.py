@@ -29,6 +29,8 @@ class Standing:
     claim: Claim
     place: int
     tokens: tuple[Token, ...]
+    end: int
+    """Where the next one may begin."""
 
 
 def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
@@ -43,7 +45,8 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
         return loose
     listed = {label.claim for label in tight}
     first, last = min(label.place for label in tight), max(label.place for label in tight)
-    return [*tight, *(label for label in loose if label.claim not in listed and not first <= label.place <= last)]
+    others = (label for label in loose if label.claim.words and label.claim not in listed)
+    return [*tight, *(label for label in others if not first <= label.place <= last)]
 
 
 def _best(claims: Sequence[Claim], passage: Passage, ways: Iterable[tuple[bool, bool, bool]]) -> list[Standing]:
@@ -69,7 +72,7 @@ def _apart(chain: Sequence[Standing], rows: Iterable[Sequence[Standing]]) -> lis
         return []
     listed = {label.claim for label in chain}
     first, last = chain[0].place, chain[-1].place
-    others = (row for row in rows if row and row[0].claim.words and row[0].claim not in listed)
+    others = (row for row in rows if row and row[0].claim.beside and row[0].claim not in listed)
     outside = ([label for label in row if not first <= label.place <= last] for row in others)
     return [labels[0] for labels in outside if labels]
 
@@ -85,13 +88,13 @@ def _candidates(claim: Claim, passage: Passage, after: bool, otherwise: bool, ti
     if not claim.words:
         for token, start in zip(passage.tokens, passage.starts, strict=True):
             if token.readings & claim.numbers:
-                yield Standing(claim, start, (token,))
+                yield Standing(claim, start, (token,), start + 1)
     for first, end in sorted({place for words in claim.words for place in passage.places(words)}):
         beside = passage.after(end) if after else passage.before(first)
         if not wanted:
-            yield Standing(claim, first, tuple(passage.inside(first, end)))
+            yield Standing(claim, first, tuple(passage.inside(first, end)), end)
         elif beside is not None and beside.readings & wanted and not (tight and passage.is_apart(beside, first, end)):
-            yield Standing(claim, first, (beside, *passage.inside(first, end)))
+            yield Standing(claim, first, (beside, *passage.inside(first, end)), end)
 
 
 def _weightiest_chain(rows: Sequence[Sequence[Standing]]) -> list[Standing]:
@@ -105,7 +108,9 @@ def _weightiest_chain(rows: Sequence[Sequence[Standing]]) -> list[Standing]:
             rank = bisect_left(places, label.place)
             weight, before = _best_before(best, rank)
             links.append((label, before))
-            ends.append((rank, weight + (_LABEL if label.claim.words else 1), len(links) - 1))
+            ends.append(
+                (bisect_left(places, label.end) - 1, weight + (_LABEL if label.claim.words else 1), len(links) - 1)
+            )
         for rank, weight, link in ends:  # at once, so that one row never follows itself
             _add(best, rank, (weight, link))
     chain: list[Standing] = []

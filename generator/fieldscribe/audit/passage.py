@@ -134,6 +134,10 @@ class Passage:
             token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
         ]
 
+    def joins(self, names: tuple[str, ...]) -> bool:
+        """Whether the passage writes such a name and a number in one word, as in `PZD2`."""
+        return re.search(rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[0-9]+(?!\w)", self.text) is not None
+
     @cached_property
     def in_first_cell(self) -> list[Token]:
         """The numbers in the first cell of each row; all where there are no cells."""

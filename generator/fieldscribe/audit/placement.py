@@ -83,7 +83,7 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    told = (claim for claim in claims if claim.anchor or not claim.words)  # titles and labels stand in many places
+    told = (claim for claim in claims if claim.anchor or claim.beside or not claim.words)  # titles stand in many places
     anchors = [_anchor(manual, claim, line) for claim in told]
     anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
     return [anchor for anchor in anchors if anchor is not None and anchor.places]
@@ -96,8 +96,8 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
         if heading is None:
             return None
         return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
-    if claim.numbers:
-        places = sorted({place for number in claim.numbers for place in manual.lines_of.get(number, ())})
+    if numbers := claim.numbers or claim.beside:
+        places = sorted({place for number in numbers for place in manual.lines_of.get(number, ())})
     elif claim.fact == "bytes":
         places = manual.lines_with_bytes(claim.shown[:_BYTES])
     else:

@@ -36,13 +36,20 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "list": "list the devices there are, or the points of one",
+    "search": "find words in titles, codes, sections, names, flags, labels and numbers of all devices",
+    "completion": "print what makes a shell complete commands, options, devices and points",
     "init": "start a description that compiles at once, by a few questions or by options",
+    "import": "draft a description from the tables of a manual: its text, CSV, TSV, Markdown, HTML, XLSX",
     "fmt": "bring descriptions into their canonical form; what they say stays the same, and so do comments",
     "watch": "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved",
     "units": "list the units that descriptions can use without declaring them",
     "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
 }
 """All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
+
+_MODULES = {"list": "listing"}
+"""Commands whose module has another name: a module `list` would hide Python's own."""
 
 FINE, FINDINGS, USAGE = 0, 1, 2
 """Exit codes: all is well; findings in the input, or stale output; wrong usage or trouble with the machine."""
@@ -80,13 +87,15 @@ def _dispatch(argv: list[str]) -> int:
     if not argv or argv[0] not in COMMANDS:
         return _overview(argv)
     name = argv[0]
-    command = _command(name)
+    command = command_of(name)
     parser = _parser(f"fieldscribe {name}", command.HELP, command.EXAMPLE)
     command.add_arguments(parser)
     # a value such as `-5Hz` is no option: none of ours starts with a digit
     words = [f" {word}" if word[:1] == "-" and word[1:2] in _DIGITS else word for word in argv[1:]]
     try:
-        arguments = parser.parse_intermixed_args(words)
+        arguments, unknown = parser.parse_known_intermixed_args(words)
+        if unknown:
+            parser.error(_unrecognised(unknown, parser))
     except SystemExit as stop:
         return _left(stop)
     from fieldscribe.cli.common import StopError
@@ -95,6 +104,21 @@ def _dispatch(argv: list[str]) -> int:
         return command.run(arguments)
     except StopError as stop:
         return stop.tell()
+
+
+def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:
+    """The message for words that mean nothing, with options that are near them."""
+    from fieldscribe.asked import did_you_mean
+
+    options = [name for action in parser._actions for name in action.option_strings]  # argparse tells them nowhere else
+    message = f"unrecognized arguments: {' '.join(unknown)}"
+    wrong = [word.partition("=")[0] for word in unknown if word.startswith("-")]
+    if not wrong:
+        return message
+    from difflib import get_close_matches
+
+    near = dict.fromkeys(name for word in wrong for name in get_close_matches(word[:60], options, 2))
+    return f"{message}; {did_you_mean(list(near))}" if near else message
 
 
 def _overview(argv: list[str]) -> int:
@@ -107,7 +131,7 @@ def _overview(argv: list[str]) -> int:
         f"commands:\n{listed}\n\n`fieldscribe COMMAND --help` says more, with examples.",
     )
     parser.usage = "fieldscribe COMMAND ..."
-    parser.add_argument("--version", action="version", version=f"fieldscribe {__version__}")
+    parser.add_argument("-V", "--version", action="version", version=f"fieldscribe {__version__}")
     if argv and not argv[0].startswith("-"):
         from fieldscribe.cli.common import unknown_command
 
@@ -125,8 +149,9 @@ def _left(stop: SystemExit) -> int:
     return stop.code if isinstance(stop.code, int) else USAGE
 
 
-def _command(name: str) -> Command:
-    module: Any = import_module(f"fieldscribe.cli.{name}")
+def command_of(name: str) -> Command:
+    """The module of a command."""
+    module: Any = import_module(f"fieldscribe.cli.{_MODULES.get(name, name)}")
     command: Command = module
     return command
 

@@ -58,9 +58,10 @@ def unknown_command(name: str, known: Iterable[str]) -> int:
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
 
-def add_format(parser: ArgumentParser) -> None:
-    """How a command reports."""
-    parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
+def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), said: str = "") -> None:
+    """How a command reports; `more` are forms that only this command has, `said` what to know of them."""
+    known, said = ("text", "json", *more), f"how to report (default: text{said})"
+    parser.add_argument("--format", choices=known, default="text", help=said)
 
 
 def add_paths(parser: ArgumentParser) -> None:
@@ -78,12 +79,7 @@ def add_paths(parser: ArgumentParser) -> None:
 def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
     """Which device a command is about."""
     parser.add_argument("device", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
-    parser.add_argument(
-        "--descriptions",
-        type=Path,
-        metavar="DIR",
-        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
-    )
+    add_descriptions(parser)
     if variants:
         parser.add_argument(
             "--variant",
@@ -92,6 +88,16 @@ def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
             metavar="AXIS=VALUE",
             help="choose a variant, as in voltage_class=400V; may be repeated",
         )
+
+
+def add_descriptions(parser: ArgumentParser) -> None:
+    """Where ids of devices are looked for."""
+    parser.add_argument(
+        "--descriptions",
+        type=Path,
+        metavar="DIR",
+        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
+    )
 
 
 def some_path(text: str) -> Path:
@@ -124,12 +130,27 @@ def _known_folder(name: Path) -> Path:
     from fieldscribe.pipeline import DEVICE_FILE
     from fieldscribe.resources import descriptions_dir
 
-    roots = (LOCAL, descriptions_dir())
-    known = {file.parent.name: file.parent for root in reversed(roots) for file in root.glob(f"*/{DEVICE_FILE}")}
+    known = {named: file.parent for named, file in known_devices((LOCAL, descriptions_dir())).items()}
     if str(name) not in known:
         hint = _near(str(name), sorted(known)) or f"name a folder with {DEVICE_FILE}, or a device: {', '.join(known)}"
         raise StopError(f"there is no such file or folder, and no device, as `{name}`", hint)
     return known[str(name)]
+
+
+def known_devices(roots: Iterable[Path]) -> dict[str, Path]:
+    """The device.yaml of each device below these folders, by its folder's name; the first folder wins."""
+    from fieldscribe.pipeline import device_files_below
+
+    known: dict[str, Path] = {}
+    for root in roots:
+        for file in device_files_below(root):
+            known.setdefault(file.parent.name, file)
+    return dict(sorted(known.items()))
+
+
+def devices_asked(arguments: Namespace) -> dict[str, Path]:
+    """The devices that are known without being named, by their id. Raises StopError."""
+    return known_devices(_roots(arguments))
 
 
 def open_device(arguments: Namespace) -> Device:
@@ -186,7 +207,7 @@ def device_file(arguments: Namespace) -> Path:
                 return root / asked / DEVICE_FILE
     path = Path(asked)
     if not path.exists():
-        known = sorted({file.parent.name for root in roots for file in root.glob(f"*/{DEVICE_FILE}")})
+        known = list(known_devices(roots))
         where = " and ".join(dict.fromkeys(map(str, roots)))
         raise StopError(
             f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"

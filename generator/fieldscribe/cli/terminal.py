@@ -49,9 +49,14 @@ def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) 
     if is_coloured(stream):
         _print_table(heading, rows, stream)
         return
+    stream.write(rows_text(heading, rows))
+
+
+def rows_text(heading: str, rows: Sequence[Row]) -> str:
+    """A heading and rows of label and text below it, where nothing is coloured or wrapped."""
     width = max((len(label) for label, _ in rows), default=0)
-    stream.write(f"{heading}\n")
-    stream.writelines(f"  {label:<{width}}  {text}".rstrip() + "\n" for label, text in rows)
+    lines = [f"  {label:<{width}}  {text}".rstrip() for label, text in rows]
+    return "\n".join([heading, *lines, ""])
 
 
 def _print_table(heading: str, rows: Sequence[Row], stream: TextIO) -> None:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections import ChainMap
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.items import named_item, value_item
+from fieldscribe.conversation.items import named_item
 from fieldscribe.records import dataclass, field, replace
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from fractions import Fraction
 
-    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.items import Base
+    from fieldscribe.conversation.told import Told
     from fieldscribe.families.answers import Item
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
@@ -25,33 +24,42 @@ class Hearing:
 
     device: Device
     directory: Directory
-    by_person: dict[str, int | Fraction]
-    known: dict[str, int | Fraction] = field(default_factory=dict)
+    told: Told
+    by_person: Mapping[str, int | Fraction]
+    settings: dict[str, int | Fraction]
+    """The numbers for rules: what the person gave, else what was heard."""
     words: dict[int, int] = field(default_factory=dict)
     waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
     """Points whose meaning needs others, by item, with their raw numbers."""
-
-    @property
-    def settings(self) -> Settings:
-        """The numbers for rules: what the person gave, else what was heard."""
-        return ChainMap(self.by_person, self.known)
+    fresh: bool = False
+    """Whether some setting has changed since the waiting points were last tried."""
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep the values of points that the device reported."""
-        self.known.update(self.directory.settings(raws))
+        for name, setting in self.directory.settings(raws):
+            before = self.settings.get(name)
+            # a special code equals the plain number, and is no quantity
+            if name not in self.by_person and (before != setting or type(before) is not type(setting)):
+                self.settings[name], self.fresh = setting, True
+
+    def beside(self, raws: Iterable[tuple[Point, int]]) -> Hearing:
+        """The same for one frame whose points are settings for each other, without keeping them."""
+        inside = replace(self, settings=dict(self.settings))
+        inside.learn(raws)
+        return inside
 
     def forget(self, address: int) -> None:
         """Forget the values that the device derives from a parameter, once the parameter was written."""
-        written = {point.name for point in self.directory.at("parameter", address)}
-        for point in self.device.points:
-            if written & set(point.changes_with):
-                self.known.pop(point.name, None)
+        for written in {point.name for point in self.directory.at("parameter", address)}:
+            for point in self.directory.derived(written):
+                if point.name not in self.by_person:
+                    self.settings.pop(point.name, None)
                 for at in point.addresses:
                     self.words.pop(at, None)
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
         """A point with the meaning of its raw number."""
-        return value_item(self.device, point, base, (raw, self.settings), written=written)
+        return self.told.voice(point, base, written=written).item(raw, self.settings)
 
 
 def odd_item(point: Point, base: Base, said: str, odd: str) -> Item:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.meanings import meaning_of, range_remark, raw_text, unchecked_remark
-from fieldscribe.conversation.selection import absence, same_meaning
+from fieldscribe.conversation.meanings import meaning_of, raw_text
+from fieldscribe.conversation.selection import same_meaning
 from fieldscribe.families.answers import Item
 from fieldscribe.records import replace
 from fieldscribe.text import line
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.meanings import Meaning
     from fieldscribe.model import Device, Point
 
 Base = tuple[str, int, int]
@@ -51,22 +50,4 @@ def named_item(point: Point, base: Base, said: str = "", *, odd: str = "") -> It
 def value_with_raw(device: Device, point: Point, numbers: Numbers) -> str:
     """The meaning of a raw number, and the raw number itself: `5 Hz (raw 500 = 01F4h)`."""
     raw, settings = numbers
-    return _meaning_with_raw(point, raw, meaning_of(device, point, raw, settings))
-
-
-def _meaning_with_raw(point: Point, raw: int, meaning: Meaning) -> str:
-    return f"{meaning.text} ({raw_text(point, raw)})"
-
-
-def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, written: bool = False) -> Item:
-    """A point with the meaning of its raw number; if it is `written`, also why the device refuses it."""
-    raw, settings = numbers
-    meaning = meaning_of(device, point, raw, settings)
-    text = f"{label(point)} = {_meaning_with_raw(point, raw, meaning)}: {title_of(point)}"
-    odd = (absence(device, point) or range_remark(device, point, raw, settings)) if written else ""
-    open_limits = unchecked_remark(device, point, raw, settings) if written and not odd else ""
-    text += "".join(f"; {said}" for said in (odd, open_limits) if said)
-    text += f"; {meaning.hint}" if meaning.hint else ""
-    shown = None if point.text is not None else raw
-    findings = (odd,) if odd else ()
-    return Item(*base, line(text), point.item, point.code, shown, meaning.value, meaning.missing, findings)
+    return f"{meaning_of(device, point, raw, settings).text} ({raw_text(point, raw)})"

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.conversation import oddities
 from fieldscribe.conversation.hearing import Hearing
+from fieldscribe.conversation.oddities import Oddities
 from fieldscribe.conversation.parameters import element_items, word_items
 from fieldscribe.conversation.requests import part_of
 from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
+from fieldscribe.conversation.told import Told
 from fieldscribe.families.directory import Directory
-from fieldscribe.families.spoken import Course, Element, Masks, Piece, ProcessData, Span, Word
-from fieldscribe.records import replace
+from fieldscribe.families.spoken import Course, Cut, Element, Masks, Piece, ProcessData, Recent, Span, Word
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -35,11 +35,8 @@ _SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
 
 def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
     """The meaning of pasted frames, in order; any bytes are safe. Raises UnclearError for text that is no frame."""
-    speech = speech_of(device, options)
-    requests = [] if options.request is None else speech.frames([options.request])
-    frames = speech.frames(texts)
-    listening = Listener(device, settings, speech)
-    return [*map(listening.expect_reply_to, requests), *map(listening.hear, frames)]
+    listening = Listener(device, settings, speech_of(device, options))
+    return [*listening.requests(options), *listening.pasted(texts)]
 
 
 def speech_of(device: Device, options: Options) -> Speech:
@@ -56,19 +53,35 @@ class Listener:
         self._given = dict(settings)
         self._speech = speech
         self._directory = Directory(device)
+        self._oddities = Oddities(device, self._directory)
+        self._told = Told(device)
         self._course = Course()
-        self._parties: dict[int | None, Hearing] = {}
+        self._parties: Recent[int | None, Hearing] = Recent()
+
+    def _unheard(self) -> Hearing:
+        return Hearing(self._device, self._directory, self._told, self._given, dict(self._given))
+
+    def requests(self, options: Options) -> list[Heard]:
+        """The requests that the following frames answer, as the options give them. Raises UnclearError."""
+        return [] if options.request is None else self._each([options.request], expecting=True)
+
+    def pasted(self, texts: Sequence[str]) -> list[Heard]:
+        """The meaning of the frames in the texts. Raises UnclearError for a text that is no frame."""
+        return self._each(texts, expecting=False)
+
+    def _each(self, texts: Sequence[str], *, expecting: bool) -> list[Heard]:
+        return [self.hear(frame, expecting=expecting) for frame in self._speech.frames(texts)]
 
     def hear(self, frame: Any, *, expecting: bool = False) -> Heard:
         """The meaning of the next frame; any bytes are safe."""
         spoken = self._speech.hear(frame, self._course, self._directory, expecting=expecting)
-        unheard = Hearing(self._device, self._directory, self._given)
-        hearing = self._parties.setdefault(spoken.party, unheard)
-        items = tuple(item for carried in spoken.carried for item in _says(hearing, carried))
+        hearing = self._parties.of(spoken.party, self._unheard)
+        items = tuple([item for carried in spoken.carried for item in _says(hearing, carried)])
         self._course.follow(spoken, expecting=expecting)
-        findings = (*spoken.heard.findings, *oddities.findings(self._device, spoken))
-        notes = (*spoken.heard.notes, *oddities.notes(self._device, self._directory, spoken))
-        return replace(spoken.heard, items=items, findings=findings, notes=notes)
+        notes = self._oddities.notes(spoken)
+        if isinstance(frame, Cut):
+            notes = (*notes, frame.said)
+        return spoken.heard.saying(items, self._oddities.findings(spoken), notes)
 
     def expect_reply_to(self, frame: Any) -> Heard:
         """Treat a frame as the request that the following frames answer."""

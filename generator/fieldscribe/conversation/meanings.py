@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 from decimal import Decimal
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import words_of
-from fieldscribe.conversation.refusals import amount_with_unit, failure, names_text, refusal
+from fieldscribe.conversation.refusals import amount_with_unit, failure
 from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text, rounded
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from fractions import Fraction
+    from collections.abc import Callable
 
     from fieldscribe.model import Device, Flag, Point
+
+
+_NAMELESS = "{}, a number without a name in the manual"
+_MOST_RULES = 256
+"""How many scales of a point, and names of a flag's numbers, are remembered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,108 +39,161 @@ class Meaning:
     hint: str = ""
 
 
+class Meanings:
+    """What the raw numbers of one point mean; what does not depend on the number is worked out once.
+
+    It never fails: if a meaning is unknown, the text says so.
+    """
+
+    def __init__(self, device: Device, point: Point) -> None:
+        self._device = device
+        self._point = point
+        self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
+        self._flags = [_Flag(flag) for flag in point.flags]
+        self._named_bits = sum(flag.mask << flag.low for flag in self._flags)
+        self._needs = point.scale_arguments
+        self._rules: dict[tuple[object, ...], Line | Meaning] = {}
+
+    def of(self, raw: int, settings: Settings) -> Meaning:
+        """The meaning of a raw number, where other points hold these settings."""
+        point = self._point
+        if point.text is not None:
+            return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
+        named = self._named(raw)
+        return self._quantity(raw, settings) if named is None else Meaning(named)
+
+    def lacks(self, settings: Settings) -> bool:
+        """Whether the scale needs other points than those with these settings."""
+        rule = self._rule(settings)
+        return isinstance(rule, Meaning) and bool(rule.missing)
+
+    def _named(self, raw: int) -> str | None:
+        """The text of a raw number that is no quantity; None if it is one."""
+        point, shape = self._point, self._point.shape
+        special = point.special(raw) if shape.specials else None
+        if special is not None:
+            remark = ", no value" if special.no_value else ""
+            return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
+        if shape.enum is not None:
+            entry = self._entries.get(raw)
+            return line("" if entry is None else wording.entry_meaning(entry)) or _NAMELESS.format(raw)
+        if self._flags:
+            return self._flags_text(raw)
+        if shape.digits is not None:
+            return _digits_text(point, raw)
+        return ("on" if raw else "off") if shape.type == "bit" else None
+
+    def _flags_text(self, raw: int) -> str:
+        true: list[str] = []
+        false: list[str] = []
+        for flag in self._flags:
+            (false if flag.is_false(raw) else true).append(flag.text(raw))
+        parts = [", ".join(true) if true else "none set"]
+        if false:
+            parts.append(f"not set: {', '.join(false)}")
+        rest = raw & ~self._named_bits
+        if rest:
+            bits = [str(bit) for bit in range(self._point.width) if rest >> bit & 1]
+            parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
+        return line("; ".join(parts))
+
+    def _quantity(self, raw: int, settings: Settings) -> Meaning:
+        point, shape = self._point, self._point.shape
+        if shape.info.floating or (shape.most_raw is not None and abs(raw) > shape.most_raw):
+            return self._computed(raw, settings)
+        rule = self._rule(settings)
+        if isinstance(rule, Meaning):
+            return rule
+        value = Fraction(raw * rule.factor + rule.add, rule.divisor)
+        if shape.display is None:
+            return Meaning(amount_with_unit(point, value), number_text(value))
+        shown_value = rounded(value.numerator, value.denominator, shape.display)
+        return Meaning(wording.with_unit(shown_value, point), number_text(value))
+
+    def _rule(self, settings: Settings) -> Line | Meaning:
+        """The scale in force, or why there is none: neither depends on the raw number."""
+        # a special code equals the plain number, and is no quantity
+        held = [settings.get(name) for name in self._needs]
+        key = (*held, *map(type, held)) if held else ()
+        rule = self._rules.get(key)
+        if rule is None:
+            if len(self._rules) >= _MOST_RULES:
+                self._rules.clear()
+            rule = self._rules[key] = self._found_rule(settings)
+        return rule
+
+    def _found_rule(self, settings: Settings) -> Line | Meaning:
+        point = self._point
+        if not point.generated and point.scale is None:
+            return Meaning(line(point.reason or "its meaning is not settled"))
+        try:
+            ratio, offset = codec.rule_in_force(point, settings)
+        except CodecError as error:
+            return self._unknown(error)
+        factor, add = offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator
+        return Line.reduced(factor, add, offset.denominator * ratio.numerator)
+
+    def _computed(self, raw: int, settings: Settings) -> Meaning:
+        """The meaning of a bit pattern, and of a number that the scale cannot compute with."""
+        point = self._point
+        if not point.generated and point.scale is None:
+            return Meaning(line(point.reason or "its meaning is not settled"))
+        try:
+            value = codec.decode(point, raw, settings)
+        except CodecError as error:
+            if error.status == "not_a_number":
+                return Meaning(str(codec.float_of(point, raw)))
+            return self._unknown(error)
+        decimals = point.display
+        said = _shortest(point, raw) if decimals is None else rounded(value.numerator, value.denominator, decimals)
+        return Meaning(wording.with_unit(said, point), number_text(value))
+
+    def _unknown(self, error: CodecError) -> Meaning:
+        message, hint = failure(self._device, self._point, error)
+        return Meaning(f"not known: {message}", None, error.missing, hint)
+
+
+class _Flag:
+    """A flag, and what each of its numbers is called."""
+
+    def __init__(self, flag: Flag) -> None:
+        self.low, self.mask = flag.low, (1 << flag.width) - 1
+        self._flag = flag
+        self._texts: dict[int, str] = {}
+
+    def is_false(self, raw: int) -> bool:
+        """Whether it is a single bit whose name is not true."""
+        return self.mask == 1 and raw >> self.low & 1 != self._flag.active
+
+    def text(self, raw: int) -> str:
+        """The flag with its number."""
+        number = raw >> self.low & self.mask
+        text = self._texts.get(number)
+        if text is None:
+            text = _flag_text(self._flag, number)
+            if self.mask <= _MOST_RULES:
+                self._texts[number] = text
+        return text
+
+
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
     """The meaning of a raw number; never fails: if it is unknown, the text says so."""
-    if point.text is not None:
-        return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
-    named = _named(point, raw)
-    return _quantity(device, point, raw, settings) if named is None else Meaning(named)
-
-
-def _named(point: Point, raw: int) -> str | None:
-    """The text of a raw number that is no quantity; None if it is one."""
-    special = point.special(raw)
-    if special is not None:
-        remark = ", no value" if special.no_value else ""
-        return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
-    if point.enum is not None:
-        entry = next((entry for entry in point.enum.entries if entry.raw == raw), None)
-        named = "" if entry is None else wording.entry_meaning(entry)
-        return line(named) or f"{raw}, a number without a name in the manual"
-    if point.flags:
-        return _flags_text(point, raw)
-    if point.digits is not None:
-        return _digits_text(point, raw)
-    return ("on" if raw else "off") if point.type == "bit" else None
-
-
-def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings) -> Iterator[str]:
-    """Remarks on how a value was rounded that the point cannot hold exactly."""
-    if point.info.floating:
-        return
-    got = codec.decode(point, raw, settings)
-    if got != asked:
-        yield f"{amount_with_unit(point, asked)} is between two raw numbers; rounded to {amount_with_unit(point, got)}"
-    coarse = next((step for start, step in reversed(point.steps) if raw >= start), 1)
-    if raw % coarse:
-        kept = point.special(raw - raw % coarse)
-        back = (
-            kept.name
-            if kept is not None
-            else amount_with_unit(point, codec.decode(point, raw - raw % coarse, settings))
-        )
-        yield f"here the device keeps only raw numbers divisible by {coarse}; expect {back} back"
-
-
-def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Why the device refuses a raw number that a frame writes; empty if it accepts it."""
-    if not point.writable:
-        return f"it is {wording.access_text(point.access)}"
-    try:
-        codec.check(point, raw, settings)
-    except CodecError as error:
-        if error.status == "missing":
-            return ""
-        return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why
-    return ""
-
-
-def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """The remark that a written number was not checked, for its limits depend on unknown points; else empty."""
-    if not point.writable:
-        return ""
-    try:
-        codec.check(point, raw, settings)
-    except CodecError as error:
-        if error.status == "missing":
-            switches = " ".join(f"--with {name}=VALUE" for name in error.missing)
-            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {switches}"
-    return ""
+    return Meanings(device, point).of(raw, settings)
 
 
 def raw_text(point: Point, raw: int) -> str:
     """A raw number in both notations: `raw 500 = 01F4h`."""
+    return raw_form(point)(raw)
+
+
+def raw_form(point: Point) -> Callable[[int], str]:
+    """What shows the raw numbers of a point in both notations."""
     if point.type == "bit":
-        return f"raw {raw}"
+        return "raw {}".format
     if point.text is not None:
-        return f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
-    digits = max(1, point.width + 3 >> 2)
-    return f"raw {raw} = {hex_text(raw & ((1 << point.width) - 1), digits)}"
-
-
-def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
-    try:
-        return codec.decode(point, raw, settings) if point.form in ("scaled", "integer", "float") else None
-    except CodecError:
-        return None
-
-
-def _quantity(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
-    if not point.generated and point.scale is None:
-        return Meaning(line(point.reason or "its meaning is not settled"))
-    try:
-        value = codec.decode(point, raw, settings)
-    except CodecError as error:
-        if error.status == "not_a_number":
-            return Meaning(str(codec.float_of(point, raw)))
-        message, hint = failure(device, point, error)
-        return Meaning(f"not known: {message}", None, error.missing, hint)
-    if point.display is not None:
-        shown_value = rounded(value.numerator, value.denominator, point.display)
-        return Meaning(wording.with_unit(shown_value, point), number_text(value))
-    if point.info.floating:
-        return Meaning(wording.with_unit(_shortest(point, raw), point), number_text(value))
-    return Meaning(amount_with_unit(point, value), number_text(value))
+        return lambda raw: f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
+    digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
+    return lambda raw: f"raw {raw} = {hex_text(raw & mask, digits)}"
 
 
 def _shortest(point: Point, raw: int) -> str:
@@ -166,25 +225,7 @@ def _digits_text(point: Point, raw: int) -> str:
     return line("digits " + ", ".join(parts))
 
 
-def _flags_text(point: Point, raw: int) -> str:
-    true = [_flag_text(flag, raw) for flag in point.flags if flag.width > 1 or _is_true(flag, raw)]
-    false = [_flag_text(flag, raw) for flag in point.flags if flag.width == 1 and not _is_true(flag, raw)]
-    parts = [", ".join(true) if true else "none set"]
-    if false:
-        parts.append(f"not set: {', '.join(false)}")
-    rest = raw & ~sum(((1 << flag.width) - 1) << flag.low for flag in point.flags)
-    if rest:
-        bits = [str(bit) for bit in range(point.width) if rest >> bit & 1]
-        parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
-    return line("; ".join(parts))
-
-
-def _is_true(flag: Flag, raw: int) -> bool:
-    return raw >> flag.low & 1 == flag.active
-
-
-def _flag_text(flag: Flag, raw: int) -> str:
-    number = raw >> flag.low & ((1 << flag.width) - 1)
+def _flag_text(flag: Flag, number: int) -> str:
     entry = next((entry for entry in flag.values if entry.raw == number), None)
     if flag.width > 1:
         return f"{flag.name} = {entry.name if entry else number}"

@@ -15,22 +15,33 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Spoken
-    from fieldscribe.model import Device
+    from fieldscribe.model import Device, Frame
 
 
-def findings(device: Device, spoken: Spoken) -> Iterator[str]:
-    """The finding that the device does not use the framing."""
-    known = device.bus.framings
-    if known and spoken.heard.framing not in known:
-        yield f"the manual knows only {' and '.join(known).upper()} frames"
+class Oddities:
+    """What looks odd or like a mistake in frames of one device."""
 
+    def __init__(self, device: Device, directory: Directory) -> None:
+        self._framings = device.bus.framings
+        self._directory = directory
+        misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.own is None)
+        self._misprints = {frame.printed: frame for frame in misprinted}
 
-def notes(device: Device, directory: Directory, spoken: Spoken) -> Iterator[str]:
-    """Notes on what looks like a mistake."""
-    for carried in spoken.carried:
-        if spoken.asks is not None and isinstance(carried, Span):
-            yield from _off_by_one(directory, carried)
-    yield from _misprint(device, spoken.heard.data)
+    def findings(self, spoken: Spoken) -> tuple[str, ...]:
+        """The finding that the device does not use the framing."""
+        known = self._framings
+        if not known or spoken.heard.framing in known:
+            return ()
+        return (f"the manual knows only {' and '.join(known).upper()} frames",)
+
+    def notes(self, spoken: Spoken) -> tuple[str, ...]:
+        """Notes on what looks like a mistake."""
+        asked = [carried for carried in spoken.carried if isinstance(carried, Span)] if spoken.asks else ()
+        misprint = self._misprints.get(spoken.heard.data)
+        if not asked and misprint is None:
+            return ()
+        said = [] if misprint is None else [_misprint_text(misprint)]
+        return (*(note for span in asked for note in _off_by_one(self._directory, span)), *said)
 
 
 def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
@@ -49,11 +60,7 @@ def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
         )
 
 
-def _misprint(device: Device, data: bytes) -> Iterator[str]:
-    """A note for a frame that the manual prints with this very error, where the bytes alone make the frame."""
-    for frame in device.frames:
-        if frame.printed == data and not frame.valid and frame.own is None:
-            known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
-            right = spaced(frame.corrected)
-            yield line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {right}")
-            return
+def _misprint_text(frame: Frame) -> str:
+    """The note for a frame that the manual prints with this very error, where the bytes alone make the frame."""
+    known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
+    return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

@@ -65,11 +65,11 @@ def _width_finding(point: Point, element: Element) -> str:
 
 def word_items(hearing: Hearing, word: Word) -> Iterator[Item]:
     """What a frame says about one word of a parameter."""
-    if word.learned and word.raw is not None:
+    points = hearing.directory.at(_SPACE, word.address)
+    if word.learned and word.raw is not None and points:
         hearing.words[word.address] = word.raw
     if word.stale:
         hearing.forget(word.address)
-    points = hearing.directory.at(_SPACE, word.address)
     if word.learned:
         hearing.learn((point, _heard(hearing, point)) for point in points if _whole(hearing, point))
     for point in without_variants(points, limits=word.asked):

@@ -78,7 +78,7 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
 
 def names_text(device: Device, names: Iterable[str]) -> str:
     """The names that people know points by: `A062 lower_frequency_limit and A004 maximum_frequency`."""
-    points = points_by_name(device)
+    points = points_by_name(device) if (names := tuple(names)) else {}
     return " and ".join(_name(points[name]) if name in points else line(name) for name in names)
 
 

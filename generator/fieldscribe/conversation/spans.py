@@ -9,7 +9,6 @@ from fieldscribe.conversation.items import named_item
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.answers import Item
-from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.buses import span_text, word_text
@@ -28,10 +27,10 @@ _MOST_WORDS = 16
 def span_items(hearing: Hearing, span: Span) -> Iterator[Item]:
     """The items of a span; its points are settings for each other."""
     words = dict(zip(range(span.address, span.address + span.count), span.words or (), strict=False))
-    raws = list(_whole_points(hearing, span, words))
-    inside = replace(hearing, known={**hearing.known, **dict(hearing.directory.settings(raws))})
+    raws = _whole_points(hearing, span, words)
     if span.learned:
-        hearing.known.update(inside.known)
+        hearing.learn(raws)
+    inside = hearing if span.learned else hearing.beside(raws)
     unknown: list[int] = []
     for address in range(span.address, span.address + span.count):
         here = list(_items(inside, span, words, address))

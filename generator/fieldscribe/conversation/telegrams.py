@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.words import raw_of
+from fieldscribe.arithmetic.words import raw_of, raw_reader
 from fieldscribe.conversation.items import named_item, value_with_raw
 from fieldscribe.families.answers import Item
 from fieldscribe.records import replace
@@ -68,38 +68,62 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
     return Item("mask", at, len(words), f"{text}: only these bits of {about} count{said}")
 
 
+class Stretch:
+    """Neighbouring words of a telegram: the points that have one of them, and which of these begin at each address."""
+
+    def __init__(self, hearing: Hearing, telegram: str, positions: range) -> None:
+        directory = hearing.directory
+        self.points = tuple({point.item: point for at in positions for point in directory.at(telegram, at)}.values())
+        self.bases = [(telegram, min(point.addresses), len(point.addresses)) for point in self.points]
+        self.voices = [hearing.told.voice(*placed) for placed in zip(self.points, self.bases, strict=True)]
+        self.places = [(point.addresses, raw_reader(point)) for point in self.points]
+        self.teaching = [number for number, point in enumerate(self.points) if directory.teaches(point)]
+        starts = [min(set(point.addresses) & set(positions)) for point in self.points]
+        numbers = [(at, [number for number, start in enumerate(starts) if start == at]) for at in positions]
+        self.begin = [(at, here, bool(directory.at(telegram, at))) for at, here in numbers]
+        """Each address, the numbers of the points that begin there, and whether any point has it."""
+
+
+def _stretch(hearing: Hearing, piece: Piece) -> Stretch:
+    key = piece.telegram.name, piece.positions
+    known = hearing.told.stretches.get(key)
+    if known is None:
+        known = hearing.told.stretches[key] = Stretch(hearing, *key)
+    return known
+
+
 def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
-    telegram = piece.telegram.name
-    points = {point.item: point for at in piece.positions for point in hearing.directory.at(telegram, at)}
-    heard = {item: piece.pieces.words(point.addresses) for item, point in points.items()}
-    raws = {item: raw_of(points[item], words) for item, (status, words) in heard.items() if status == "ok"}
-    hearing.learn((points[item], raw) for item, raw in raws.items())
-    lacking = []
-    for at in piece.positions:
-        for point in points.values():
-            if at == min(set(point.addresses) & set(piece.positions)):
-                item = _point(hearing, piece, point, raws.get(point.item))
-                lacking += [point] if item.missing else []
-                yield item
-        if not hearing.directory.at(telegram, at):
-            words = words_text(piece.pieces.words((at,))[1])
-            yield Item(telegram, at, 1, f"word {at}: no point is described here ({words})")
-    yield from _completed_points(hearing, telegram, points)
-    hearing.waiting.update((point.item, (point, raws[point.item])) for point in lacking)
+    stretch, come = _stretch(hearing, piece), piece.pieces.words
+    raws = [read(words[1]) if (words := come(at))[0] == "ok" else None for at, read in stretch.places]
+    known = ((stretch.points[number], raws[number]) for number in stretch.teaching)
+    hearing.learn((point, raw) for point, raw in known if raw is not None)
+    lacking: dict[str, tuple[Point, int]] = {}
+    for at, here, described in stretch.begin:
+        for number in here:
+            point, raw = stretch.points[number], raws[number]
+            if raw is None:
+                yield named_item(point, stretch.bases[number], _incomplete_text(hearing, piece, point))
+                continue
+            item = stretch.voices[number].item(raw, hearing.settings)
+            if item.missing:
+                lacking[point.item] = point, raw
+                item = _with_multiplexers(hearing, piece, item)
+            yield item
+        if not described:
+            yield Item(
+                piece.telegram.name, at, 1, f"word {at}: no point is described here ({words_text(come((at,))[1])})"
+            )
+    if hearing.waiting:
+        now = {point.item for point, raw in zip(stretch.points, raws, strict=True) if raw is not None}
+        yield from _completed_points(hearing, piece.telegram.name, now)
+    hearing.waiting.update(lacking)
 
 
-def _point(hearing: Hearing, piece: Piece, point: Point, raw: int | None) -> Item:
-    """A point of the telegram, as far as the frames so far tell it."""
-    base = (piece.telegram.name, min(point.addresses), len(point.addresses))
-    if raw is None:
-        return named_item(point, base, _incomplete_text(hearing, piece, point))
-    item = hearing.value(point, base, raw)
-    if not item.missing:
-        return item
-    alike = [other for other in hearing.device.points if other.telegram == piece.telegram.name and other.addresses]
-    firsts = {other.name: other.addresses[0] for other in alike}
-    slots = sorted({firsts[name] // piece.pieces.per_frame for name in item.missing if name in firsts})
+def _with_multiplexers(hearing: Hearing, piece: Piece, item: Item) -> Item:
+    """The item of a point that waits for others, with where they come."""
+    firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
+    slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
     comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
     return replace(item, text=item.text + comes)
 
@@ -125,10 +149,14 @@ def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) 
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _completed_points(hearing: Hearing, telegram: str, now: dict[str, Point]) -> Iterator[Item]:
-    """Points of earlier frames whose missing values came with this frame."""
-    for name, (point, raw) in list(hearing.waiting.items()):
-        item = hearing.value(point, (telegram, min(point.addresses), len(point.addresses)), raw)
-        if name not in now and not item.missing:
+def _completed_points(hearing: Hearing, telegram: str, now: set[str]) -> Iterator[Item]:
+    """Points of earlier frames whose missing values came with this frame; this frame itself tells of those `now`."""
+    for name in now & hearing.waiting.keys():
+        del hearing.waiting[name]
+    for name, (point, raw) in list(hearing.waiting.items()) if hearing.fresh else ():
+        voice = hearing.told.voice(point, (telegram, min(point.addresses), len(point.addresses)))
+        if not voice.lacks(hearing.settings):
             del hearing.waiting[name]
+            item = voice.item(raw, hearing.settings)
             yield replace(item, text=f"from a frame before: {item.text}")
+    hearing.fresh = False

@@ -94,6 +94,14 @@ class Heard:
             "notes": list(self.notes),
         }
 
+    def saying(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> Heard:
+        """The same frame with what it says about points, and with more findings and notes."""
+        return Heard(
+            self.data, self.framing, self.kind, self.unit, self.function, self.summary,
+            items, self.checks, self.faults, self.findings + findings, self.notes + notes,
+            self.exception, self.details, self.shown,
+        )  # fmt: skip
+
     @property
     def wrong(self) -> bool:
         """Whether anything about the frame is a fault or a finding."""

@@ -34,9 +34,17 @@ class Directory:
                     here = self._at.setdefault((point.telegram or point.space, address, index), [])
                     if not (here and absent(point.when, device.variants)):
                         here.append((point, place))
-        self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
+        places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
         for point in device.points:
-            self._places.setdefault(point.name, set()).add((point.addresses, point.index))
+            places.setdefault(point.name, set()).add((point.addresses, point.index))
+        rules = {name for point in device.points for name in point.arguments}
+        self._settings = {name for name in rules if len(places.get(name, ())) == 1}
+        named = ((point.telegram or "", point) for point in device.points if point.addresses)
+        self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
+        self._derived: dict[str, list[Point]] = {}
+        for point in device.points:
+            for name in point.changes_with:
+                self._derived.setdefault(name, []).append(point)
 
     def places(self, where: str, address: int, index: int = 0) -> list[Found]:
         """The points that have a word at this address, each with its place."""
@@ -50,8 +58,20 @@ class Directory:
         """The points whose lowest address is this one, each with its place."""
         return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
+    def first(self, telegram: str, name: str) -> int | None:
+        """The first address of a point of the telegram."""
+        return self._firsts.get((telegram, name))
+
+    def derived(self, name: str) -> list[Point]:
+        """The points whose values the device works out anew when this one is written."""
+        return self._derived.get(name, [])
+
     def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
         """The settings that these raw numbers give to rules, without points whose variants stand in several places."""
         for point, raw in raws:
-            if len(self._places[point.name]) == 1:
+            if self.teaches(point):
                 yield point.name, setting_of(point, raw)
+
+    def teaches(self, point: Point) -> bool:
+        """Whether the raw number of a point is a setting that some rule needs."""
+        return point.name in self._settings

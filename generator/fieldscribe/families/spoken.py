@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from fieldscribe.families.answers import Item
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from fieldscribe.families.answers import Heard
     from fieldscribe.families.directory import Directory
@@ -143,6 +143,54 @@ class Course:
             self._open.pop(key, None)
         if expecting:
             self.fixed = spoken.binds
+
+
+class Cut(bytes):
+    """A frame out of bytes that hold several; `said` tells which one it is."""
+
+    said = ""
+
+
+def cut_apart(data: bytes, sound: Callable[[bytes], int], least: int) -> list[bytes]:
+    """The frames in bytes that hold several; the bytes as they are if they hold one, or none.
+
+    `sound` gives the size of the sound frame that bytes begin with, 0 where there is none. What is left behind sound
+    frames is a frame, too, if it has at least `least` bytes.
+    """
+    pieces: list[bytes] = []
+    rest = data
+    while rest and (size := sound(rest)):
+        pieces, rest = [*pieces, rest[:size]], rest[size:]
+    pieces += [rest] if rest else []
+    if len(pieces) < 2 or 0 < len(rest) < least:
+        return [data]
+    begin, result = 1, []
+    for number, piece in enumerate(pieces, 1):
+        frame = Cut(piece)
+        frame.said = f"these bytes hold {len(pieces)} frames; this is number {number}, from byte {begin} on"
+        result.append(frame)
+        begin += len(piece)
+    return [*result]
+
+
+Key = TypeVar("Key")
+Kept = TypeVar("Kept")
+_MOST_KEPT = 256
+
+
+class Recent(Generic[Key, Kept]):
+    """What is kept of each party, as long as it is one of the last to be heard: a stream may last for days."""
+
+    def __init__(self) -> None:
+        self._kept: dict[Key, Kept] = {}
+
+    def of(self, key: Key, make: Callable[[], Kept]) -> Kept:
+        """What is kept under this key, made if nothing is."""
+        kept = self._kept.pop(key) if key in self._kept else make()
+        self._kept[key] = kept
+        if len(self._kept) > _MOST_KEPT:
+            del self._kept[next(iter(self._kept))]
+        return kept
 
 
 class Speech(Protocol):

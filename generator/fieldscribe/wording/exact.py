@@ -18,7 +18,7 @@ _SHORT = 6
 """A factor with at most this many decimals is said as a decimal (`x 0.125`), else as a division (`/ 256`)."""
 
 
-@lru_cache(maxsize=65536)
+@lru_cache(maxsize=4096)
 def exact(numerator: int, denominator: int = 1) -> str:
     """The exact number as text: a decimal where it ends (`0.1`), else a fraction (`7/3`)."""
     if denominator == 1:
@@ -43,7 +43,6 @@ def rounded(numerator: int, denominator: int, decimals: int) -> str:
     return _decimal(nearest(numerator * 10**decimals, denominator), decimals)
 
 
-@lru_cache(maxsize=65536)
 def hex_text(number: int, digits: int = 4) -> str:
     """A number as manuals print it: `1028h`."""
     return f"{number:0{digits}X}h"

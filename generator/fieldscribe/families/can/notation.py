@@ -11,7 +11,7 @@ from fieldscribe.hexadecimal import HexError, parse_hex, rejoined
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 HINT = "write identifier and data in hexadecimal, as in 321#DD00051E13880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF
@@ -25,6 +25,10 @@ _DUMPED = re.compile(
     _STAMP + r"(?P<bus>[A-Za-z][\w.-]{0,31})\s+(?:[RT]X\s+\S\s+\S\s+)?(?P<id>[0-9A-Fa-f]{3}|[0-9A-Fa-f]{8})\s+"
     r"\[(?P<size>[0-9]{1,2})\]\s*(?P<data>(?:[0-9A-Fa-f]{2}(?:\s+|$))*|remote request)(?:\s*'.*')?"
 )
+_BEHIND = re.compile(
+    r"(?:\([0-9.]{1,32}\)\s+)?(?:[A-Za-z][\w.-]{0,31}\s+)?[0-9A-Fa-fxX]{1,10}##?[0-9A-Fa-fRr.]*(?:\s+[RT]\b)?"
+)
+_SEVERAL = re.compile(rf"(?:{_BEHIND.pattern}(?:\s+|$)){{2,}}")
 _ALONE = re.compile(r"\([0-9.]{1,32}\)")
 _REMOTE = re.compile(r"[Rr][0-8]?|remote request")
 
@@ -53,7 +57,14 @@ def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
     """The frames in the arguments, one on each line. Raises UnclearError."""
     known = None if can_id is None else read_identifier(can_id)
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
+    if len(texts) == 1 and len(lines) == 1 and lines[0].count("#") > 1:
+        lines = _frames_of_line(lines[0])
     return [_frame(line, known) for line in lines if line or len(lines) == 1]
+
+
+def _frames_of_line(line: str) -> list[str]:
+    """The frames in one argument; the line as it is if it is not made of frames alone."""
+    return [match[0].strip() for match in _BEHIND.finditer(line)] if _SEVERAL.fullmatch(line) else [line]
 
 
 def read_identifier(text: str) -> int:
@@ -66,14 +77,16 @@ def read_identifier(text: str) -> int:
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
     """The arguments; pieces of one line are joined again where somebody forgot the quotes."""
-    if any("#" in text for text in texts):
-        words = list(texts)
-        while words:
-            size = 3 if _ALONE.fullmatch(words[0].strip()) and len(words) > 2 else 1
-            yield " ".join(words[:size])
-            del words[:size]
-    else:
-        yield from rejoined(texts, 2)
+    if len(texts) == 1 or not any("#" in text for text in texts):
+        return rejoined(texts, 2)
+    return _lines_of_pieces(list(texts))
+
+
+def _lines_of_pieces(words: list[str]) -> Iterator[str]:
+    while words:
+        size = 3 if _ALONE.fullmatch(words[0].strip()) and len(words) > 2 else 1
+        yield " ".join(words[:size])
+        del words[:size]
 
 
 def _frame(line: str, known: int | None) -> Pasted:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import carried, parse, telegram_words
+from fieldscribe.arithmetic.words import words_in
+from fieldscribe.families.can.frames import carried, parse
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -32,6 +33,9 @@ class Receiver:
         self.unit = unit
         self.per_frame = message.words
         self._clock = 0
+        at = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
+        words = dict.fromkeys(number // 2 for number in at)
+        self._bytes = [at[number] for word in words for number in (2 * word, 2 * word + 1)]
         self._slots = [_Slot() for _ in range(-(-telegram.words // self.per_frame))]
 
     def take(self, frame: CanFrame) -> bool:
@@ -39,12 +43,15 @@ class Receiver:
         place = self._place(frame)
         if place is None:
             return False
-        words = tuple(telegram_words(self.message, frame).values())
+        self.keep(place, frame)
+        return True
+
+    def keep(self, place: int, frame: CanFrame) -> None:
+        """Keep the words of a sound frame of the telegram, whose multiplexer is `place`."""
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
-        slot.words, slot.at = words, self._clock
-        return True
+        slot.words, slot.at = words_in(bytes([frame.data[place] for place in self._bytes])), self._clock
 
     def _place(self, frame: CanFrame) -> int | None:
         """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
@@ -59,16 +66,23 @@ class Receiver:
         Two words from two frames belong together if the same high word came before and after the low one. More than two
         words, such as a text, are given as they came last.
         """
+        if len(positions) == 1:
+            slot, word = self._slots[positions[0] // self.per_frame], positions[0] % self.per_frame
+            return ("ok", (slot.words[word],)) if slot.at else ("missing", ())
         slots = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
         if any(slot.at == 0 for slot, _ in slots):
             return "missing", ()
-        (high, high_word), (low, low_word) = slots[0], slots[-1]
-        if high is low or len(slots) > 2:
-            return "ok", tuple(slot.words[word] for slot, word in slots)
-        if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
-            return "torn", ()
-        if high.before < low.at < high.at:
-            return "ok", (high.words[high_word], low.words[low_word])
-        if low.at > high.at and high.before < low.before < high.at:
-            return "ok", (high.words[high_word], low.words_before[low_word])
+        return _together(slots)
+
+
+def _together(slots: list[tuple[_Slot, int]]) -> tuple[str, tuple[int, ...]]:
+    (high, high_word), (low, low_word) = slots[0], slots[-1]
+    if high is low or len(slots) > 2:
+        return "ok", tuple(slot.words[word] for slot, word in slots)
+    if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
         return "torn", ()
+    if high.before < low.at < high.at:
+        return "ok", (high.words[high_word], low.words[low_word])
+    if low.at > high.at and high.before < low.before < high.at:
+        return "ok", (high.words[high_word], low.words_before[low_word])
+    return "torn", ()

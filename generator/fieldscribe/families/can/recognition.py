@@ -1,25 +1,38 @@
-"""Finds the message and the unit of a frame, even if the frame is damaged."""
+"""Finds the message and the unit of a frame, even if the frame is damaged.
+
+What tells them (identifier, constants, unit, address, multiplexer, checksum) comes again and again on a bus, so what
+follows from these bytes is worked out once and remembered.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, CanFrame, Difference, carried, carries, differences, places, unit_of
+from fieldscribe.families.can.frames import LENGTH, Difference, carried, carries, differences, places, unit_of
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
+    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.model import Device, Message
+
+_MOST = 1024
+"""How many heads of frames are remembered for each identifier and message."""
 
 
 @dataclass(frozen=True, slots=True)
-class Recognised:
-    """A frame read as a message. `foreign`: it answers for a unit that the device cannot have."""
+class Head:
+    """A frame read as a message, without its words. `foreign`: it answers for a unit that the device cannot have.
+
+    `slot` is the multiplexer (0 without one), `address` the parameter that the message is about, if it is about one.
+    """
 
     message: Message
     unit: int | None
-    frame: CanFrame
+    slot: int
+    address: int | None
     differences: tuple[Difference, ...]
     foreign: bool
 
@@ -29,28 +42,65 @@ class Recognised:
         wrong = [difference.kind for difference in self.differences]
         return self.foreign + len(wrong) - max(0, wrong.count("xor") - 1)
 
-    @property
-    def slot(self) -> int:
-        """The multiplexer; 0 without one."""
-        return carried(self.message, self.frame, "multiplexer")
 
-    @property
-    def address(self) -> int | None:
-        """The parameter that the message is about."""
-        return carried(self.message, self.frame, "address") if carries(self.message, "address") else None
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The parameter that a request or its answer is about, and the word that it carries."""
 
-    @property
-    def raw(self) -> int | None:
-        """The word that the message carries."""
-        return carried(self.message, self.frame, "raw") if carries(self.message, "raw") else None
+    address: int
+    raw: int | None
 
 
-def recognise(device: Device, frame: CanFrame) -> Recognised | None:
-    """The message with the fewest flaws for this frame; None if no message fits."""
-    if len(frame.data) != LENGTH:
-        return None
-    readings = [_read(device, message, unit, frame) for message, unit in senders(device, frame)]
-    return min((reading for reading in readings if _is_kind(reading)), key=lambda reading: reading.flaws, default=None)
+class Recogniser:
+    """Recognises the frames of a device; `said` puts what the head of a frame tells into words."""
+
+    def __init__(self, device: Device, said: Callable[[Head, CanFrame], Heard]) -> None:
+        self._device = device
+        self._said = said
+        self._candidates: dict[int, list[_Candidate]] = {}
+
+    def recognise(self, frame: CanFrame) -> tuple[Head, Heard] | None:
+        """The message with the fewest flaws for this frame, and what it says; None if no message fits."""
+        if len(frame.data) != LENGTH:
+            return None
+        readings = [self._read(candidate, frame) for candidate in self._of(frame) if candidate.is_kind(frame.data)]
+        return min(readings, key=lambda reading: reading[0].flaws) if len(readings) > 1 else next(iter(readings), None)
+
+    def _of(self, frame: CanFrame) -> list[_Candidate]:
+        known = self._candidates.get(frame.id)
+        if known is None:
+            known = [_Candidate(message) for message, _ in senders(self._device, frame)]
+            if known:  # identifiers of other devices are without number
+                self._candidates[frame.id] = known
+        return known
+
+    def _read(self, candidate: _Candidate, frame: CanFrame) -> tuple[Head, Heard]:
+        telling = int.from_bytes(frame.data, "big") & candidate.telling
+        reading = candidate.read.get(telling)
+        if reading is None:
+            if len(candidate.read) >= _MOST:
+                candidate.read.clear()
+            head = _head(self._device, candidate.message, frame)
+            reading = candidate.read[telling] = head, self._said(head, frame)
+        return reading
+
+
+class _Candidate:
+    """A message that an identifier may carry, and what the heads of its frames have told so far."""
+
+    def __init__(self, message: Message) -> None:
+        self.message = message
+        self.read: dict[int, tuple[Head, Heard]] = {}
+        self._first = next(iter(places(message, "constant")), None)
+        self._constant = 0 if self._first is None else message.roles[self._first].number
+        told = {place for place, role in enumerate(message.roles) if role.kind not in ("word", "raw")}
+        summed = (role.number for role in message.roles if role.kind == "xor")
+        told |= {place for mask in summed for place in range(LENGTH) if mask >> place & 1}
+        self.telling = sum(0xFF << 8 * (LENGTH - 1 - place) for place in told)
+
+    def is_kind(self, data: bytes) -> bool:
+        """Whether the first constant byte is that of the message; else it is another message."""
+        return self._first is None or data[self._first] == self._constant
 
 
 def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | None]]:
@@ -62,13 +112,10 @@ def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | No
             yield message, unit_of(message, frame)
 
 
-def _read(device: Device, message: Message, unit: int | None, frame: CanFrame) -> Recognised:
+def _head(device: Device, message: Message, frame: CanFrame) -> Head:
     low, high = device.bus.units
+    unit = unit_of(message, frame)
     foreign = unit is not None and message.direction != "request" and not low <= unit <= high
-    return Recognised(message, unit, frame, differences(message, unit or 0, frame), foreign)
-
-
-def _is_kind(reading: Recognised) -> bool:
-    """Whether the first constant byte is that of the message; else it is another message."""
-    first = places(reading.message, "constant")[:1]
-    return all(difference.place not in first for difference in reading.differences)
+    address = carried(message, frame, "address") if carries(message, "address") else None
+    slot = carried(message, frame, "multiplexer")
+    return Head(message, unit, slot, address, differences(message, unit or 0, frame), foreign)

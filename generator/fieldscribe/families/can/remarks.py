@@ -13,18 +13,19 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.families.can.notation import Pasted
-    from fieldscribe.families.can.recognition import Recognised
+    from fieldscribe.families.can.recognition import Asked, Head
     from fieldscribe.model import Bus, Device, Message, Telegram
 
 DAMAGED = "its words are not read, for the frame is damaged"
 
 
-def message_text(recognised: Recognised, telegram: Telegram | None) -> str:
+def message_text(recognised: Head, frame: CanFrame, telegram: Telegram | None) -> str:
     """A frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
     message = recognised.message
     unit = "" if recognised.unit is None else f", unit {recognised.unit}"
-    head = f"CAN {hex_text(recognised.frame.id, 3)}{unit}, {message.name}"
+    head = f"CAN {hex_text(frame.id, 3)}{unit}, {message.name}"
     if recognised.address is not None:
         return f"{head}: parameter {address_text(recognised.address)}"
     if telegram is None:
@@ -47,7 +48,7 @@ def foreign_note(device: Device) -> str:
     return f"no message of {device.id} has this identifier: {known}"
 
 
-def faults(recognised: Recognised, bus: Bus) -> Iterator[str]:
+def faults(recognised: Head, bus: Bus) -> Iterator[str]:
     """What is wrong with a frame as this message."""
     if recognised.foreign:
         yield strange_unit(bus, recognised.unit or 0)
@@ -59,11 +60,10 @@ def faults(recognised: Recognised, bus: Bus) -> Iterator[str]:
         yield "the checksum is wrong"
 
 
-def checks_text(recognised: Recognised) -> str:
+def checks_text(message: Message, data: bytes) -> str:
     """What the checksum of a frame says; empty where it has none."""
-    data = recognised.frame.data
-    sums = places(recognised.message, "xor")
-    right = bytes(checksum(data, recognised.message.roles[place].number) for place in sums)
+    sums = places(message, "xor")
+    right = bytes(checksum(data, message.roles[place].number) for place in sums)
     return check_text(bytes(data[place] for place in sums), right) if sums else ""
 
 
@@ -73,7 +73,7 @@ def multiplexer_finding(message: Message, telegram: Telegram) -> str:
     return f"the manual knows multiplexers 0 to {last} only"
 
 
-def answer_findings(asked: Recognised, known: Recognised) -> Iterator[str]:
+def answer_findings(asked: Asked, known: Asked) -> Iterator[str]:
     """How an answer contradicts the request before it."""
     if asked.address != known.address:
         yield f"the request before asked for parameter {asked.address}, this answers {known.address}"

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
 from fieldscribe.families.can import remarks
-from fieldscribe.families.can.frames import carries
+from fieldscribe.families.can.frames import carried, carries
 from fieldscribe.families.can.notation import read_frames
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.families.can.recognition import Recognised, recognise, senders
-from fieldscribe.families.spoken import Piece, Speech, Spoken, Word
+from fieldscribe.families.can.recognition import Asked, Recogniser, senders
+from fieldscribe.families.spoken import Piece, Recent, Speech, Spoken, Word
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.asked import Options
+    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.families.can.notation import Pasted
+    from fieldscribe.families.can.recognition import Head
     from fieldscribe.families.directory import Directory
     from fieldscribe.families.spoken import Course
     from fieldscribe.model import Device, Message, Telegram
@@ -33,7 +35,9 @@ class CanSpeech(Speech):
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._can_id = can_id
-        self._receivers: dict[tuple[int | None, str], Receiver] = {}
+        self._receivers: Recent[tuple[int | None, str], Receiver] = Recent()
+        self._recogniser = Recogniser(device, self._said)
+        self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
 
     def frames(self, texts: Sequence[str]) -> list[Pasted]:
         """The frames that people pasted. Raises UnclearError."""
@@ -42,53 +46,62 @@ class CanSpeech(Speech):
     def hear(self, frame: Pasted, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""
         del directory, expecting  # the messages themselves tell which frame answers which
-        known = None if frame.remote else recognise(self._device, frame.frame)
-        spoken = self._unknown(frame) if known is None else self._message(known, course)
-        stamp = {"time": frame.stamp.strip("()") or None, "interface": frame.bus or None}
-        details = {"can_id": frame.frame.id, **spoken.heard.details, **stamp}
-        return replace(spoken, heard=replace(spoken.heard, shown=frame.shown, details=details))
+        known = None if frame.remote else self._recogniser.recognise(frame.frame)
+        if known is None:
+            return self._unknown(frame)
+        head, heard = known
+        return self._message(head, _captured(heard, frame), frame.frame, course)
 
-    def _message(self, known: Recognised, course: Course) -> Spoken:
-        message = known.message
-        telegram = next((telegram for telegram in self._device.telegrams if telegram.message == message.name), None)
-        details = {"message": message.name, **({"parameter": known.address} if telegram is None else {})}
-        details |= {} if telegram is None else {"multiplexer": known.slot}
+    def _said(self, head: Head, frame: CanFrame) -> Heard:
+        """What the head of a frame says, whatever words it carries."""
+        message = head.message
+        telegram = self._telegrams.get(message.name)
+        own = {"parameter": head.address} if telegram is None else {"multiplexer": head.slot}
         kind = "cyclic" if telegram is not None else _KINDS.get(message.direction, "cyclic")
-        said, checks = remarks.message_text(known, telegram), remarks.checks_text(known)
-        faults = tuple(remarks.faults(known, self._device.bus))
-        heard = Heard(known.frame.data, "can", kind, known.unit, None, said, (), checks, faults, details=details)
-        return self._parameter(heard, known, course) if telegram is None else self._cyclic(heard, known, telegram)
+        said, checks = remarks.message_text(head, frame, telegram), remarks.checks_text(message, frame.data)
+        faults = tuple(remarks.faults(head, self._device.bus))
+        details = {"message": message.name, **own}
+        return Heard(frame.data, "can", kind, head.unit, None, said, (), checks, faults, details=details)
 
-    def _cyclic(self, heard: Heard, known: Recognised, telegram: Telegram) -> Spoken:
-        per_frame = known.message.words
-        first = known.slot * per_frame
+    def _message(self, head: Head, heard: Heard, frame: CanFrame, course: Course) -> Spoken:
+        telegram = self._telegrams.get(head.message.name)
+        if telegram is None:
+            return self._parameter(heard, head, frame, course)
+        return self._cyclic(heard, head, frame, telegram)
+
+    def _cyclic(self, heard: Heard, head: Head, frame: CanFrame, telegram: Telegram) -> Spoken:
+        per_frame = head.message.words
+        first = head.slot * per_frame
         if first >= telegram.words or per_frame == 0:
-            return Spoken(replace(heard, findings=(remarks.multiplexer_finding(known.message, telegram),)))
-        fresh = Receiver(telegram, known.message, known.unit or 0)
-        receiver = self._receivers.setdefault((known.unit, telegram.name), fresh)
-        if not receiver.take(known.frame):
+            return Spoken(replace(heard, findings=(remarks.multiplexer_finding(head.message, telegram),)))
+        if head.differences:
             return Spoken(replace(heard, notes=(remarks.DAMAGED,)))
+        whose = head.unit, telegram.name
+        receiver = self._receivers.of(whose, lambda: Receiver(telegram, head.message, head.unit or 0))
+        receiver.keep(head.slot, frame)
         positions = range(first, min(first + per_frame, telegram.words))
-        return Spoken(heard, (Piece(telegram, positions, receiver),), known.unit)
+        return Spoken(heard, (Piece(telegram, positions, receiver),), head.unit)
 
-    def _parameter(self, heard: Heard, known: Recognised, course: Course) -> Spoken:
-        if known.address is None:
-            return Spoken(heard, party=known.unit)
-        message, sound = known.message, not known.flaws
+    def _parameter(self, heard: Heard, head: Head, frame: CanFrame, course: Course) -> Spoken:
+        if head.address is None:
+            return Spoken(heard, party=head.unit)
+        message, sound = head.message, not head.flaws
+        raw = carried(message, frame, "raw") if carries(message, "raw") else None
+        known = Asked(head.address, raw)
         asks = message.direction == "request"
         writes = self._writes(message)
-        learned = known.raw is not None and sound and not asks
+        learned = raw is not None and sound and not asks
         # an answer reports what the device holds, so it is not checked against limits
-        word = Word(known.address, known.raw, asked=writes and asks, learned=learned, stale=writes and sound)
+        word = Word(head.address, raw, asked=writes and asks, learned=learned, stale=writes and sound)
         if asks:
-            strange = "" if known.unit is None else strange_unit(self._device.bus, known.unit)
+            strange = "" if head.unit is None else strange_unit(self._device.bus, head.unit)
             heard = replace(heard, findings=(strange,) if strange else ())
-            return Spoken(heard, (word,), known.unit, message.name, asks=known)
+            return Spoken(heard, (word,), head.unit, message.name, asks=known)
         exchange = message.answers or ""
-        asked: Recognised | None = course.asked(known.unit, exchange)
+        asked: Asked | None = course.asked(head.unit, exchange)
         odd = () if asked is None else tuple(remarks.answer_findings(asked, known))
         answers = asked is not None and asked.address == known.address
-        return Spoken(replace(heard, findings=odd), (word,), known.unit, exchange, answers=answers)
+        return Spoken(replace(heard, findings=odd), (word,), head.unit, exchange, answers=answers)
 
     def _writes(self, message: Message) -> bool:
         """Whether a message is a request that carries a value, or the answer to one."""
@@ -98,7 +111,7 @@ class CanSpeech(Speech):
     def _unknown(self, pasted: Pasted) -> Spoken:
         """The result for a frame that is no message of the device, or an incomplete one."""
         frame = pasted.frame
-        base = Heard(frame.data, "can", "other", None, None, f"CAN {hex_text(frame.id, 3)}")
+        base = _captured(Heard(frame.data, "can", "other", None, None, f"CAN {hex_text(frame.id, 3)}"), pasted)
         here = list(senders(self._device, frame))
         if not here:
             note = remarks.foreign_note(self._device)
@@ -106,6 +119,13 @@ class CanSpeech(Speech):
         fault = remarks.unknown_kind(pasted, [message for message, _ in here])
         summary = f"{base.summary}: not readable"
         return Spoken(replace(base, kind="unreadable", unit=here[0][1], summary=summary, faults=(fault,)))
+
+
+def _captured(heard: Heard, frame: Pasted) -> Heard:
+    """What was heard, with all that is known of this very frame."""
+    stamp = {"time": frame.stamp.strip("()") or None, "interface": frame.bus or None}
+    details = {"can_id": frame.frame.id, **heard.details, **stamp}
+    return replace(heard, data=frame.frame.data, shown=frame.shown, details=details)
 
 
 def speech_of(device: Device, options: Options) -> CanSpeech:

@@ -6,7 +6,7 @@ from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE
 from fieldscribe.records import dataclass
 
-_LEAST = {"rtu": 4, "tcp": 8}
+LEAST = {"rtu": 4, "tcp": 8}
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +86,8 @@ def unwrap(framing: str, data: bytes) -> Unwrapped:
 
     rtu: `bad_crc`. tcp: `bad_protocol` (the protocol number is not 0), `bad_length` (not what the header says).
     """
-    if len(data) < _LEAST[framing]:
-        return Unwrapped(framing, data, flaw=Flaw("short_frame", len(data), _LEAST[framing]))
+    if len(data) < LEAST[framing]:
+        return Unwrapped(framing, data, flaw=Flaw("short_frame", len(data), LEAST[framing]))
     if framing == "rtu":
         here, right = int.from_bytes(data[-2:], "little"), crc16(data[:-2])
         return Unwrapped("rtu", data, data[1:-2], flaw=None if here == right else Flaw("bad_crc", here, right))

@@ -8,7 +8,7 @@ from fieldscribe.families.answers import Heard, Item
 from fieldscribe.families.modbus import remarks
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, data_size, reply_length, values_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, SPACE_OF, framings_of
-from fieldscribe.families.modbus.recognition import recognise
+from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
 from fieldscribe.families.spoken import Span, Spoken
@@ -34,7 +34,8 @@ class ModbusSpeech:
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The frames that people pasted. Raises UnclearError."""
-        return [typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2)]
+        pasted = (typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2))
+        return [frame for data in pasted for frame in frames_in(data, self._framing)]
 
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a frame is; any bytes are safe."""

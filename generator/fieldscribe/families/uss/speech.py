@@ -21,7 +21,7 @@ from fieldscribe.families.uss.parts import (
     part_of,
     split,
 )
-from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, request_in, unwrap
+from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.hexadecimal import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import element_text, no_answer_text
@@ -49,7 +49,8 @@ class UssSpeech(Speech):
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The telegrams that people pasted. Raises UnclearError."""
         example = "02 0E 01 143A 0000 0000 0000 0000 0000 23"
-        return [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
+        pasted = [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
+        return [frame for data in pasted for frame in frames_in(data)] if self._framing == "uss" else pasted
 
     def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
         """What a telegram is; any bytes are safe."""

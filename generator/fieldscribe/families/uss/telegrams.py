@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
+from fieldscribe.families.spoken import cut_apart
 from fieldscribe.families.uss.facts import FAMILY, of_bus
 from fieldscribe.families.uss.parts import (
     DOUBLE_RESPONSES,
@@ -95,6 +96,17 @@ def unwrap(data: bytes) -> Unwrapped:
         flaws += ["wrong_length"] if data[1] + 2 != len(data) else []
         flaws += ["wrong_check"] if check_byte(data) else []
     return Unwrapped(data, data[2], words_in(body), (*flaws, *(("odd",) if len(body) % 2 else ())))
+
+
+def frames_in(data: bytes) -> list[bytes]:
+    """The telegrams in pasted bytes: several if these are whole ones behind each other, by length and check byte."""
+    return cut_apart(data, _sound, LEAST_BYTES) if unwrap(data).flaws else [data]
+
+
+def _sound(data: bytes) -> int:
+    """The size of the telegram that the bytes begin with; 0 where its start, length or check byte is wrong."""
+    size = data[1] + 2 if len(data) > 1 else 0
+    return size if 0 < size <= len(data) and not unwrap(data[:size]).flaws else 0
 
 
 def bare_words(data: bytes) -> Unwrapped:

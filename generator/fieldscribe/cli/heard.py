@@ -1,0 +1,126 @@
+"""Prints decoded frames one by one, in each of the forms that `decode` has."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping
+from functools import lru_cache
+from json.encoder import encode_basestring_ascii
+from typing import TYPE_CHECKING, Protocol
+
+from fieldscribe.cli.terminal import is_coloured, print_lines, print_rows, rows_text
+from fieldscribe.families.answers import Item
+from fieldscribe.report import visible
+from fieldscribe.wording.buses import spaced
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.families.answers import Heard
+    from fieldscribe.model import Device
+
+_STEP = 2
+"""How far each depth of JSON stands in."""
+
+
+class Shown(Protocol):
+    """Prints what has been heard."""
+
+    def __init__(self, device: Device) -> None: ...
+
+    def frame(self, heard: Heard) -> None:
+        """Print the next frame."""
+
+    def end(self) -> None:
+        """Print what belongs behind the last frame."""
+
+
+def shown_as(form: str, device: Device) -> Shown:
+    """What prints frames of the device as `text`, `json` or `jsonl`."""
+    kinds: dict[str, type[Shown]] = {"text": _Text, "json": _Json, "jsonl": _JsonLines}
+    return kinds[form](device)
+
+
+class _Text:
+    def __init__(self, device: Device) -> None:
+        del device
+        self._coloured = is_coloured(sys.stdout)
+        self._between = ""
+
+    def frame(self, heard: Heard) -> None:
+        heading = visible(heard.shown) or spaced(heard.data)
+        rows = [(label, visible(text)) for label, text in _rows(heard)]
+        if self._coloured:
+            sys.stdout.write(self._between)
+            print_rows(heading, rows)
+        else:
+            sys.stdout.write(self._between + rows_text(heading, rows))
+        self._between = "\n"
+
+    def end(self) -> None:
+        if not self._between:
+            print_lines([[("", "no frame of that unit")]])
+
+
+def _rows(heard: Heard) -> Iterator[tuple[str, str]]:
+    yield "Frame", heard.summary
+    for item in heard.items:
+        yield "Says", item.text
+    if heard.checks:
+        yield "Header" if heard.framing == "tcp" else "Checksum", heard.checks
+    for fault in (*heard.faults, *heard.findings):
+        yield "Wrong", fault
+    for note in heard.notes:
+        yield "Note", note
+
+
+class _JsonLines:
+    def __init__(self, device: Device) -> None:
+        self._device = device.id
+
+    def frame(self, heard: Heard) -> None:
+        sys.stdout.write(f"{json.dumps({'device': self._device, **heard.as_data()})}\n")
+
+    def end(self) -> None:
+        """A line is whole by itself."""
+
+
+class _Json:
+    """One object with all frames, written as they come: it is whole when the last frame has come."""
+
+    def __init__(self, device: Device) -> None:
+        self._device = device.id
+        self._before = ""
+
+    def frame(self, heard: Heard) -> None:
+        begin = self._before or f'{{\n  "device": {json.dumps(self._device)},\n  "frames": ['
+        sys.stdout.write(f"{begin}\n    {_indented({**heard.as_data(), 'items': heard.items}, 2 * _STEP)}")
+        self._before = ","
+
+    def end(self) -> None:
+        if self._before:
+            sys.stdout.write("\n  ]\n}\n")
+        else:
+            sys.stdout.write(json.dumps({"device": self._device, "frames": []}, indent=2) + "\n")
+
+
+def _indented(value: object, depth: int) -> str:
+    """JSON as `json.dumps` indents it, whose code for that is slow; what items say is remembered."""
+    if isinstance(value, str):
+        return encode_basestring_ascii(value)
+    if isinstance(value, Item):
+        return _item_text(value, depth)
+    if not value or not isinstance(value, Mapping | list | tuple):
+        return json.dumps(value)
+    margin = "\n" + " " * (depth + _STEP)
+    if isinstance(value, Mapping):
+        parts = [f"{encode_basestring_ascii(key)}: {_indented(part, depth + _STEP)}" for key, part in value.items()]
+        return f"{{{margin}{f',{margin}'.join(parts)}{margin[:-_STEP]}}}"
+    parts = [_indented(part, depth + _STEP) for part in value]
+    return f"[{margin}{f',{margin}'.join(parts)}{margin[:-_STEP]}]"
+
+
+@lru_cache(maxsize=4096)
+def _item_text(item: Item, depth: int) -> str:
+    return _indented(item.as_data(), depth)

@@ -1,0 +1,126 @@
+"""Completion as the shells do it: their own completion code runs the scripts that we print."""
+
+from __future__ import annotations
+
+import os
+import pty
+import select
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from fieldscribe.cli.completing import candidates
+from support.places import ROOT
+from support.toolchains import tool
+
+ENVIRONMENT = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "TERM": "dumb"}
+LINES = [
+    ("fieldscribe dec", ["decode"]),
+    ("fieldscribe explain hit", ["hitachi_l200"]),
+    ("fieldscribe explain hitachi_l200 base_f", ["base_frequency", "base_frequency_set_2"]),
+    ("fieldscribe decode woodward_mpu2s --for", ["--format"]),
+    ("fieldscribe decode woodward_mpu2s --format jsonl --can", ["--can-id"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("typed", "known"),
+    [
+        (["l"], ["list"]),
+        (["--v"], ["--version"]),
+        (["nothing", ""], []),
+        (["explain", "woodward"], ["woodward_mpu2s"]),
+        (["explain", "hitachi_l200", "a002"], ["A002"]),
+        (["explain", "--descriptions", "descriptions", "hitachi_l200", "A002"], ["A002"]),
+        (["explain", "--descriptions", "tests", "hitachi_l200", "A002"], []),
+        (["explain", "no_device", ""], []),
+        (["encode", "hitachi_l200", "A002", ""], []),
+        (["encode", "hitachi_l200", "A020", "--with", "A00"], ["A001=", "A002=", "A003=", "A004=", "A005="]),
+        (["decode", "siemens_mm4", "--framing", "pk"], ["pkw"]),
+        (["decode", "siemens_mm4", "--framing", "=", "pk"], ["pkw"]),
+        (["decode", "siemens_mm4", "--framing", "="], ["rtu", "tcp", "uss", "pkw", "pzd", "broadcast"]),
+        (["decode", "siemens_mm4", "--framing=pk"], ["--framing=pkw"]),
+        (["completion", "z"], ["zsh"]),
+        (["export", ""], ["json", "dbc"]),
+    ],
+)
+def test_candidates(typed: list[str], known: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    assert candidates(typed) == known
+
+
+def told(*command: str) -> list[str]:
+    done = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True, check=True, timeout=120)
+    assert done.stderr == ""
+    return done.stdout.splitlines()
+
+
+@pytest.mark.full(seconds=2)
+def test_bash() -> None:
+    ask = "".join(
+        f"COMP_WORDS=({line}); COMP_CWORD={line.count(' ')}; _fieldscribe fieldscribe; echo ${{COMPREPLY[*]}}\n"
+        for line, _ in LINES
+    )
+    script = f"source <(fieldscribe completion bash)\ncomplete -p fieldscribe\n{ask}"
+    first, *said = told(tool("bash"), "--norc", "-c", script)
+    assert first == "complete -o default -F _fieldscribe fieldscribe"
+    assert said == [" ".join(known) for _, known in LINES]
+
+
+@pytest.mark.full(seconds=3)
+def test_fish() -> None:
+    ask = "".join(f"; string join -- ' ' (complete -C '{line}')" for line, _ in LINES)
+    said = told(tool("fish"), "--no-config", "-c", f"fieldscribe completion fish | source{ask}; true")
+    assert said == [" ".join(known) for _, known in LINES]
+    files = told(
+        "fish", "--no-config", "-c", "fieldscribe completion fish | source; complete -C 'fieldscribe check gen'"
+    )
+    assert "generator/" in files
+
+
+@pytest.mark.full(seconds=3)
+def test_zsh(tmp_path: Path) -> None:
+    """Zsh completes at its prompt only: it gets a terminal, and each line with a tab behind it."""
+    shell = tool("zsh")
+    child, terminal = pty.fork()
+    if child == 0:
+        os.chdir(ROOT)
+        os.execve(shell, [shell, "-f", "-i"], {**ENVIRONMENT, "HOME": str(tmp_path), "ZDOTDIR": str(tmp_path)})
+    try:
+        _type(terminal, "PS1=; unsetopt zle_bracketed_paste; autoload -Uz compinit; compinit -u -D\n")
+        _type(terminal, "source <(fieldscribe completion zsh); echo rea''dy\n")
+        _await(terminal, "ready")
+        for line, known in LINES:
+            _type(terminal, f"{line}\t")
+            _await(terminal, f"{known[0]} " if len(known) == 1 else min(known, key=len))
+            _type(terminal, "\x15")
+    finally:
+        os.close(terminal)
+        os.waitpid(child, 0)
+
+
+def _type(terminal: int, text: str) -> None:
+    os.write(terminal, text.encode())
+
+
+def _await(terminal: int, expected: str) -> None:
+    shown, until = "", time.monotonic() + 60
+    while expected not in shown:
+        left = until - time.monotonic()
+        assert left > 0, shown
+        assert select.select([terminal], [], [], left)[0], shown
+        shown += os.read(terminal, 4096).decode("utf-8", "replace")
+
+
+@pytest.mark.full(seconds=2)
+def test_completion_is_quick() -> None:
+    """It answers a key that was pressed: 0.15 s of a processor, the start of Python with it."""
+    used = []
+    for _ in range(3):
+        before = os.times()
+        told("fieldscribe", "completion", "words", "--", "explain", "hitachi_l200", "A0")
+        after = os.times()
+        used.append(after.children_user + after.children_system - before.children_user - before.children_system)
+    assert min(used) < 0.15

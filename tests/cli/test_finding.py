@@ -1,0 +1,139 @@
+"""`list` and `search`: what there is, and where a word stands. The right answers are those of the descriptions."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.finding.search import near_words, search
+from fieldscribe.finding.things import things_of
+from fieldscribe.pipeline import load_subject
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from fieldscribe.finding.things import Thing
+
+DEVICES = ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
+
+
+class Told(NamedTuple):
+    """How a command ended, and what it printed."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Told]:
+    monkeypatch.chdir(ROOT)
+    return lambda *words: Told(main(list(words)), *capsys.readouterr())
+
+
+@pytest.fixture(scope="module")
+def things() -> list[Thing]:
+    subjects = [load_subject(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
+    return [thing for subject in subjects if subject is not None for thing in things_of(subject)]
+
+
+@pytest.mark.parametrize(
+    ("words", "first", "told"),
+    [
+        ("E07", "hitachi_l200 d081 trip_1_error", "enum Overvoltage (E07) enums.yaml:25"),
+        ("error:21h", "hitachi_l200 exception 21h value_out_of_range", "number 33 bus.yaml:21"),
+        ("exception:33", "hitachi_l200 exception 21h value_out_of_range", "number 33 bus.yaml:21"),
+        ("fault:7", "hitachi_l200 d081 trip_1_error", "enum overvoltage enums.yaml:25"),
+        ("error:17", "siemens_mm4 error 17 not_in_this_operating_state", "number 17"),
+        ("Hochlaufzeit", "hitachi_l200 F002 acceleration_time", "title 1. Hochlaufzeit basic_f.yaml:23"),
+        ("HOCHLAUFZEIT jog", "siemens_mm4 P1060 jog_acceleration_time", "title Tippen Hochlaufzeit"),
+        ("4.2.40", "woodward_mpu2s part_load_lead_setpoint", "section 4.2.40 parameters_controllers.yaml"),
+        ("A020", "hitachi_l200 A020 base_frequency", "code A020 standard_a.yaml"),
+        ("acceleration_time", "hitachi_l200 F002 acceleration_time", "name acceleration_time"),
+        ("überspannung E07", "hitachi_l200 d081 trip_1_error", "enum Überspannung (E07)"),
+        ("ueberspannung e07", "hitachi_l200 d081 trip_1_error", "enum Überspannung (E07)"),
+        ("uberspannung e07", "hitachi_l200 d081 trip_1_error", "enum Überspannung (E07)"),
+        ("off2", "siemens_mm4 STW control_word", "flag off2"),
+        ("visualisation Sendetelegramm", "woodward_mpu2s telegram visualisation", "name visualisation bus.yaml:12"),
+        ("ENTER-Befehl", "hitachi_l200 command enter", "title ENTER-Befehl bus.yaml"),
+    ],
+)
+def test_the_first_hit(words: str, first: str, told: str, things: list[Thing]) -> None:
+    hit = search(things, words.split())[0]
+    assert f"{hit.thing.device} {hit.thing.heading}".startswith(f"{first}:")
+    spans = [(fact, fact.place()) for fact in hit.facts]
+    said = [f"{fact.kind} {fact.text} {span.file.rpartition('/')[2]}:{span.line}" for fact, span in spans]
+    assert any(text.startswith(told) for text in said), said
+    for fact, span in spans:
+        text = (
+            (ROOT / span.file).read_text("utf-8").splitlines()[span.line - 1] if fact.kind in ("title", "code") else ""
+        )
+        assert fact.text in text or not text
+
+
+def test_a_section_is_no_beginning_of_another(things: list[Thing]) -> None:
+    sections = {fact.text for hit in search(things, ["4.2.4"]) for fact in hit.facts}
+    assert sections <= {"4.2.4", *(f"4.2.4.{number}" for number in range(100))}
+    assert {hit.thing.device for hit in search(things, ["4.2"])} >= {"woodward_mpu2s"}
+
+
+def test_near_words(things: list[Thing]) -> None:
+    assert search(things, ["Hochlaufzeitt"]) == []
+    assert near_words(things, ["Hochlaufzeitt"])[0] == "Hochlaufzeit"
+
+
+def test_search(run: Callable[..., Told]) -> None:
+    told = run("search", "base_frequency", "--device", "hitachi_l200")
+    assert told.out.startswith("hitachi_l200 A020 base_frequency: Base frequency / ")
+    assert "descriptions/hitachi_l200/standard_a.yaml:" in told.out
+    hits = json.loads(run("search", "Drehrichtung", "--device", "hitachi_l200", "--format", "json").out)["hits"]
+    [direction] = [hit for hit in hits if hit["code"] == "F004"]
+    assert direction["matched"][0]["file"].endswith("basic_f.yaml")
+    nothing = run("search", "bse_frequency", "--device", "hitachi_l200")
+    assert (nothing.code, nothing.out) == (1, "")
+    assert "did you mean `base_frequency`" in nothing.err
+    few = run("search", "frequency", "--device", "hitachi_l200", "--most", "3")
+    assert few.out.count("\nhitachi_l200 ") == 2
+    assert few.out.splitlines()[-1].startswith("and ")
+
+
+def test_the_list_of_devices(run: Callable[..., Told]) -> None:
+    told = run("list")
+    assert [line.split()[0] for line in told.out.splitlines()] == ["device", *DEVICES]
+    data = json.loads(run("list", "--family", "modbus", "--matching", "*l2*", "--format", "json").out)["devices"]
+    assert [(device["device"], device["points"], device["title"]["de"]) for device in data] == [
+        ("hitachi_l200", 256, "Frequenzumrichter")
+    ]
+    assert run("list", "--family", "nothing").code == 1
+    assert "--unit chooses points" in run("list", "--unit", "Hz").err
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (("--matching", "f00*"), ["frequency_setpoint", "acceleration_time", "deceleration_time", "motor_direction"]),
+        (("--matching", "F00?", "--unit", "s"), ["acceleration_time", "deceleration_time"]),
+        (("--matching", "*trip_1*", "--type", "u16", "--access", "w"), []),
+        (("--space", "coil", "--access", "w", "--matching", "*command*"), ["run_command", "direction_command"]),
+        (("--group", "basic_f", "--type", "u16"), ["frequency_setpoint", "motor_direction"]),
+    ],
+)
+def test_the_points_of_a_device(words: tuple[str, ...], names: list[str], run: Callable[..., Told]) -> None:
+    told = run("list", "hitachi_l200", *words, "--format", "json")
+    assert [point["name"] for point in json.loads(told.out)["points"]] == names
+    assert told.code == (0 if names else 1)
+
+
+def test_points_for_people_and_spreadsheets(run: Callable[..., Told]) -> None:
+    first, row = run("list", "hitachi_l200", "--matching", "A020").out.splitlines()
+    assert first.split() == ["code", "name", "space", "address", "access", "type", "unit", "range", "group", "title"]
+    assert row.split()[:8] == ["A020", "base_frequency", "holding", "1028h", "rw", "u16", "Hz", "0..400"]
+    rows = list(csv.reader(io.StringIO(run("list", "hitachi_l200", "--format", "csv").out)))
+    assert len(rows) == 257
+    assert {len(row) for row in rows} == {10}

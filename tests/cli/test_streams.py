@@ -1,0 +1,152 @@
+"""`decode` follows streams: each answer is out before more is waited for, and what is kept does not grow."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from io import StringIO
+from random import Random
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from fieldscribe import pipeline
+from fieldscribe.cli import main
+from support.described import shipped
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+COMMAND = [sys.executable, "-m", "fieldscribe", "decode", "woodward_mpu2s"]
+FIRST, SECOND = "321#DD010302000007D0", "321#DD00051E13880064"
+EXPONENTS = {1: "0100", 10: "0000", 14: "0000"}
+
+
+class Told(NamedTuple):
+    """How a command ended, and what it printed."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def decode(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Told]:
+    """Runs the command in this process, with a text as standard input."""
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(pipeline, "load_device", lambda *_: shipped("woodward_mpu2s"))
+
+    def run(*words: str, given: str = "") -> Told:
+        monkeypatch.setattr(sys, "stdin", StringIO(given))
+        return Told(main(["decode", "woodward_mpu2s", *words]), *capsys.readouterr())
+
+    return run
+
+
+def log(count: int, *, dumped: bool = False) -> str:
+    """So many lines of candump, as it logs or prints them, with numbers that never come again."""
+    random, lines = Random(1), []
+    for number in range(count):
+        slot = number % 23
+        data = f"DD{slot:02X}{EXPONENTS.get(slot, f'{random.getrandbits(16):04X}')}{random.getrandbits(32):08X}"
+        stamp, spaced = f"({1700000000 + number / 500:.6f})", bytes.fromhex(data).hex(" ").upper()
+        lines.append(f" {stamp}  can0  321   [8]  {spaced}\n" if dumped else f"{stamp} can0 321#{data}\n")
+    return "".join(lines)
+
+
+@pytest.mark.parametrize(
+    "form", ["text", *(pytest.param(form, marks=pytest.mark.full(seconds=1)) for form in ("json", "jsonl"))]
+)
+def test_the_first_answer_is_out_while_the_input_is_open(form: str) -> None:
+    command = [*COMMAND, "-", "--format", form]
+    with subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as running:
+        assert running.stdin is not None
+        assert running.stdout is not None
+        told = b""
+        for line, expected in ((FIRST, b"generator_power_exponent"), (SECOND, b"generator_active_power")):
+            running.stdin.write(f"{line}\n".encode())
+            running.stdin.flush()
+            while expected not in told:
+                told += os.read(running.stdout.fileno(), 1 << 16)
+        running.stdin.close()
+        told += running.stdout.read()
+    assert running.returncode == 0
+    if form == "json":
+        assert [frame["multiplexer"] for frame in json.loads(told)["frames"]] == [1, 0]
+    if form == "jsonl":
+        assert [json.loads(line)["device"] for line in told.splitlines()] == ["woodward_mpu2s"] * 2
+
+
+def test_both_notations_of_candump_say_the_same(tmp_path: Path, decode: Callable[..., Told]) -> None:
+    logged, dumped = tmp_path / "logged.log", tmp_path / "dumped.log"
+    logged.write_text(log(46))
+    dumped.write_text(log(46, dumped=True))
+    told = decode("--log", str(logged)).out
+    assert told.count("  Frame ") == 46
+    assert decode("-", given=dumped.read_text()).out == told
+    both = decode("--log", str(logged), "--log", str(dumped), "--format", "json")
+    assert len(json.loads(both.out)["frames"]) == 92
+
+
+def test_a_line_that_is_no_frame_hides_no_other(decode: Callable[..., Told]) -> None:
+    done = decode("-", given=f"# taken on Monday\n{FIRST}\n\n{'ab' * 100_000}\n{SECOND}")
+    assert done.code == 2
+    assert done.out.count("  Frame ") == 2
+    assert "standard input:1: not a frame: `# taken on Monday` has no identifier" in done.err
+    assert "standard input:4: not a frame: " in done.err
+    assert done.err.count("hint: ") == 1
+    many = decode("-", given="x\n" * 30 + FIRST)
+    assert many.err.count("not a frame") == 10
+    assert many.err.endswith("fieldscribe: 20 more lines are no frames\n")
+
+
+def test_nothing_to_decode(decode: Callable[..., Told]) -> None:
+    assert decode().code == 2
+    assert json.loads(decode("-", "--format", "json").out) == {"device": "woodward_mpu2s", "frames": []}
+    assert decode("-", "--format", "jsonl").out == ""
+
+
+@pytest.mark.full(seconds=1)
+def test_a_closed_pipe_ends_quietly() -> None:
+    command = [*COMMAND, "-"]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, cwd=ROOT, text=True, **pipes) as running:  # type: ignore[call-overload]  # all three
+        running.stdin.write(f"{FIRST}\n")
+        running.stdin.flush()
+        assert running.stdout.readline() == f"{FIRST}\n"
+        running.stdout.close()
+        try:
+            running.stdin.write(log(2000))
+            running.stdin.close()
+        except BrokenPipeError:
+            running.stdin = None
+        assert running.stderr.read() == ""
+    assert running.returncode == 141
+
+
+MEASURED = """
+import re, sys, time
+from fieldscribe.cli import main
+main(["decode", "woodward_mpu2s", "--log", sys.argv[1]])
+peak = re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())
+print(peak[1], time.process_time(), file=sys.stderr)
+"""
+
+
+@pytest.mark.full(seconds=8)
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the peak of the memory there")
+def test_a_stream_takes_no_more_memory_the_longer_it_lasts(tmp_path: Path) -> None:
+    told = []
+    for count in (10_000, 50_000):
+        file = tmp_path / "long.log"
+        file.write_text(log(count))
+        command = [sys.executable, "-c", MEASURED, str(file)]
+        with open(os.devnull, "w") as nowhere:
+            done = subprocess.run(command, cwd=ROOT, stdout=nowhere, stderr=subprocess.PIPE, text=True, check=True)
+        told.append([float(number) for number in done.stderr.split()])
+    (peak, seconds), (later_peak, later_seconds) = told
+    assert later_peak < 1.04 * peak
+    assert (later_seconds - seconds) / 40_000 < 0.0002  # it was more than 0.0005
